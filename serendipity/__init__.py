@@ -1,0 +1,1 @@
+"""Serendipity: plan help for a person who did not ask, and prove that none is better."""

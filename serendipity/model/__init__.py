@@ -1,0 +1,33 @@
+"""The model: facts, ground actions, agents, task, plans, options and results.
+
+Everything else in the project imports this package; it imports nothing of
+``search``, ``verify`` or the facade.  Definitions follow "Planning for
+Serendipity" (Chakraborti et al., IROS 2015), as made precise in
+``docs/semantics.md``.
+"""
+
+from serendipity.model.actions import Condition, GroundAction
+from serendipity.model.errors import InputError, PlanError, SerendipityError, UsageError
+from serendipity.model.numbers import exact
+from serendipity.model.options import INFINITE, Options
+from serendipity.model.plans import Step, Window
+from serendipity.model.result import PlanStep, Result
+from serendipity.model.task import HumanPlan, Task
+
+__all__ = [
+    "INFINITE",
+    "Condition",
+    "GroundAction",
+    "HumanPlan",
+    "InputError",
+    "Options",
+    "PlanError",
+    "PlanStep",
+    "Result",
+    "SerendipityError",
+    "Step",
+    "Task",
+    "UsageError",
+    "Window",
+    "exact",
+]

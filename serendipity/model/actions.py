@@ -1,0 +1,89 @@
+"""Conditions and ground actions over integer fact ids."""
+
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from serendipity.model.errors import InputError
+
+State = AbstractSet[int]
+"""A state is the set of the fact ids that are true in it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A conjunction of literals: ids of facts that must be true, and false."""
+
+    positive: tuple[int, ...] = ()
+    negative: tuple[int, ...] = ()
+
+    def holds(self, state: State) -> bool:
+        """Whether every literal is true in ``state``."""
+        return all(f in state for f in self.positive) and not any(f in state for f in self.negative)
+
+    def __bool__(self) -> bool:
+        return bool(self.positive or self.negative)
+
+
+@dataclass(frozen=True, slots=True)
+class GroundAction:
+    """One ground action (paper, section II-A: name, cost, preconditions, effects).
+
+    Attributes:
+        name: PDDL text without brackets, lower case: ``move commx room13 hall8``.
+        participants: ids of the agents that take part, ascending, at least one;
+            two or more make it a joint action.
+        pre: ids of the facts that must be true, ascending.
+        neg: ids of the facts that must be false, ascending.
+        add: ids of the facts that it makes true, ascending.
+        delete: ids of the facts that it makes false, ascending; never in ``add``.
+        cost: undiscounted cost, at least 0.
+    """
+
+    name: str
+    participants: tuple[int, ...]
+    pre: tuple[int, ...]
+    neg: tuple[int, ...]
+    add: tuple[int, ...]
+    delete: tuple[int, ...]
+    cost: Fraction = field(default=Fraction(1))
+
+    def __post_init__(self) -> None:
+        if not self.participants:
+            raise InputError(f"action '{self.name}': expected at least one participating agent")
+        if self.cost < 0:
+            raise InputError(f"action '{self.name}': expected a cost of at least 0, got {self.cost}")
+        if any(f in self.add for f in self.delete):
+            raise InputError(f"action '{self.name}': a fact is both added and deleted")
+
+    @property
+    def key(self) -> tuple[str, ...]:
+        """``(name, arguments...)``: the string order of canonical choices (SPEC 1)."""
+        return tuple(self.name.split())
+
+    @property
+    def joint(self) -> bool:
+        """Whether two or more agents take part."""
+        return len(self.participants) > 1
+
+    def applicable(self, state: State) -> bool:
+        """Whether every precondition holds in ``state`` (eq. 4)."""
+        return all(f in state for f in self.pre) and not any(f in state for f in self.neg)
+
+
+def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
+    """Whether two different actions can't share an epoch (SPEC 2, eq. 5, 6, 10).
+
+    They can't if an agent takes part in both, if both delete a fact, or if one
+    deletes what the other adds; with ``strict`` also if one deletes or negates a
+    precondition of the other.
+    """
+    if any(agent in b.participants for agent in a.participants):
+        return True
+    if any(f in b.delete or f in b.add for f in a.delete) or any(f in b.delete for f in a.add):
+        return True
+    return strict and (_disables(a, b) or _disables(b, a))
+
+
+def _disables(a: GroundAction, b: GroundAction) -> bool:
+    return any(f in b.pre for f in a.delete) or any(f in b.neg for f in a.add)

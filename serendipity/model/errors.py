@@ -1,0 +1,40 @@
+"""The errors a caller can meet.  Each message is one line that says what to do."""
+
+
+class SerendipityError(Exception):
+    """Base of every error of the project; its text is one actionable line."""
+
+
+class UsageError(SerendipityError):
+    """An option or argument is wrong, or two of them contradict each other.
+
+    Remedy: correct the option that the message names.
+    """
+
+
+class InputError(SerendipityError):
+    """A file can't be read or does not mean what it should.
+
+    Remedy: mend the named file at the named line.
+
+    Args:
+        message: what was found and what was expected.
+        file: the file, or None where the input has none.
+        line: line number from 1, or None where no single line is at fault.
+    """
+
+    def __init__(self, message: str, file: object = None, line: int | None = None) -> None:
+        self.message = message
+        self.file = None if file is None else str(file)
+        self.line = line
+        place = "" if self.file is None else self.file
+        if line is not None:
+            place = f"{place}:{line}" if place else f"line {line}"
+        super().__init__(f"{place}: {message}" if place else message)
+
+
+class PlanError(InputError):
+    """A given human plan is not applicable, misses the goal or is not his alone.
+
+    Remedy: correct the action that the message names (SPEC section 1).
+    """

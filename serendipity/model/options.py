@@ -1,0 +1,162 @@
+"""Every option that changes what an answer means (SPEC 3), validated in one place."""
+
+import math
+from dataclasses import dataclass, field, fields, replace
+from fractions import Fraction
+from typing import Any, Final
+
+from serendipity.model.errors import UsageError
+from serendipity.model.numbers import exact
+
+INFINITE: Final = "inf"
+"""Horizon without an end (composite mode only)."""
+
+CHOICES: Final[dict[str, tuple[str, ...]]] = {
+    "mode": ("serendipity", "individual", "communication", "composite", "assistance"),
+    "suffix": ("replan", "subplan"),
+    "preservation": ("kernel", "state"),
+    "interference": ("paper", "strict"),
+    "human_model": ("omniscient", "observant", "local"),
+    "ties": ("fixed", "robust", "expected", "optimistic"),
+}
+"""The legal values of the options that are names; the first is the default."""
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Options in force for one answer; see ``docs/semantics.md`` for each.
+
+    Numbers may be given as int, float, text or Fraction; they are kept exact.
+
+    Attributes:
+        mode: one of ``CHOICES["mode"]``.
+        discount: in [0, 1]; what is taken off the cost of actions without the human.
+        horizon: number of epochs ``T``, ``"inf"``, or None for the length of ``pi_H``.
+        window_weight: ``K`` of the objective, cost units per epoch of the window.
+        max_window: longest window in epochs, or None.
+        suffix: what the human does after the window.
+        preservation: Def. 3.1 as its kernel or literally.
+        interference: which actions may share an epoch.
+        max_cost: reject dearer plans: a number, ``"human"`` for cost(pi_H), or None.
+        communication_weight: cost per unit of the human's actions that are not in pi_H.
+        keep_prefix: the paper's second (7b), in communication mode.
+        human_model: what the human does (SPEC 6).
+        ties: over the human's optimal plans (SPEC 1), or over his choices (SPEC 7).
+        max_ties: the most optimal human plans that are enumerated.
+        no_block: whether robots may leave the human without a plan; None for the default
+            of the mode (forbidden under a human model, allowed in assistance).
+        time_limit: seconds, or None.
+
+    Raises:
+        UsageError: naming the option, what was expected and what was given.
+    """
+
+    mode: str = "serendipity"
+    discount: Fraction = field(default=Fraction(0))
+    horizon: int | str | None = None
+    window_weight: Fraction = field(default=Fraction(1000))
+    max_window: int | None = None
+    suffix: str = "replan"
+    preservation: str = "kernel"
+    interference: str = "paper"
+    max_cost: Fraction | str | None = None
+    communication_weight: Fraction = field(default=Fraction(0))
+    keep_prefix: bool = False
+    human_model: str = "omniscient"
+    ties: str = "fixed"
+    max_ties: int = 1000
+    no_block: bool | None = None
+    time_limit: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, legal in CHOICES.items():
+            if getattr(self, name) not in legal:
+                raise UsageError(f"{name}: expected one of {', '.join(legal)}, got {getattr(self, name)!r}")
+        for name in ("discount", "window_weight", "communication_weight"):
+            self._set(name, _not_negative(exact(getattr(self, name), name), name))
+        if self.discount > 1:
+            raise UsageError(f"discount: expected a number in [0, 1], got {float(self.discount):g}")
+        if self.max_cost is not None and self.max_cost != "human":
+            self._set("max_cost", _not_negative(exact(self.max_cost, "max_cost"), "max_cost"))
+        self._set("horizon", _horizon(self.horizon))
+        if self.horizon == INFINITE and self.mode != "composite":
+            raise UsageError(f"horizon: 'inf' is for composite mode only, not for {self.mode}")
+        if self.max_window is not None:
+            self._set("max_window", _whole(self.max_window, "max_window", least=1))
+        self._set("max_ties", _whole(self.max_ties, "max_ties", least=1))
+        if self.time_limit is not None:
+            self._set("time_limit", _seconds(self.time_limit))
+        if self.keep_prefix and self.mode != "communication":
+            raise UsageError("keep_prefix: is for communication mode only")
+
+    def _set(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)
+
+    @property
+    def strict(self) -> bool:
+        """Whether interference is strict (SPEC 2)."""
+        return self.interference == "strict"
+
+    @property
+    def windowed(self) -> bool:
+        """Whether answers have windows (serendipity, or communication that keeps the prefix)."""
+        return self.mode == "serendipity" or self.keep_prefix
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON form: every option in force, numbers as floats."""
+        return {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> "Options":
+        """The options that :meth:`to_dict` wrote; keys it does not know are an error.
+
+        Raises:
+            UsageError: an unknown key, or a value that is not legal.
+        """
+        known = {f.name for f in fields(cls)}
+        for key in data:
+            if key not in known:
+                raise UsageError(f"options: unknown option {key!r}")
+        return cls(**data)
+
+    def but(self, **changes: Any) -> "Options":
+        """These options with some changed."""
+        return replace(self, **changes)
+
+
+def _plain(value: object) -> object:
+    return float(value) if isinstance(value, Fraction) else value
+
+
+def _not_negative(value: Fraction, name: str) -> Fraction:
+    if value < 0:
+        raise UsageError(f"{name}: expected a number of at least 0, got {float(value):g}")
+    return value
+
+
+def _whole(value: object, name: str, *, least: int) -> int:
+    try:
+        number = int(str(value))
+    except ValueError:
+        raise UsageError(f"{name}: expected a whole number, got {value!r}") from None
+    if number < least:
+        raise UsageError(f"{name}: expected at least {least}, got {number}")
+    return number
+
+
+def _horizon(value: object) -> int | str | None:
+    if value is None or value == INFINITE:
+        return value  # type: ignore[return-value]
+    if isinstance(value, float) and math.isinf(value) and value > 0:
+        return INFINITE
+    return _whole(value, "horizon", least=0)
+
+
+def _seconds(value: object) -> float:
+    try:
+        seconds = float(str(value))
+    except ValueError:
+        raise UsageError(f"time_limit: expected seconds, got {value!r}") from None
+    if not (seconds >= 0):
+        raise UsageError(f"time_limit: expected at least 0 seconds, got {seconds:g}")
+    return seconds

@@ -1,0 +1,144 @@
+"""The task: agents, facts, ground actions, initial state, goals."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+
+from serendipity.model.actions import Condition, GroundAction
+from serendipity.model.errors import PlanError, UsageError
+from serendipity.model.variables import Variable, find_variables
+
+HumanPlan = tuple[int, ...]
+"""``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t."""
+
+
+def canonical_name(text: str) -> str:
+    """An agent's or action's name as results write it: lower case, single blanks."""
+    return " ".join(text.lower().split())
+
+
+@dataclass(frozen=True)
+class Task:
+    """A multi-agent planning task with one human (Def. 1.0, 1.1; SPEC 1).
+
+    Attributes:
+        name: for people.
+        agents: names, lower case; an agent's id is its index.
+        human: id of the human; every other agent is a robot.
+        facts: names, lower case; a fact's id is its index.
+        init: ids of the facts true initially (the union over the agents).
+        goal: the human's goal ``G_H``.
+        robot_goal: the robots' own goal ``G_R`` (empty: they have none).
+        actions: ascending in ``GroundAction.key``; an action's id is its index.
+            No ``noop`` among them.  Several may share one name (disjunctive
+            preconditions, conditional effects).
+        warnings: lines for the user about the input.
+    """
+
+    name: str
+    agents: tuple[str, ...]
+    human: int
+    facts: tuple[str, ...]
+    init: frozenset[int]
+    goal: Condition
+    actions: tuple[GroundAction, ...]
+    robot_goal: Condition = field(default_factory=Condition)
+    warnings: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.human < len(self.agents):
+            raise UsageError("a task needs exactly one human among its agents")
+
+    @property
+    def robots(self) -> tuple[int, ...]:
+        """Ids of all agents but the human."""
+        return tuple(i for i in range(len(self.agents)) if i != self.human)
+
+    @cached_property
+    def human_actions(self) -> tuple[int, ...]:
+        """Ids of the actions that the human does alone."""
+        return tuple(i for i, a in enumerate(self.actions) if a.participants == (self.human,))
+
+    @cached_property
+    def named(self) -> dict[str, tuple[int, ...]]:
+        """Action ids by name (names are not unique, see the class)."""
+        found: dict[str, list[int]] = {}
+        for i, action in enumerate(self.actions):
+            found.setdefault(action.name, []).append(i)
+        return {name: tuple(ids) for name, ids in found.items()}
+
+    @cached_property
+    def variables(self) -> tuple[Variable, ...]:
+        """Finite-domain variables behind the facts; each fact is in exactly one."""
+        return find_variables(len(self.facts), self.init, self.actions)
+
+    def team_cost(self, action: GroundAction, discount: Fraction) -> Fraction:
+        """What an action costs the team: full with the human, else discounted (SPEC 1)."""
+        return action.cost if self.human in action.participants else action.cost * (1 - discount)
+
+    def replay_alone(self, plan: HumanPlan) -> list[frozenset[int]]:
+        """States ``s_0 .. s_n`` while the human executes ``plan`` and robots idle.
+
+        Raises:
+            PlanError: an action is not his alone or not applicable, or ``G_H`` is missed.
+        """
+        states = [self.init]
+        for step, action_id in enumerate(plan, start=1):
+            action = self.actions[action_id]
+            where = f"human plan, step {step}: '{action.name}'"
+            if action.participants != (self.human,):
+                raise PlanError(f"{where} is not an action that {self.agents[self.human]} can do alone")
+            if not action.applicable(states[-1]):
+                raise PlanError(f"{where} is not applicable: {self._first_unmet(action, states[-1])}")
+            states.append(states[-1].difference(action.delete).union(action.add))
+        if not self.goal.holds(states[-1]):
+            last = f"after its last step '{self.actions[plan[-1]].name}'" if plan else "with no step"
+            raise PlanError(f"human plan: the goal does not hold {last}")
+        return states
+
+    def plan_from_names(self, names: Iterable[str]) -> HumanPlan:
+        """The human plan that a list of action names writes down; noops are skipped.
+
+        A name shared by several actions is read as the first that is applicable there.
+
+        Raises:
+            PlanError: naming the first step that is unknown, not his, or not applicable,
+                or saying that the goal is missed.
+        """
+        plan: list[int] = []
+        state = self.init
+        for step, text in enumerate(names, start=1):
+            name = canonical_name(text)
+            if name == "noop":
+                continue
+            ids = self.named.get(name)
+            if ids is None:
+                raise PlanError(f"human plan, step {step}: there is no action '{name}' in the task")
+            chosen = next((i for i in ids if self.actions[i].applicable(state)), ids[0])
+            plan.append(chosen)
+            action = self.actions[chosen]
+            state = state.difference(action.delete).union(action.add)
+        self.replay_alone(tuple(plan))
+        return tuple(plan)
+
+    def cost_of(self, plan: HumanPlan) -> Fraction:
+        """Sum of the undiscounted costs of a human plan."""
+        return sum((self.actions[i].cost for i in plan), Fraction(0))
+
+    def with_human(self, human: str) -> "Task":
+        """The same task with another agent as the human.
+
+        Raises:
+            UsageError: there is no such agent.
+        """
+        name = canonical_name(human)
+        if name not in self.agents:
+            raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human}'")
+        return replace(self, human=self.agents.index(name))
+
+    def _first_unmet(self, action: GroundAction, state: frozenset[int]) -> str:
+        missing = next((f for f in action.pre if f not in state), None)
+        if missing is not None:
+            return f"'{self.facts[missing]}' is false"
+        return f"'{self.facts[next(f for f in action.neg if f in state)]}' is true"
