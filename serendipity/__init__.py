@@ -1,1 +1,84 @@
-"""Serendipity: plan help for a person who did not ask, and prove that none is better."""
+"""Serendipity: plan help for a person who did not ask, and prove that none is better.
+
+Everything public is importable from here and loads when it is first used::
+
+    import serendipity
+
+    task = serendipity.example("room2")
+    result = serendipity.plan(task, discount=0.6)
+    certificate = serendipity.verify(task, result)
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final
+
+from serendipity._siblings import require_siblings
+
+if TYPE_CHECKING:
+    from serendipity.certify import verify
+    from serendipity.model import (
+        InputError,
+        Options,
+        PlanError,
+        PlanStep,
+        Result,
+        SerendipityError,
+        Task,
+        UsageError,
+        Window,
+    )
+    from serendipity.pddl import load, load_agents, load_pddl
+    from serendipity.planning import plan, plan_anytime
+    from serendipity.scenarios import example, generate_usar
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "InputError",
+    "Options",
+    "PlanError",
+    "PlanStep",
+    "Result",
+    "SerendipityError",
+    "Task",
+    "UsageError",
+    "Window",
+    "__version__",
+    "example",
+    "generate_usar",
+    "load",
+    "load_agents",
+    "load_pddl",
+    "plan",
+    "plan_anytime",
+    "verify",
+]
+
+_HOMES: Final = {
+    "load": "serendipity.pddl",
+    "load_agents": "serendipity.pddl",
+    "load_pddl": "serendipity.pddl",
+    "example": "serendipity.scenarios",
+    "generate_usar": "serendipity.scenarios",
+    "plan": "serendipity.planning",
+    "plan_anytime": "serendipity.planning",
+    "verify": "serendipity.certify",
+}
+"""Where the public functions live; the public classes live in ``serendipity.model``."""
+
+_NEED_SIBLINGS: Final = ("serendipity.planning", "serendipity.certify")
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module 'serendipity' has no attribute {name!r}")
+    home = _HOMES.get(name, "serendipity.model")
+    if home in _NEED_SIBLINGS:
+        require_siblings("search", "verify")
+    value = getattr(import_module(home), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
