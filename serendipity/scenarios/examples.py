@@ -1,0 +1,61 @@
+"""The tasks that are shipped with the program."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from serendipity.model import Task, UsageError
+from serendipity.pddl import load_pddl
+
+DATA: Final = Path(__file__).parent / "data"
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A shipped task.
+
+    Attributes:
+        name: what ``--example`` takes.
+        summary: one line for people.
+        domain: the PDDL domain, relative to the data folder.
+        problem: the PDDL problem, relative to the data folder.
+        human: the human's name.
+        robots: the robots' names.
+    """
+
+    name: str
+    summary: str
+    domain: str
+    problem: str
+    human: str
+    robots: tuple[str, ...]
+
+    def load(self) -> Task:
+        """The task."""
+        return load_pddl(DATA / self.domain, DATA / self.problem, human=self.human, robots=self.robots)
+
+
+def _usar(name: str, summary: str) -> Example:
+    return Example(name, summary, "usar/domain.pddl", f"usar/{name}.pddl", "commx", ("robot",))
+
+
+EXAMPLES: Final = {
+    shipped.name: shipped
+    for shipped in (
+        _usar("room2", "the paper's III-C: a medkit handed over in passing pays from a discount above 0.5"),
+        _usar("room5", "the paper's III-B: the human passes the medkit's room before he meets the robot"),
+        _usar("room7", "the paper's III-D: no help without a word, 12.6 for 13 with one at discount 0.6"),
+    )
+}
+"""By name, in the order in which they are listed."""
+
+
+def example(name: str) -> Task:
+    """A task shipped with the program; ``serendipity examples`` lists them.
+
+    Raises:
+        UsageError: there is no example of that name.
+    """
+    if name not in EXAMPLES:
+        raise UsageError(f"example: expected one of {', '.join(EXAMPLES)}, got '{name}'")
+    return EXAMPLES[name].load()

@@ -1,0 +1,140 @@
+"""Seeded search-and-rescue tasks of any size, and the worked examples of the paper."""
+
+from pathlib import Path
+from random import Random
+from typing import Final
+
+from serendipity.model.errors import UsageError
+from serendipity.scenarios.building import Building, figure2, random_building
+from serendipity.scenarios.usar import Usar
+from serendipity.scenarios.usar_pddl import pddl_files
+
+_WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}
+"""Sections III-B to III-D of the paper: where medkit 1 lies; all else is the same (SPEC 5)."""
+
+PRESETS: Final = ("figure2", *_WORKED_EXAMPLES)
+"""``figure2``: the building, positions by the seed; the others: worked examples in it."""
+
+
+def worked_example(name: str) -> Usar:
+    """One of the paper's examples in Figure 2: commx in room13, the robot in room4 (SPEC 5)."""
+    return Usar(
+        name=f"usar-{name}",
+        building=figure2(),
+        robots=("robot",),
+        agents_at=("room13", "room4"),
+        medkits_at=(_WORKED_EXAMPLES[name], "room3"),
+        triage_in="room1",
+    )
+
+
+def random_usar(building: Building, *, name: str, medkits: int = 2, robots: int = 1, seed: int = 0) -> Usar:
+    """Agents, medkits and the triage goal at random in a building, as the paper's 200 problems.
+
+    Raises:
+        UsageError: fewer than one medkit or robot.
+    """
+    if medkits < 1:
+        raise UsageError(f"medkits: expected at least 1, got {medkits}")
+    if robots < 1:
+        raise UsageError(f"robots: expected at least 1, got {robots}")
+    random = Random(f"positions {seed}")
+    places = building.locations
+    draw = [places[random.randrange(len(places))] for _ in range(robots + 1 + medkits + 1)]
+    return Usar(
+        name=name,
+        building=building,
+        robots=("robot",) if robots == 1 else tuple(f"robot{i}" for i in range(1, robots + 1)),
+        agents_at=tuple(draw[: robots + 1]),
+        medkits_at=tuple(draw[robots + 1 : -1]),
+        triage_in=draw[-1],
+    )
+
+
+def make_usar(
+    *,
+    rooms: int = 21,
+    medkits: int = 2,
+    robots: int = 1,
+    seed: int = 0,
+    extra_edges: int = 0,
+    preset: str | None = None,
+) -> Usar:
+    """A seeded search-and-rescue task; equal arguments give equal tasks.
+
+    Args:
+        rooms: how many locations, halls included.
+        medkits: how many medkits.
+        robots: how many robots.
+        seed: of the building and of the positions.
+        extra_edges: connections beyond a tree.
+        preset: ``figure2`` (the paper's building instead of a random one: ``rooms`` and
+            ``extra_edges`` do not count) or a worked example (nothing else counts).
+
+    Raises:
+        UsageError: a number is out of range, or there is no such preset.
+    """
+    if preset in _WORKED_EXAMPLES:
+        return worked_example(preset)
+    if preset == "figure2":
+        name = f"usar-figure2-m{medkits}-k{robots}-s{seed}"
+        return random_usar(figure2(), name=name, medkits=medkits, robots=robots, seed=seed)
+    if preset is not None:
+        raise UsageError(f"preset: expected one of {', '.join(PRESETS)}, got '{preset}'")
+    name = f"usar-r{rooms}-m{medkits}-k{robots}-e{extra_edges}-s{seed}"
+    building = random_building(rooms, seed=seed, extra_edges=extra_edges)
+    return random_usar(building, name=name, medkits=medkits, robots=robots, seed=seed)
+
+
+def _write_files(files: dict[str, str], folder: Path) -> tuple[Path, ...]:
+    """Write text files into a folder, which is made where it is missing.
+
+    Returns:
+        The paths, in the order of ``files``.
+
+    Raises:
+        UsageError: the system refuses, with its reason.
+    """
+    try:
+        for path, text in files.items():
+            target = folder / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise UsageError(f"{error.filename or folder}: {error.strerror}") from None
+    return tuple(folder / path for path in files)
+
+
+def generate_usar(
+    folder: str | Path,
+    *,
+    rooms: int = 21,
+    medkits: int = 2,
+    robots: int = 1,
+    seed: int = 0,
+    extra_edges: int = 0,
+    preset: str | None = None,
+    layout: str = "agents",
+) -> tuple[Path, ...]:
+    """Write a seeded search-and-rescue task as PDDL; see :func:`make_usar` for the numbers.
+
+    Args:
+        folder: made where it is missing; files of the same name are replaced.
+        rooms: how many locations, halls included.
+        medkits: how many medkits.
+        robots: how many robots.
+        seed: of the building and of the positions.
+        extra_edges: connections beyond a tree.
+        preset: ``figure2``, ``room2``, ``room5`` or ``room7``.
+        layout: ``agents`` or ``pair``; see ``usar_pddl.LAYOUTS``.
+
+    Returns:
+        The files written.
+
+    Raises:
+        UsageError: an argument is out of range, or a file can't be written.
+    """
+    task = make_usar(
+        rooms=rooms, medkits=medkits, robots=robots, seed=seed, extra_edges=extra_edges, preset=preset
+    )
+    return _write_files(pddl_files(task, layout), Path(folder))
