@@ -37,4 +37,16 @@ class PlanError(InputError):
     """A given human plan is not applicable, misses the goal or is not his alone.
 
     Remedy: correct the action that the message names (SPEC section 1).
+
+    Args:
+        message: what was found and what was expected.
+        file: the file, or None where the input has none.
+        line: line number from 1, or None where no single line is at fault.
+        step: the step of the plan that is at fault, from 1, or None.
     """
+
+    def __init__(
+        self, message: str, file: object = None, line: int | None = None, *, step: int | None = None
+    ) -> None:
+        super().__init__(message, file, line)
+        self.step = step
