@@ -1,0 +1,178 @@
+"""United files to a task: ground once, prune, number the facts."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import chain
+
+from serendipity.model import Condition, GroundAction, InputError, Task
+from serendipity.pddl.instantiate import FactTable, Instantiator, Participants, Record
+from serendipity.pddl.join import Relations
+from serendipity.pddl.lifted import Key, Literal, Schema, Unit
+from serendipity.pddl.normal import goal_clauses, operators
+from serendipity.pddl.prune import executable
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Files, which of their actions count, and who takes part in those.
+
+    Attributes:
+        unit: the files.
+        schemas: the actions that count.
+        participants: see :data:`Participants`.
+    """
+
+    unit: Unit
+    schemas: tuple[Schema, ...]
+    participants: Participants
+
+
+@dataclass(slots=True)
+class Blueprint:
+    """All that a task is made of, before grounding.
+
+    Attributes:
+        name: for people.
+        agents: names.
+        human: id of the human.
+        sources: the files.
+        goals: the unit that states the human's goal.
+        robot_goals: units that state goals beyond his.
+        warnings: about the input.
+    """
+
+    name: str
+    agents: tuple[str, ...]
+    human: int
+    sources: list[Source]
+    goals: Unit
+    robot_goals: list[Unit] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+
+def assemble(blueprint: Blueprint) -> Task:
+    """Ground a blueprint.
+
+    Raises:
+        InputError: costs, goals or conditions that are not supported.
+    """
+    units = [source.unit for source in blueprint.sources]
+    relations = _relations(blueprint.sources, units)
+    instantiator = Instantiator(relations, _values(units))
+    records: list[Record] = []
+    for source in blueprint.sources:
+        for schema in source.schemas:
+            for operator in operators(schema, source.unit):
+                records += instantiator.records(operator, source.unit, source.participants)
+    records = _owned(records, blueprint.warnings)
+    facts = instantiator.facts
+    goal = _goal(blueprint.goals, relations)
+    robot_goal = [g for unit in blueprint.robot_goals for g in _goal(unit, relations) if g not in goal]
+    ids = [facts[literal.key] for literal in chain(goal, robot_goal)]
+    init = {facts[key] for key in relations.init if key in facts}
+    kept = executable(records, init, len(facts))
+    return _Numbering(facts, init, kept, ids).task(blueprint, goal, list(dict.fromkeys(robot_goal)))
+
+
+def _owned(records: list[Record], warnings: list[str]) -> list[Record]:
+    """The records in which somebody takes part; a warning for the others, noops aside."""
+    nobody = {record.key[0] for record in records if not record.participants and any(record[2:6])}
+    for name in sorted(nobody):
+        warnings.append(f"action '{name}': left out where no agent is among its arguments")
+    return [record for record in records if record.participants]
+
+
+def _relations(sources: Iterable[Source], units: Iterable[Unit]) -> Relations:
+    effects = [
+        effect.literal
+        for source in sources
+        for schema in source.schemas
+        for effect in schema.effects
+    ]
+    fluent = frozenset([literal.key[0] for literal in effects])
+    added = frozenset([literal.key[0] for literal in effects if literal.positive])
+    return Relations(chain.from_iterable(unit.problem.init for unit in units), fluent, added)
+
+
+def _values(units: Iterable[Unit]) -> dict[Key, Fraction]:
+    values: dict[Key, Fraction] = {}
+    for unit in units:
+        for key, value in unit.problem.values.items():
+            if values.setdefault(key, value) != value:
+                message = f"'{' '.join(key)}' is {float(value):g} here, {float(values[key]):g} in another agent's file"
+                raise InputError(message, unit.problem_file)
+    return values
+
+
+def _goal(unit: Unit, relations: Relations) -> list[Literal]:
+    """The goal as literals, without equalities."""
+    possible = []
+    for clause in goal_clauses(unit.problem.goal, unit):
+        decided = [lit for lit in clause.literals if relations.filtered(lit)]
+        if all(relations.holds(lit, lit.key) for lit in decided):
+            possible.append([lit for lit in dict.fromkeys(clause.literals) if not relations.filtered(lit)])
+    if len(possible) != 1:
+        what = "disjunctive goals are not supported" if possible else "the goal is false by its equalities"
+        raise unit.problem_error(what, unit.problem.goal_line)
+    return possible[0]
+
+
+class _Numbering:
+    """Final ids: facts that matter in the order of their names, actions in that of theirs."""
+
+    def __init__(self, facts: FactTable, init: set[int], kept: list[Record], goal_ids: Iterable[int]) -> None:
+        deleted = set(chain.from_iterable([r.delete for r in kept]))
+        added = set(chain.from_iterable([r.add for r in kept]))
+        self.always = init - deleted
+        self.never = set(range(len(facts))) - init - added
+        relevant = added | deleted | set(chain.from_iterable([r.pre for r in kept])) | set(
+            chain.from_iterable([r.neg for r in kept])
+        )
+        relevant -= self.always | (self.never - deleted)
+        relevant.update(goal_ids)
+        names = sorted((" ".join(key), old) for key, old in facts.items() if old in relevant)
+        self.names = tuple([name for name, _ in names])
+        self.ids = {old: new for new, (_, old) in enumerate(names)}
+        self.facts = facts
+        self.init = init
+        self.kept = kept
+
+    def task(self, blueprint: Blueprint, goal: list[Literal], robot_goal: list[Literal]) -> Task:
+        return Task(
+            name=blueprint.name,
+            agents=blueprint.agents,
+            human=blueprint.human,
+            facts=self.names,
+            init=frozenset(self.ids[old] for old in self.init if old in self.ids),
+            goal=self._condition(goal),
+            actions=tuple(self._actions()),
+            robot_goal=self._condition(robot_goal),
+            warnings=tuple(blueprint.warnings),
+        )
+
+    def _condition(self, literals: Sequence[Literal]) -> Condition:
+        return Condition(
+            tuple(sorted({self.ids[self.facts[lit.key]] for lit in literals if lit.positive})),
+            tuple(sorted({self.ids[self.facts[lit.key]] for lit in literals if not lit.positive})),
+        )
+
+    def _actions(self) -> list[GroundAction]:
+        numbered = [record for record in map(self._numbered, self.kept) if any(record[2:6])]
+        numbered.sort()
+        actions: list[GroundAction] = []
+        previous = None
+        for record in numbered:
+            if record != previous:
+                actions.append(GroundAction(" ".join(record[0]), *record[1:]))
+            previous = record
+        return actions
+
+    def _numbered(self, record: Record) -> Record:
+        key, participants, pre, neg, add, delete, cost = record
+        ids = self.ids
+        new_pre = tuple(sorted({ids[f] for f in pre if f not in self.always}))
+        new_neg = tuple(sorted({ids[f] for f in neg if f not in self.never})) if neg else ()
+        new_add = tuple(sorted({ids[f] for f in add if f not in self.always}))
+        new_delete = tuple(sorted({ids[f] for f in delete if f not in add}))
+        return Record(key, participants, new_pre, new_neg, new_add, new_delete, cost)

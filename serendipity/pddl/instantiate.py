@@ -1,0 +1,231 @@
+"""Operators to ground records: names, fact ids, costs.
+
+Columns of records are built by C loops (``map``, ``zip``, ``itemgetter``): at
+100,000 records a Python loop for each would cost seconds.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from fractions import Fraction
+from itertools import repeat
+from typing import Final, NamedTuple
+
+from serendipity.model import InputError
+from serendipity.pddl.join import Relations, Row, bindings, picker
+from serendipity.pddl.lifted import Expression, FunctionValue, Key, Literal, Operation, Unit
+from serendipity.pddl.normal import Operator
+from serendipity.pddl.resolve import calculate
+
+ONE: Final = Fraction(1)
+NOTHING: Final = Fraction(0)
+
+Participants = Callable[[Sequence[Key]], Iterable[tuple[int, ...]]]
+"""From ground names ``(name, arguments...)`` to the ids of the agents that take part."""
+
+
+class Record(NamedTuple):
+    """A ground action whose ids are those of a :class:`FactTable`, unsorted."""
+
+    key: Key
+    participants: tuple[int, ...]
+    pre: tuple[int, ...]
+    neg: tuple[int, ...]
+    add: tuple[int, ...]
+    delete: tuple[int, ...]
+    cost: Fraction
+
+
+class FactTable(dict[Key, int]):
+    """Ids of ground atoms, given in the order of first use."""
+
+    def __missing__(self, key: Key) -> int:
+        number = len(self)
+        self[key] = number
+        return number
+
+
+class Instantiator:
+    """Grounds operators over one united initial state."""
+
+    def __init__(self, relations: Relations, values: dict[Key, Fraction]) -> None:
+        self.relations = relations
+        self.values = values
+        self.facts = FactTable()
+
+    def records(self, operator: Operator, unit: Unit, participants: Participants) -> Iterable[Record]:
+        """The ground actions of an operator whose static preconditions hold.
+
+        Args:
+            operator: the operator.
+            unit: the files that it is from; its parameters range over their objects.
+            participants: who takes part in the ground actions of given names.
+
+        Raises:
+            InputError: a cost is missing or negative, or there are too many cases.
+        """
+        position, rows = bindings(operator, unit, self.relations)
+        if not rows:
+            return ()
+        columns = _Columns(position, rows, self.facts)
+        schema = operator.schema
+        keys = columns.keys((schema.name, *(p.name for p in schema.parameters)))
+        fluents = [lit for lit in operator.precondition if lit.key[0] in self.relations.fluent]
+        records = map(
+            Record,
+            keys,
+            participants(keys),
+            columns.ids([lit.key for lit in fluents if lit.positive]),
+            columns.ids([lit.key for lit in fluents if not lit.positive]),
+            columns.ids([lit.key for lit in operator.effects if lit.positive]),
+            columns.ids([lit.key for lit in operator.effects if not lit.positive]),
+            self._costs(operator, unit, columns, keys),
+        )
+        if not operator.conditional:
+            return records
+        return _Conditional(operator, unit, columns, self).expanded(records)
+
+    def _costs(
+        self, operator: Operator, unit: Unit, columns: "_Columns", keys: Sequence[Key]
+    ) -> Iterable[Fraction]:
+        increases = operator.schema.increases
+        if not unit.priced:
+            return repeat(ONE)
+        if all(isinstance(value, Fraction) for value in increases):
+            return repeat(sum(increases, NOTHING))  # type: ignore[arg-type]
+        return self._computed_costs(operator, unit, columns, keys)
+
+    def _computed_costs(
+        self, operator: Operator, unit: Unit, columns: "_Columns", keys: Sequence[Key]
+    ) -> Iterator[Fraction]:
+        for i, key in enumerate(keys):
+            try:
+                cost = sum((self._value(e, columns, i) for e in operator.schema.increases), NOTHING)
+            except ZeroDivisionError:
+                message = f"action '{' '.join(key)}': division by zero in its cost"
+                raise unit.domain_error(message, operator.schema.line) from None
+            except KeyError as missing:
+                message = f"action '{' '.join(key)}': no initial value of '{' '.join(missing.args[0])}' for its cost"
+                raise unit.domain_error(message, operator.schema.line) from None
+            if cost < 0:
+                message = f"action '{' '.join(key)}': expected a cost of at least 0, got {float(cost):g}"
+                raise unit.domain_error(message, operator.schema.line)
+            yield cost
+
+    def _value(self, expression: Expression, columns: "_Columns", row: int) -> Fraction:
+        match expression:
+            case FunctionValue(key):
+                return self.values[columns.key(key, row)]
+            case Operation(operator, left, right):
+                return calculate(operator, self._value(left, columns, row), self._value(right, columns, row))
+        return expression
+
+
+class _Columns:
+    """Ground atoms of lifted ones, for all rows at once."""
+
+    def __init__(self, position: dict[str, int], rows: list[Row], facts: FactTable) -> None:
+        self.position = position
+        self.rows = rows
+        self.facts = facts
+        self._constants: dict[str, int] = {}
+        self._extended: list[Row] | None = None
+
+    def key(self, lifted: Key, row: int) -> Key:
+        """The ground atom of one row."""
+        values = self.rows[row]
+        return (lifted[0], *(values[self.position[t]] if t[0] == "?" else t for t in lifted[1:]))
+
+    def keys(self, lifted: Key) -> list[Key]:
+        """The ground atoms of all rows."""
+        if not self.position:
+            return [lifted] * len(self.rows)
+        head, *terms = lifted
+        constants = {head: len(self.position)}
+        for term in terms:
+            if term[0] != "?":
+                constants.setdefault(term, len(self.position) + len(constants))
+        tail = tuple(constants)
+        places = [constants[head], *(self.position[t] if t[0] == "?" else constants[t] for t in terms)]
+        pick = picker(places)
+        return [pick(row + tail) for row in self.rows]
+
+    def ids(self, lifted: Sequence[Key]) -> Iterable[tuple[int, ...]]:
+        """The fact ids of some atoms, as one tuple for each row."""
+        facts = self.facts
+        if not lifted:
+            return repeat(())
+        if not self.position:
+            return repeat(tuple([facts[key] for key in lifted]), len(self.rows))
+        return zip(*(map(facts.__getitem__, self.keys(key)) for key in lifted), strict=True)
+
+
+class _Conditional:
+    """Conditional effects: one record for each combination of truths of their conditions."""
+
+    def __init__(self, operator: Operator, unit: Unit, columns: _Columns, instantiator: Instantiator) -> None:
+        self.operator = operator
+        self.unit = unit
+        self.columns = columns
+        self.relations = instantiator.relations
+        self.facts = instantiator.facts
+
+    def expanded(self, records: Iterable[Record]) -> Iterator[Record]:
+        for i, record in enumerate(records):
+            yield from self._cases(record, i)
+
+    def _cases(self, record: Record, row: int) -> list[Record]:
+        cases = [record]
+        for when, then in self.operator.conditional:
+            condition = self._undecided(when, row)
+            if condition is None:
+                continue
+            cases = [new for case in cases for new in self._split(case, condition, then, row)]
+            if len(cases) > MAX_CASES:
+                message = (
+                    f"action '{' '.join(record.key)}': more than {MAX_CASES} combinations of its "
+                    "conditional effects are not supported"
+                )
+                raise self.unit.domain_error(message, self.operator.schema.line)
+        return cases
+
+    def _undecided(self, when: Iterable[Literal], row: int) -> list[tuple[int, bool]] | None:
+        """The literals that are not decided by the arguments; None if one of those is false."""
+        found = []
+        for literal in when:
+            key = self.columns.key(literal.key, row)
+            if self.relations.filtered(literal) or literal.key[0] not in self.relations.fluent:
+                if not self.relations.holds(literal, key):
+                    return None
+            else:
+                found.append((self.facts[key], literal.positive))
+        return found
+
+    def _split(
+        self, case: Record, condition: list[tuple[int, bool]], then: Iterable[Literal], row: int
+    ) -> Iterator[Record]:
+        """The condition false at its first literal, at its second, ..., or true."""
+        known: Record | None = case
+        for fact, positive in condition:
+            assert known is not None
+            otherwise = _assume(known, fact, not positive)
+            if otherwise is not None:
+                yield otherwise
+            known = _assume(known, fact, positive)
+            if known is None:
+                return
+        assert known is not None
+        add = tuple([self.facts[self.columns.key(lit.key, row)] for lit in then if lit.positive])
+        delete = tuple([self.facts[self.columns.key(lit.key, row)] for lit in then if not lit.positive])
+        yield known._replace(add=known.add + add, delete=known.delete + delete)
+
+
+MAX_CASES: Final = 256
+"""The most records that one ground action with conditional effects may become."""
+
+
+def _assume(record: Record, fact: int, truth: bool) -> Record | None:
+    """The record with one more precondition, or None where it contradicts the others."""
+    if fact in (record.neg if truth else record.pre):
+        return None
+    if fact in (record.pre if truth else record.neg):
+        return record
+    return record._replace(pre=(*record.pre, fact)) if truth else record._replace(neg=(*record.neg, fact))

@@ -1,0 +1,150 @@
+"""Bindings of an operator's variables, by joining over relations that can't grow.
+
+A precondition that no action ever makes true holds only for atoms of the initial
+state, so those atoms are joined like tables of a database; variables that no such
+precondition binds range over the objects of their type.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from operator import itemgetter
+from typing import Any
+
+from serendipity.pddl.lifted import EQUALITY, Key, Literal, Unit
+from serendipity.pddl.normal import Operator
+
+Row = tuple[str, ...]
+"""Values of variables, in the order in which the join bound them."""
+
+
+def picker(positions: Sequence[int]) -> Callable[[Any], tuple[Any, ...]]:
+    """A function from a row to the tuple of its values at some positions."""
+    if not positions:
+        return lambda row: ()
+    if len(positions) == 1:
+        only = positions[0]
+        return lambda row: (row[only],)
+    return itemgetter(*positions)
+
+
+class Relations:
+    """The atoms of the united initial state, by predicate.
+
+    Args:
+        init: the atoms.
+        fluent: predicates that some action adds or deletes.
+        added: predicates that some action adds.
+    """
+
+    def __init__(self, init: Iterable[Key], fluent: frozenset[str], added: frozenset[str]) -> None:
+        self.init = frozenset(init)
+        self.fluent = fluent
+        self.added = added
+        self._tables: dict[str, list[Key]] = {}
+        for key in self.init:
+            self._tables.setdefault(key[0], []).append(key)
+
+    def table(self, predicate: str) -> list[Key]:
+        """The atoms of a predicate."""
+        return self._tables.get(predicate, [])
+
+    def joined(self, literal: Literal) -> bool:
+        """Whether a precondition holds only for atoms that hold initially."""
+        return literal.positive and literal.key[0] not in self.added and literal.key[0] != EQUALITY
+
+    def filtered(self, literal: Literal) -> bool:
+        """Whether a precondition is decided by its arguments alone, once they are bound."""
+        return literal.key[0] == EQUALITY or (not literal.positive and literal.key[0] not in self.fluent)
+
+    def holds(self, literal: Literal, key: Key) -> bool:
+        """The truth of a static literal or an equality whose ground atom is ``key``."""
+        truth = key[1] == key[2] if key[0] == EQUALITY else key in self.init
+        return truth == literal.positive
+
+
+def bindings(operator: Operator, unit: Unit, relations: Relations) -> tuple[dict[str, int], list[Row]]:
+    """All bindings under which the preconditions that can't change hold.
+
+    Returns:
+        Where each variable is in a row, and the rows.
+    """
+    return _Join(operator, unit, relations).run()
+
+
+class _Join:
+    def __init__(self, operator: Operator, unit: Unit, relations: Relations) -> None:
+        self.relations = relations
+        self.parameters = operator.parameters
+        self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in operator.parameters}
+        self.joins = [lit for lit in operator.precondition if relations.joined(lit)]
+        self.filters = [lit for lit in operator.precondition if relations.filtered(lit)]
+        self.position: dict[str, int] = {}
+        self.rows: list[Row] = [()]
+
+    def run(self) -> tuple[dict[str, int], list[Row]]:
+        self._filter()
+        while self.joins and self.rows:
+            self._join(self._next())
+            self._filter()
+        for parameter in self.parameters:
+            if parameter.name not in self.position:
+                self.position[parameter.name] = len(self.position)
+                values = [(value,) for value in self.domains[parameter.name]]
+                self.rows = [row + value for row in self.rows for value in values]
+                self._filter()
+        return self.position, self.rows
+
+    def _next(self) -> Key:
+        """The join that grows the rows least, as far as sizes tell."""
+
+        def growth(literal: Literal) -> tuple[bool, int]:
+            terms = literal.key[1:]
+            bound = sum(term in self.position or term[0] != "?" for term in terms)
+            return bound == 0 and len(terms) > 0, len(self.relations.table(literal.key[0])) if bound < len(terms) else 0
+
+        chosen = min(self.joins, key=growth)
+        self.joins.remove(chosen)
+        return chosen.key
+
+    def _join(self, pattern: Key) -> None:
+        old: list[int] = []  # positions in the atom that the row or a constant decides
+        source: list[int] = []
+        fixed: list[tuple[int, str]] = []
+        same: list[tuple[int, int]] = []
+        new: dict[str, int] = {}
+        for i, term in enumerate(pattern[1:], start=1):
+            if term[0] != "?":
+                fixed.append((i, term))
+            elif term in self.position:
+                old.append(i)
+                source.append(self.position[term])
+            elif term in new:
+                same.append((i, new[term]))
+            else:
+                new[term] = i
+        before, after = picker(old), picker(tuple(new.values()))
+        checks = [(i, self.domains[term]) for term, i in new.items()]
+        index: dict[Row, list[Row]] = {}
+        for atom in self.relations.table(pattern[0]):
+            if (
+                all(atom[i] in domain for i, domain in checks)
+                and all(atom[i] == value for i, value in fixed)
+                and all(atom[i] == atom[j] for i, j in same)
+            ):
+                index.setdefault(before(atom), []).append(after(atom))
+        for term in new:
+            self.position[term] = len(self.position)
+        look_up = picker(source)
+        self.rows = [row + more for row in self.rows for more in index.get(look_up(row), ())]
+
+    def _filter(self) -> None:
+        """Apply the filters whose variables are all bound by now."""
+        for literal in list(self.filters):
+            terms = literal.key[1:]
+            if all(term[0] != "?" or term in self.position for term in terms):
+                self.filters.remove(literal)
+                places = [(self.position.get(term, -1), term) for term in terms]
+                self.rows = [row for row in self.rows if self._passes(literal, row, places)]
+
+    def _passes(self, literal: Literal, row: Row, places: list[tuple[int, str]]) -> bool:
+        key = (literal.key[0], *(row[i] if i >= 0 else term for i, term in places))
+        return self.relations.holds(literal, key)

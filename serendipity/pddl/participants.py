@@ -1,0 +1,66 @@
+"""Who takes part in ground actions, in each layout."""
+
+from collections.abc import Iterable, Sequence
+from functools import cache
+from itertools import repeat
+
+from serendipity.pddl.instantiate import Participants
+from serendipity.pddl.lifted import Key, Unit
+
+
+def by_owner(agent: int) -> Participants:
+    """The owner of the file, alone."""
+    return lambda keys: repeat((agent,), len(keys))
+
+
+def by_arguments(agents: Sequence[str]) -> Participants:
+    """The agents among the arguments; nobody where there is none."""
+    ids = {name: i for i, name in enumerate(agents)}
+
+    def participants(keys: Sequence[Key]) -> Iterable[tuple[int, ...]]:
+        for key in keys:
+            yield tuple(sorted({ids[term] for term in key[1:] if term in ids}))
+
+    return participants
+
+
+def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
+    """The agents whose names occur among the parts of the name, split at ``_`` and blanks.
+
+    An agent whose own name has several parts (``robot_2``) occurs where they stand in
+    a row; of two names that start at the same part the longer one counts.
+
+    Raises:
+        InputError: when called, if no agent occurs in an action's name.
+    """
+    patterns = sorted(((tuple(_parts(name)), i) for i, name in enumerate(agents)), key=lambda p: -len(p[0]))
+
+    @cache
+    def named(word: str) -> frozenset[int]:
+        parts = _parts(word)
+        found: set[int] = set()
+        start = 0
+        while start < len(parts):
+            length = 1
+            for pattern, agent in patterns:
+                if tuple(parts[start : start + len(pattern)]) == pattern:
+                    found.add(agent)
+                    length = len(pattern)
+                    break
+            start += length
+        return frozenset(found)
+
+    def participants(keys: Sequence[Key]) -> Iterable[tuple[int, ...]]:
+        for key in keys:
+            found = tuple(sorted(frozenset().union(*map(named, key))))
+            if not found:
+                line = next(s.line for s in unit.domain.schemas if s.name == key[0])
+                message = f"joint action '{' '.join(key)}': no agent's name ({', '.join(agents)}) occurs in its name"
+                raise unit.domain_error(message, line)
+            yield found
+
+    return participants
+
+
+def _parts(word: str) -> list[str]:
+    return word.replace("_", " ").split()

@@ -1,0 +1,66 @@
+"""Checks between the agents' files: what two of them say about the same thing."""
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+
+from serendipity.model import InputError
+from serendipity.pddl.lifted import OBJECT, Key, Types, Unit
+
+_LISTED = 3
+
+
+def check_objects(units: Sequence[Unit]) -> None:
+    """Check that an object has comparable types, and a predicate one arity, everywhere.
+
+    Raises:
+        InputError: naming the later file of two that disagree.
+    """
+    objects: dict[str, tuple[str, Unit]] = {}
+    predicates: dict[str, tuple[int, Unit]] = {}
+    for unit in units:
+        for name, kind in unit.problem.objects.items():
+            before, other = objects.setdefault(name, (kind, unit))
+            if not (_fits(unit.domain.types, before, kind) or _fits(other.domain.types, before, kind)):
+                message = f"object '{name}' is of type '{kind}' here, of type '{before}' in {other.problem_file}"
+                raise InputError(message, unit.problem_file)
+        for name, signature in unit.domain.predicates.items():
+            arity, other = predicates.setdefault(name, (len(signature), unit))
+            if arity != len(signature):
+                message = f"predicate '{name}' takes {len(signature)} arguments here, {arity} in {other.domain_file}"
+                raise InputError(message, unit.domain_file)
+
+
+def _fits(types: Types, a: str, b: str) -> bool:
+    if a == b or OBJECT in (a, b):
+        return True
+    return a in types and b in types and types.comparable(a, b)
+
+
+def missing_facts(units: Sequence[Unit]) -> list[str]:
+    """Warnings for facts that two domains share but only one initial state holds.
+
+    Shared means: both domains have the predicate, and both problems the arguments.
+    Predicates that no action changes are left out, and so is a file whose initial
+    state is empty (a team's, say, that only brings joint actions).
+    """
+    changed = {e.literal.key[0] for unit in units for s in unit.domain.schemas for e in s.effects}
+    found: dict[tuple[str, str, str], list[Key]] = {}
+    for a, b in combinations([unit for unit in units if unit.problem.init], 2):
+        for holder, other in ((a, b), (b, a)):
+            for key in holder.problem.init - other.problem.init:
+                if key[0] in changed and _could_hold(other, key):
+                    place = (key[0], holder.problem_file, other.problem_file)
+                    found.setdefault(place, []).append(key)
+    return [_warning(keys, *place[1:]) for place, keys in sorted(found.items())]
+
+
+def _could_hold(unit: Unit, key: Key) -> bool:
+    return key[0] in unit.domain.predicates and all(term in unit.problem.objects for term in key[1:])
+
+
+def _warning(keys: Iterable[Key], holder: str, other: str) -> str:
+    names = sorted(" ".join(key) for key in keys)
+    listed = ", ".join(f"'{name}'" for name in names[:_LISTED])
+    more = f" and {len(names) - _LISTED} more like it" if len(names) > _LISTED else ""
+    verb = "holds" if len(names) == 1 else "hold"
+    return f"{listed}{more} {verb} initially in {holder} but not in {other}, whose domain knows the predicate"
