@@ -146,7 +146,7 @@ def _whole(value: object, name: str, *, least: int) -> int:
 
 def _horizon(value: object) -> int | str | None:
     if value is None or value == INFINITE:
-        return value  # type: ignore[return-value]
+        return value
     if isinstance(value, float) and math.isinf(value) and value > 0:
         return INFINITE
     return _whole(value, "horizon", least=0)

@@ -1,13 +1,16 @@
 """The task: agents, facts, ground actions, initial state, goals."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Any, TypeVar
 
 from serendipity.model.actions import Condition, GroundAction
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.variables import Variable, find_variables
+
+T = TypeVar("T")
 
 HumanPlan = tuple[int, ...]
 """``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t."""
@@ -73,6 +76,16 @@ class Task:
         """Finite-domain variables behind the facts; each fact is in exactly one."""
         return find_variables(len(self.facts), self.init, self.actions)
 
+    @cached_property
+    def _derived(self) -> dict[Any, Any]:
+        return {}
+
+    def derived(self, build: "Callable[[Task], T]") -> T:
+        """``build(self)``, computed once: tables that a layer above keeps with the task."""
+        if build not in self._derived:
+            self._derived[build] = build(self)
+        return self._derived[build]  # type: ignore[no-any-return]
+
     def team_cost(self, action: GroundAction, discount: Fraction) -> Fraction:
         """What an action costs the team: full with the human, else discounted (SPEC 1)."""
         return action.cost if self.human in action.participants else action.cost * (1 - discount)
@@ -88,9 +101,11 @@ class Task:
             action = self.actions[action_id]
             where = f"human plan, step {step}: '{action.name}'"
             if action.participants != (self.human,):
-                raise PlanError(f"{where} is not an action that {self.agents[self.human]} can do alone")
+                reason = f"is not an action that {self.agents[self.human]} can do alone"
+                raise PlanError(f"{where} {reason}", step=step)
             if not action.applicable(states[-1]):
-                raise PlanError(f"{where} is not applicable: {self._first_unmet(action, states[-1])}")
+                reason = f"is not applicable: {self._first_unmet(action, states[-1])}"
+                raise PlanError(f"{where} {reason}", step=step)
             states.append(states[-1].difference(action.delete).union(action.add))
         if not self.goal.holds(states[-1]):
             last = f"after its last step '{self.actions[plan[-1]].name}'" if plan else "with no step"
@@ -114,7 +129,8 @@ class Task:
                 continue
             ids = self.named.get(name)
             if ids is None:
-                raise PlanError(f"human plan, step {step}: there is no action '{name}' in the task")
+                message = f"human plan, step {step}: there is no action '{name}' in the task"
+                raise PlanError(message, step=step)
             chosen = next((i for i in ids if self.actions[i].applicable(state)), ids[0])
             plan.append(chosen)
             action = self.actions[chosen]

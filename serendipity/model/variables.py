@@ -70,11 +70,13 @@ class _GroupFinder:
         self.taken: set[int] = set()
         self.adders: list[list[GroundAction]] = [[] for _ in range(n_facts)]
         self.deleters: list[list[GroundAction]] = [[] for _ in range(n_facts)]
+        self.consumed: set[int] = set()
         for action in actions:
             for fact in action.add:
                 self.adders[fact].append(action)
             for fact in action.delete:
                 self.deleters[fact].append(action)
+            self.consumed.update(fact for fact in action.delete if fact in action.pre)
 
     def groups(self) -> list[tuple[int, ...]]:
         found = []
@@ -115,7 +117,8 @@ class _GroupFinder:
                 ]
                 if not usable:
                     return group, member
-                partner = min(usable, key=lambda f: (len(self.adders[f]), f))
+                # A fact that is never consumed is a record of what happened, not a value.
+                partner = min(usable, key=lambda f: (f not in self.consumed, len(self.adders[f]), f))
                 group.add(partner)
                 pending.append(partner)
         return group, None

@@ -1,0 +1,11 @@
+"""Best-first search over interruption windows, with the human's replanning simulated.
+
+Knows the model (``serendipity.model``) and nothing of ``verify``.
+"""
+
+from search.alone import PlanGraph
+from search.clock import Clock
+from search.outcome import Outcome
+from search.planner import optimal_human_plan, optimal_human_plans, solve
+
+__all__ = ["Clock", "Outcome", "PlanGraph", "optimal_human_plan", "optimal_human_plans", "solve"]

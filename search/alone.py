@@ -1,0 +1,229 @@
+"""The human by himself: his optimal cost from a state, and all his optimal plans.
+
+*Optimal* means least cost, then fewest actions (SPEC 1); both are in the key.
+Costs are cached on the facts that his own actions mention, so a state costs one
+search per projection, and a search also fills in the states along its result.
+"""
+
+from collections.abc import Callable, Iterator
+from heapq import heappop, heappush
+
+from search.clock import Clock
+from search.encoding import Encoding, Goal
+from search.keys import INFINITE_KEY
+from search.projection import Projection
+from search.successors import Lookup
+
+_CHECK_EVERY = 256
+
+
+Edges = dict[int, list[tuple[int, int]]]
+"""Per state the actions that continue an optimal plan, ascending, with their successors."""
+
+
+class PlanGraph:
+    """The optimal plans from a state as a graph: they share prefixes and suffixes.
+
+    Args:
+        start: the packed state that they start from.
+        edges: the steps that lie on an optimal plan.
+    """
+
+    def __init__(self, start: int, edges: Edges) -> None:
+        self._start = start
+        self._edges = edges
+
+    def canonical(self) -> tuple[int, ...]:
+        """The plan that takes the smallest action at each step (SPEC 1)."""
+        return next(self.plans())
+
+    def plans(self) -> Iterator[tuple[int, ...]]:
+        """All of them, in string order, lazily."""
+        path: list[int] = []
+        open_steps = [iter(self._edges.get(self._start, ()))]
+        if self._start not in self._edges:
+            yield ()
+            return
+        while open_steps:
+            step = next(open_steps[-1], None)
+            if step is None:
+                open_steps.pop()
+                if path:
+                    path.pop()
+                continue
+            action, after = step
+            path.append(action)
+            if after in self._edges:
+                open_steps.append(iter(self._edges[after]))
+            else:
+                yield tuple(path)
+                path.pop()
+
+    def count(self) -> int:
+        """How many there are, without listing them."""
+        counts: dict[int, int] = {}
+        pending = [self._start]
+        while pending:
+            state = pending[-1]
+            after = [successor for _, successor in self._edges.get(state, ())]
+            missing = [successor for successor in after if successor not in counts]
+            if missing:
+                pending.extend(missing)
+            else:
+                counts[state] = sum(counts[successor] for successor in after) if after else 1
+                pending.pop()
+        return counts[self._start]
+
+
+class Alone:
+    """The human's optimal key to a goal with every robot idle.
+
+    Args:
+        encoding: the packed task.
+        goal: what has to hold at the end.
+        weight: key increment of one of his own actions.
+        bound: admissible lower bound to ``goal``.
+        clock: asked for time.
+    """
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        goal: Goal,
+        weight: Callable[[int], int],
+        bound: Projection,
+        clock: Clock,
+    ) -> None:
+        own = [i for i in encoding.useful if encoding.task.actions[i].participants == (encoding.task.human,)]
+        self._goal = goal
+        self._lookup = Lookup(encoding, own, weight)
+        self._bound = bound
+        self._clock = clock
+        mask = goal.need_mask
+        for m, _ in goal.forbidden:
+            mask |= m
+        for i in own:
+            op = encoding.op(i)
+            mask |= op.need_mask | (encoding.all_ones & ~op.keep)
+            for m, _ in op.forbidden:
+                mask |= m
+        self._mask = mask
+        self._known: dict[int, int] = {}
+        self._at_least: dict[int, int] = {}
+
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """His optimal key from a packed state; at or above ``limit`` any value means "not below"."""
+        state &= self._mask
+        known = self._known.get(state)
+        if known is not None:
+            return known
+        floor = self._at_least.get(state, 0)
+        if floor >= limit:
+            return floor
+        return self._search(state, limit)
+
+    def _search(self, start: int, limit: int) -> int:
+        """A*; exact below ``limit``."""
+        known, bound, holds = self._known, self._bound, self._goal.holds
+        first = bound(start)
+        queue = [(first, 0, start)]
+        best = {start: 0}
+        parents: dict[int, tuple[int, int]] = {}
+        closed: set[int] = set()
+        target, end, count = limit, -1, 0
+        while queue and queue[0][0] < target:
+            _, negative, state = heappop(queue)
+            if state in closed:
+                continue
+            closed.add(state)
+            count += 1
+            if not count % _CHECK_EVERY:
+                self._clock.check()
+            g = -negative
+            rest = known.get(state)
+            if rest is None and holds(state):
+                rest = 0
+            if rest is not None:
+                if g + rest < target:
+                    target, end = g + rest, state
+                continue
+            for option in self._lookup.options(state):
+                after = state & option.keep | option.put
+                cost = g + option.weight
+                if cost < best.get(after, INFINITE_KEY):
+                    best[after] = cost
+                    parents[after] = (state, option.weight)
+                    heappush(queue, (cost + bound(after), -cost, after))
+        if end < 0:
+            if not queue or queue[0][0] >= INFINITE_KEY:
+                known[start] = INFINITE_KEY
+                return INFINITE_KEY
+            self._at_least[start] = max(limit, self._at_least.get(start, 0))
+            return limit
+        rest = target - best[end]
+        known[end] = rest
+        while end != start:
+            end, step = parents[end]
+            rest += step
+            known[end] = rest
+        return target
+
+    def optimal_plans(self, state: int) -> "PlanGraph":
+        """All his optimal plans from a packed state that has one."""
+        start = state & self._mask
+        return PlanGraph(start, self._optimal_edges(start))
+
+    def _optimal_edges(self, start: int) -> Edges:
+        """Per state on an optimal path the actions, ascending, that continue one.
+
+        Every state whose bound does not exceed the optimum is expanded; edges that lie on
+        an optimal path are then those between exact distances.
+        """
+        optimum = self.key(start)
+        assert optimum < INFINITE_KEY, "asked for plans where there are none"
+        distance = {start: 0}
+        expanded: dict[int, list[tuple[int, int, int]]] = {}
+        queue = [(self._bound(start), 0, start)]
+        goals = []
+        while queue and queue[0][0] <= optimum:
+            _, g, state = heappop(queue)
+            if state in expanded:
+                continue
+            if not len(expanded) % _CHECK_EVERY:
+                self._clock.check()
+            steps: list[tuple[int, int, int]] = []
+            expanded[state] = steps
+            if self._goal.holds(state):
+                if g == optimum:
+                    goals.append(state)
+                continue
+            for option in self._lookup.options(state):
+                after = state & option.keep | option.put
+                cost = g + option.weight
+                steps.append((option.actions[0], after, cost))
+                if cost < distance.get(after, INFINITE_KEY):
+                    distance[after] = cost
+                    heappush(queue, (cost + self._bound(after), cost, after))
+        return _edges_into(goals, expanded, distance)
+
+
+def _edges_into(
+    goals: list[int], expanded: dict[int, list[tuple[int, int, int]]], distance: dict[int, int]
+) -> Edges:
+    tight: dict[int, list[tuple[int, int]]] = {}
+    for state, steps in expanded.items():
+        for action, after, cost in steps:
+            if distance.get(after) == cost:
+                tight.setdefault(after, []).append((action, state))
+    edges: Edges = {}
+    pending, seen = list(goals), set(goals)
+    while pending:
+        after = pending.pop()
+        for action, state in tight.get(after, ()):
+            edges.setdefault(state, []).append((action, after))
+            if state not in seen:
+                seen.add(state)
+                pending.append(state)
+    for onward in edges.values():
+        onward.sort()
+    return edges

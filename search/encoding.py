@@ -1,0 +1,219 @@
+"""States packed into one Python int: a bit field per finite-domain variable.
+
+An action is then two masks to test and two to apply, whatever the number of
+facts.  Only facts that some useful action or a goal can ask for are packed;
+conflicts between actions are still judged on their declared effects (SPEC 2).
+
+Glossary: *field* - the bits of one variable; *op* - a packed ground action;
+*leader* - the agent under whom an op is looked up (the human if he takes part).
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from serendipity.model.actions import Condition, GroundAction, conflicting
+from serendipity.model.task import Task
+
+
+class Op(NamedTuple):
+    """A packed ground action: applicable iff ``s & need_mask == need`` and no ``s & m == v``
+    of ``forbidden``; its successor is ``s & keep | put``."""
+
+    need_mask: int
+    need: int
+    keep: int
+    put: int
+    forbidden: tuple[tuple[int, int], ...]
+    action: int
+    agents: int
+    """Bit set of its participants."""
+
+
+def applicable(op: Op, state: int) -> bool:
+    """Whether an op's precondition holds in a packed state."""
+    return state & op.need_mask == op.need and all(state & m != value for m, value in op.forbidden)
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """A packed condition."""
+
+    need_mask: int
+    need: int
+    forbidden: tuple[tuple[int, int], ...]
+
+    def holds(self, state: int) -> bool:
+        """Whether the packed state satisfies the condition."""
+        if state & self.need_mask != self.need:
+            return False
+        return all(state & mask != value for mask, value in self.forbidden)
+
+
+class Encoding:
+    """Packed form of a task.
+
+    Args:
+        task: the task.
+        extra: ids of facts to pack although no useful action asks for them.
+
+    Attributes:
+        useful: ids of the actions that can contribute to a goal or an ``extra`` fact.
+        fact_bits: per fact id its field's mask and value, or None where it is not packed.
+    """
+
+    def __init__(self, task: Task, extra: frozenset[int] = frozenset()) -> None:
+        self.task = task
+        relevant, useful = _relevant(task, extra)
+        self.useful = useful
+        self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
+        self.field_of: list[int] = [-1] * len(task.facts)
+        self.fields: list[int] = []
+        shift = 0
+        for variable in task.variables:
+            if not any(f in relevant for f in variable.facts):
+                continue
+            width = 1 if variable.boolean else max(1, (len(variable.facts) - 1).bit_length())
+            mask = (1 << width) - 1 << shift
+            for code, fact in enumerate(variable.facts):
+                value = 1 if variable.boolean else code
+                self.fact_bits[fact] = (mask, value << shift)
+                self.field_of[fact] = len(self.fields)
+            self.fields.append(mask)
+            shift += width
+        self.boolean = {f for v in task.variables if v.boolean for f in v.facts}
+        self.all_ones = (1 << shift) - 1
+        self.init = self.pack(task.init)
+        self.goal = self.condition(task.goal)
+        self.robot_goal = self.condition(task.robot_goal)
+        self._ops: dict[int, Op] = {}
+        self._compatible: dict[tuple[int, int, bool], bool] = {}
+
+    def pack(self, state: Iterable[int]) -> int:
+        """The packed form of a set of true facts."""
+        packed = 0
+        for fact in state:
+            bits = self.fact_bits[fact]
+            if bits is not None:
+                packed |= bits[1]
+        return packed
+
+    def condition(self, condition: Condition) -> Goal:
+        """The packed form of a conjunction of literals over packed facts."""
+        return Goal(*self._literals(condition.positive, condition.negative))
+
+    def op(self, action_id: int) -> Op:
+        """The packed form of an action, made when first asked for."""
+        op = self._ops.get(action_id)
+        if op is None:
+            op = self._ops[action_id] = self._pack_action(action_id)
+        return op
+
+    def compatible(self, first: int, second: int, strict: bool) -> bool:
+        """Whether two actions may share an epoch (SPEC 2)."""
+        key = (first, second, strict)
+        answer = self._compatible.get(key)
+        if answer is None:
+            actions = self.task.actions
+            answer = not conflicting(actions[first], actions[second], strict=strict)
+            self._compatible[key] = answer
+        return answer
+
+    def mask_of(self, facts: Iterable[int]) -> int:
+        """The union of the fields of the packed ones among ``facts``."""
+        mask = 0
+        for fact in facts:
+            bits = self.fact_bits[fact]
+            if bits is not None:
+                mask |= bits[0]
+        return mask
+
+    def _literals(
+        self, positive: Iterable[int], negative: Iterable[int]
+    ) -> tuple[int, int, tuple[tuple[int, int], ...]]:
+        need_mask = need = 0
+        forbidden = []
+        impossible = False
+        for fact in positive:
+            mask, value = self._bits(fact)
+            impossible |= bool(need_mask & mask) and need & mask != value
+            need_mask |= mask
+            need |= value
+        for fact in negative:
+            mask, value = self._bits(fact)
+            if fact in self.boolean:
+                impossible |= bool(need & mask)
+                need_mask |= mask
+            else:
+                forbidden.append((mask, value))
+        # Two values of one variable: a test that no state passes.
+        return need_mask, (-1 if impossible else need), tuple(forbidden)
+
+    def _bits(self, fact: int) -> tuple[int, int]:
+        bits = self.fact_bits[fact]
+        assert bits is not None, "a condition asks only for packed facts"
+        return bits
+
+    def _pack_action(self, action_id: int) -> Op:
+        action = self.task.actions[action_id]
+        need_mask, need, forbidden = self._literals(action.pre, action.neg)
+        clear = put = 0
+        for fact in action.delete:
+            bits = self.fact_bits[fact]
+            if bits is not None and fact in self.boolean:
+                clear |= bits[0]
+        for fact in action.add:
+            bits = self.fact_bits[fact]
+            if bits is not None:
+                clear |= bits[0]
+                put |= bits[1]
+        agents = sum(1 << agent for agent in action.participants)
+        return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents)
+
+
+def encoding(task: Task) -> Encoding:
+    """The encoding of the facts that matter to the goals, kept with the task."""
+    return task.derived(Encoding)
+
+
+def full_encoding(task: Task) -> Encoding:
+    """The encoding that also holds every fact of the human's own domain (SPEC 3.3)."""
+    return task.derived(_with_human_facts)
+
+
+def human_facts(task: Task) -> frozenset[int]:
+    """Ids of the facts that the human's own domain mentions (SPEC 3.3)."""
+    mentioned = {*task.goal.positive, *task.goal.negative}
+    for i in task.human_actions:
+        action = task.actions[i]
+        mentioned.update(action.pre, action.neg, action.add, action.delete)
+    return frozenset(mentioned)
+
+
+def _with_human_facts(task: Task) -> Encoding:
+    return Encoding(task, human_facts(task))
+
+
+def _relevant(task: Task, extra: frozenset[int]) -> tuple[set[int], tuple[int, ...]]:
+    """Facts and actions from which the goals can be influenced (backward closure)."""
+    relevant = {*extra, *task.goal.positive, *task.goal.negative}
+    relevant.update(task.robot_goal.positive, task.robot_goal.negative)
+    changers: dict[int, list[int]] = {}
+    for i, action in enumerate(task.actions):
+        for fact in action.add:
+            changers.setdefault(fact, []).append(i)
+        for fact in action.delete:
+            changers.setdefault(fact, []).append(i)
+    useful: set[int] = set()
+    pending = list(relevant)
+    while pending:
+        for i in changers.get(pending.pop(), ()):
+            if i in useful:
+                continue
+            useful.add(i)
+            cause: GroundAction = task.actions[i]
+            for fact in (*cause.pre, *cause.neg):
+                if fact not in relevant:
+                    relevant.add(fact)
+                    pending.append(fact)
+    return relevant, tuple(sorted(useful))

@@ -1,0 +1,95 @@
+"""Communication and composite planning: no prefix, no window (SPEC 3.4, Def. 1.1)."""
+
+from collections.abc import Iterator
+
+from search.best_first import Incumbent, Node
+from search.encoding import Goal
+from search.keys import Keys
+from search.labels import Labels
+from search.projection import Projection
+from search.successors import NOTHING, Option, Successors
+
+
+class Free:
+    """The search space of composite plans.
+
+    Args:
+        initial: packed initial state.
+        horizon: number of epochs ``T``, or None for any.
+        most_cost: largest scaled cost of an acceptable plan, or None.
+        goals: what has to hold at the end.
+        keys: layout of keys.
+        successors: what agents can do in an epoch.
+        bound: lower bound on what the human still has to pay.
+    """
+
+    def __init__(
+        self,
+        *,
+        initial: int,
+        horizon: int | None,
+        most_cost: int | None,
+        goals: tuple[Goal, ...],
+        keys: Keys,
+        successors: Successors,
+        bound: Projection,
+    ) -> None:
+        self._initial = initial
+        self._horizon = horizon
+        self._most_cost = most_cost
+        self._goals = goals
+        self._keys = keys
+        self._successors = successors
+        self._bound = bound
+        self._labels = Labels()
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The initial state."""
+        self._labels.add(self._initial, 0, 0)
+        yield self._bound(self._initial), Node(0, 0, self._initial, 0, 0, None, ())
+
+    def alive(self, node: Node) -> bool:
+        """Whether no cheaper node that is as early makes this one superfluous."""
+        return self._labels.alive(node.state, node.epoch, node.key)
+
+    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors of a node; those in which the goals hold are offered to ``best``."""
+        if node.parent is None:
+            self._offer(node, best)
+        if self._horizon is None:
+            epoch, parts = node.epoch, self._one_after_another(node.state)
+        elif node.epoch < self._horizon:
+            epoch, parts = node.epoch + 1, self._together(node.state)
+        else:
+            return
+        for option in parts:
+            after = node.state & option.keep | option.put
+            key = node.key + option.weight
+            bound = key + self._bound(after)
+            if bound >= best.key or self._too_dear(bound) or not option.actions:
+                continue
+            if self._labels.add(after, epoch, key):
+                child = Node(key, epoch, after, 0, 0, node, option.actions)
+                if not self._offer(child, best):
+                    yield bound, child
+
+    def _offer(self, node: Node, best: Incumbent) -> bool:
+        """Whether a plan ends at the node (going on could only cost more)."""
+        if node.key >= best.key or not all(goal.holds(node.state) for goal in self._goals):
+            return False
+        best.key, best.node = node.key, node
+        return True
+
+    def _together(self, state: int) -> Iterator[Option]:
+        successors = self._successors
+        for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+            yield from successors.with_robots(part, state)
+
+    def _one_after_another(self, state: int) -> Iterator[Option]:
+        """Without a horizon only sets that can't be put in a sequence need to be sets."""
+        for option in self._together(state):
+            if len(option.actions) <= 1 or not self._successors.sequential(option.actions):
+                yield option
+
+    def _too_dear(self, key: int) -> bool:
+        return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

@@ -1,0 +1,173 @@
+"""Order of answers as one integer: additive, and compared lexicographically.
+
+SPEC 3.1 orders answers by objective, cost, window length, later start, number of
+actions.  Every component is a sum over the steps of a plan, so all five are bit
+fields of a single int: adding keys adds components, comparing keys compares the
+components in that order.
+
+Costs are scaled to integers by the least common denominator, so ties are exact.
+"""
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import lcm
+
+from serendipity.model.actions import GroundAction
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan, Task
+
+_ACTIONS_BITS = 24
+_EPOCH_BITS = 20
+
+INFINITE_KEY = 1 << 4096
+"""Above every key: no plan."""
+
+
+@dataclass(frozen=True, slots=True)
+class Keys:
+    """Widths of the fields, low to high: announced, actions, start, length, cost, objective.
+
+    ``epoch_weight`` is the increment of one more epoch of the window.  ``announced`` holds the communication cost of a suffix, which ranks below the
+    human's own preferences while he replans and is moved into the objective afterwards.
+    """
+
+    scale: int
+    announced_bits: int
+    cost_bits: int
+    epoch_weight: int
+
+    @property
+    def action_shift(self) -> int:
+        """Lowest bit of the number of actions."""
+        return self.announced_bits
+
+    @property
+    def start_shift(self) -> int:
+        """Lowest bit of the start field (horizon + 1 - xi1)."""
+        return self.announced_bits + _ACTIONS_BITS
+
+    @property
+    def length_shift(self) -> int:
+        """Lowest bit of the window's length."""
+        return self.start_shift + _EPOCH_BITS
+
+    @property
+    def cost_shift(self) -> int:
+        """Lowest bit of the scaled cost."""
+        return self.length_shift + _EPOCH_BITS
+
+    @property
+    def objective_shift(self) -> int:
+        """Lowest bit of the scaled objective."""
+        return self.cost_shift + self.cost_bits
+
+    def actions(self, key: int) -> int:
+        """Number of actions in a key."""
+        return (key >> self.action_shift) & ((1 << _ACTIONS_BITS) - 1)
+
+    def start_field(self, key: int) -> int:
+        """``horizon + 1 - xi1`` in a key: smaller for a later start."""
+        return (key >> self.start_shift) & ((1 << _EPOCH_BITS) - 1)
+
+    def length(self, key: int) -> int:
+        """Length of the window in a key, in epochs."""
+        return (key >> self.length_shift) & ((1 << _EPOCH_BITS) - 1)
+
+    def scaled_cost(self, key: int) -> int:
+        """Cost in a key, times ``scale``."""
+        return (key >> self.cost_shift) & ((1 << self.cost_bits) - 1)
+
+    def cost(self, key: int) -> Fraction:
+        """Cost in a key, in the domain's unit."""
+        return Fraction(self.scaled_cost(key), self.scale)
+
+    def objective(self, key: int) -> Fraction:
+        """Objective in a key (for a bound: at least this much)."""
+        return Fraction(key >> self.objective_shift, self.scale)
+
+    def of_cost(self, cost: Fraction) -> int:
+        """Key increment of an amount of cost."""
+        scaled = cost * self.scale
+        assert scaled.denominator == 1, "the scale covers every cost of the task"
+        return (scaled.numerator << self.cost_shift) + (scaled.numerator << self.objective_shift)
+
+    def of_action(self, cost: Fraction) -> int:
+        """Key increment of one action with the given team cost."""
+        return self.of_cost(cost) + (1 << self.action_shift)
+
+    def of_announcement(self, cost: Fraction) -> int:
+        """Objective increment of communication."""
+        return int(cost * self.scale) << self.objective_shift
+
+    def of_start(self, start: int, horizon: int) -> int:
+        """Key increment of opening a window at epoch ``start`` of ``horizon``."""
+        return (horizon + 1 - start) << self.start_shift
+
+    def announce(self, key: int) -> int:
+        """Moves the low ``announced`` field of a suffix's key into the objective."""
+        low = key & ((1 << self.announced_bits) - 1)
+        return key - low + (low << self.objective_shift)
+
+
+class Weights:
+    """Key increments of a task's actions.
+
+    Args:
+        task: the task.
+        options: discount, window weight and communication weight.
+        plan: ``pi_H``, or None to leave communication costs out.
+    """
+
+    def __init__(self, task: Task, options: Options, plan: HumanPlan | None) -> None:
+        self.task = task
+        self.discount = options.discount
+        self.human = task.human
+        announces = options.mode == "communication" and plan is not None
+        self.announced = options.communication_weight if announces else Fraction(0)
+        self.planned = frozenset(plan or ())
+        costs = task.derived(_distinct_costs)
+        factors = (Fraction(1), 1 - options.discount, self.announced)
+        weight = options.window_weight
+        scale = lcm(weight.denominator, *((c * f).denominator for c in costs for f in factors))
+        dearest = int(max(costs, default=Fraction(0)) * scale)
+        cost_bits = dearest.bit_length() + _ACTIONS_BITS
+        announced_bits = int(dearest * self.announced).bit_length() + _ACTIONS_BITS if self.announced else 0
+        layout = Keys(scale, announced_bits, cost_bits, 0)
+        epoch = (int(weight * scale) << layout.objective_shift) + (1 << layout.length_shift)
+        self.keys = replace(layout, epoch_weight=epoch)
+        self._cache: dict[tuple[Fraction, bool, bool], int] = {}
+
+    def team(self, action_id: int) -> int:
+        """Increment of an action inside a composite plan, communication included."""
+        action = self.task.actions[action_id]
+        with_human = self.human in action.participants
+        off_plan = bool(self.announced) and with_human and action_id not in self.planned
+        return self._weight(action, with_human, off_plan)
+
+    def bound(self, action_id: int) -> int:
+        """Increment of one of the human's actions, communication left out: never too much."""
+        return self._weight(self.task.actions[action_id], True, False)
+
+    def alone(self, action_id: int) -> int:
+        """Increment of an action for the human's own preferences; communication ranks last."""
+        action = self.task.actions[action_id]
+        weight = self.bound(action_id)
+        if self.announced and action_id not in self.planned:
+            weight += int(action.cost * self.announced * self.keys.scale)
+        return weight
+
+    def _weight(self, action: GroundAction, with_human: bool, off_plan: bool) -> int:
+        key = (action.cost, with_human, off_plan)
+        weight = self._cache.get(key)
+        if weight is None:
+            cost = action.cost if with_human else action.cost * (1 - self.discount)
+            weight = self.keys.of_action(cost)
+            if off_plan:
+                weight += self.keys.of_announcement(action.cost * self.announced)
+            self._cache[key] = weight
+        return weight
+
+
+def _distinct_costs(task: Task) -> frozenset[Fraction]:
+    by_identity = {id(action.cost): action.cost for action in task.actions}
+    return frozenset(by_identity.values())

@@ -1,0 +1,249 @@
+"""From a task and options to answers: which space, from which incumbent (SPEC 3)."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+
+from search.alone import PlanGraph
+from search.best_first import Incumbent, Progress, Space, best_first
+from search.clock import Clock, OutOfTimeError
+from search.followed import Followed
+from search.free import Free
+from search.keys import INFINITE_KEY
+from search.outcome import Outcome, path_sets, path_steps, plan_steps
+from search.schedule import schedule
+from search.tables import Tables
+from search.windows import window_space
+from serendipity.model.errors import UsageError
+from serendipity.model.options import INFINITE, Options
+from serendipity.model.plans import Step, Window
+from serendipity.model.task import HumanPlan, Task
+
+
+def solve(
+    task: Task, options: Options, *, human_plan: HumanPlan | None = None, clock: Clock | None = None
+) -> Iterator[Outcome]:
+    """Answers with falling objective and rising lower bound; the last one is the best known.
+
+    Args:
+        task: the task.
+        options: options in force; ``mode`` is not ``assistance``.
+        human_plan: ``pi_H``, already replayed, or None to predict it.
+        clock: deadline and cancellation.
+
+    Raises:
+        UsageError: the horizon is shorter than ``pi_H``, or one is missing.
+    """
+    clock = clock or Clock(options.time_limit)
+    tables = Tables(task, options, clock)
+    try:
+        predicted = tables.optimal_plans() if human_plan is None else None
+        plan = human_plan if predicted is None else predicted.canonical()
+    except OutOfTimeError:
+        yield Outcome("unknown", reason="time-limit")
+        return
+    if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
+        yield Outcome("infeasible", reason="no-human-plan")
+    elif plan is not None and options.mode == "individual":
+        yield _individual(task, plan)
+    else:
+        yield from _Call(tables, plan, given=human_plan is not None).answers()
+
+
+def optimal_human_plan(task: Task) -> HumanPlan | None:
+    """The canonical optimal plan of the human alone, or None (SPEC 1)."""
+    graph = optimal_human_plans(task)
+    return None if graph is None else graph.canonical()
+
+
+def optimal_human_plans(task: Task) -> PlanGraph | None:
+    """All optimal plans of the human alone, or None where he has none."""
+    return Tables(task, Options(), Clock()).optimal_plans()
+
+
+def _individual(task: Task, plan: HumanPlan) -> Outcome:
+    cost = task.cost_of(plan)
+    return Outcome(
+        "optimal",
+        human_plan=plan,
+        horizon=len(plan),
+        steps=plan_steps(plan),
+        cost=cost,
+        objective=cost,
+        lower_bound=cost,
+        baseline=cost,
+    )
+
+
+def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
+    """``T`` (SPEC 2, 3.5)."""
+    if options.horizon is not None:
+        shortest = 0 if plan is None or options.mode == "composite" else len(plan)
+        if isinstance(options.horizon, int) and options.horizon < shortest:
+            raise UsageError(
+                f"horizon: expected at least {shortest}, the length of the human's plan, got {options.horizon}"
+            )
+        return options.horizon
+    if plan is None:
+        if options.mode == "composite":
+            return INFINITE
+        raise UsageError("horizon: must be given, since the human has no plan of his own")
+    if not plan and task.robot_goal:
+        raise UsageError("horizon: must be given, since the human's goal holds already and robots have theirs")
+    return len(plan)
+
+
+class _Call:
+    """One planning call: its incumbents and its bound.
+
+    ``baseline`` leaves the human alone; ``idle`` is the best with all robots idle;
+    ``best`` is the incumbent over everything.
+    """
+
+    def __init__(self, tables: Tables, plan: HumanPlan | None, *, given: bool) -> None:
+        self.task = tables.task
+        self.options = tables.options
+        self.clock = tables.clock
+        self.plan = plan
+        self.given = given
+        self.horizon = _horizon(self.options, self.task, plan)
+        self.epochs = None if self.horizon == INFINITE else int(self.horizon)
+        self.tables = tables.for_plan(plan or ())
+        self.keys = self.tables.keys
+        self.progress = Progress()
+        self.baseline = Incumbent(INFINITE_KEY)
+        self.idle = Incumbent(INFINITE_KEY)
+        self.best = Incumbent(INFINITE_KEY)
+
+    def answers(self) -> Iterator[Outcome]:
+        """Each better answer, then the last one with what is proved of it."""
+        try:
+            self._leave_alone()
+            self._improve_alone()
+            if self.best.key < INFINITE_KEY:
+                yield self._outcome("feasible")
+            if self.epochs != 0 or self.best.key == INFINITE_KEY:
+                for _ in best_first(self._space(), self.best, self.progress, self.clock):
+                    yield self._outcome("feasible")
+            self.progress.bound = self.best.key
+            status = "optimal" if self.best.key < INFINITE_KEY else "infeasible"
+        except OutOfTimeError:
+            status = "feasible" if self.best.key < INFINITE_KEY else "unknown"
+        yield self._outcome(status)
+
+    def _leave_alone(self) -> None:
+        """The first incumbent: the human follows ``pi_H``; robots, without him, see to ``G_R``."""
+        plan, epochs = self.plan, self.epochs
+        if plan is not None and (epochs is None or len(plan) <= epochs):
+            if not self.task.robot_goal:
+                self.baseline.key = sum(self.tables.weights.team(i) for i in plan)
+            elif epochs is not None:
+                self._pursue_robot_goal(plan, epochs)
+        if self.baseline.key < INFINITE_KEY:
+            self.best = replace(self.baseline, key=self.baseline.key + self._window_of_nothing())
+        self.idle = replace(self.best)
+
+    def _pursue_robot_goal(self, plan: HumanPlan, epochs: int) -> None:
+        space = Followed(
+            initial=self.tables.encoding.init,
+            horizon=epochs,
+            steps=self.tables.followed(plan),
+            goals=self.tables.goals,
+            successors=self.tables.successors(),
+        )
+        for _ in best_first(space, self.baseline, Progress(), self.clock):
+            pass
+
+    def _window_of_nothing(self) -> int:
+        """Doing nothing fits every window; its best is the shortest and latest (SPEC 3.1)."""
+        if not self.options.windowed or not self.plan or self.epochs is None:
+            return 0
+        return self.keys.epoch_weight + self.keys.of_start(len(self.plan), self.epochs)
+
+    def _improve_alone(self) -> None:
+        """A given plan may not be optimal: what the human gains by himself (SPEC 1)."""
+        if not self.given or self.plan is None or self.task.robot_goal:
+            return
+        optimum = self.tables.alone.key(self.tables.encoding.init)
+        if self.task.cost_of(self.plan) > self.keys.cost(optimum):
+            for _ in best_first(self._space(idle=True), self.best, Progress(), self.clock):
+                pass
+            self.idle = replace(self.best)
+
+    def _space(self, *, idle: bool = False) -> Space:
+        if self.options.windowed:
+            assert self.plan is not None and self.epochs is not None
+            return window_space(self.tables, self.plan, self.epochs, self._most_cost(), idle=idle)
+        return Free(
+            initial=self.tables.encoding.init,
+            horizon=self.epochs,
+            most_cost=self._most_cost(),
+            goals=self.tables.goals,
+            keys=self.keys,
+            successors=self.tables.successors(idle=idle),
+            bound=self.tables.bound,
+        )
+
+    def _most_cost(self) -> int | None:
+        """``max_cost`` (eq. 11), scaled and rounded down."""
+        limit = self.options.max_cost
+        if limit is None:
+            return None
+        if limit == "human":
+            return None if self.baseline.key == INFINITE_KEY else self.keys.scaled_cost(self.baseline.key)
+        return int(Fraction(limit) * self.keys.scale)
+
+    def _helps(self) -> bool:
+        """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""
+        if self.best.key >= self.idle.key or self.plan is None:
+            return False
+        return self.idle.key == INFINITE_KEY or self.keys.cost(self.best.key) < self.keys.cost(self.idle.key)
+
+    def _outcome(self, status: str) -> Outcome:
+        helps = self._helps()
+        answer = self.best
+        if self.options.windowed and not helps and self.baseline.key < INFINITE_KEY:
+            answer = self.baseline
+        has_plan = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
+        saving_alone = Fraction(0)
+        if self.baseline.key < INFINITE_KEY:
+            saving_alone = self.keys.cost(self.baseline.key) - self.keys.cost(self.idle.key)
+        return Outcome(
+            status,
+            human_plan=self.plan,
+            horizon=self.horizon,
+            reason=self._reason(status),
+            steps=self._steps(answer) if has_plan else None,
+            window=Window(answer.node.start, answer.end) if answer.node and answer.end and has_plan else None,
+            cost=self.keys.cost(answer.key) if has_plan else None,
+            objective=self.keys.objective(answer.key) if has_plan else None,
+            lower_bound=self._lower_bound(status, answer),
+            baseline=self.keys.cost(self.baseline.key) if self.baseline.key < INFINITE_KEY else None,
+            saving_alone=saving_alone,
+            opportunity=helps,
+            expanded=self.progress.expanded,
+            generated=self.progress.generated,
+        )
+
+    def _reason(self, status: str) -> str | None:
+        if status == "infeasible":
+            return "no-plan" if self.epochs is None else "no-plan-within-horizon"
+        return "time-limit" if status == "unknown" else None
+
+    def _lower_bound(self, status: str, answer: Incumbent) -> Fraction | None:
+        """On the answer's objective; net of one epoch of window where it has none."""
+        if status == "optimal":
+            return self.keys.objective(answer.key)
+        if status == "infeasible":
+            return None
+        bound = self.keys.objective(min(self.progress.bound, self.best.key))
+        if self.options.windowed and not answer.end:
+            bound -= self.options.window_weight
+        return max(bound, Fraction(0))
+
+    def _steps(self, answer: Incumbent) -> tuple[Step, ...]:
+        if answer.node is None:
+            return plan_steps(self.plan or ())
+        if self.epochs is None:
+            return schedule(self.task, path_sets(answer.node))
+        return path_steps(answer.node) + plan_steps(answer.tail, answer.end)

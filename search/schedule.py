@@ -1,0 +1,33 @@
+"""Epochs for a plan that was found without a horizon: as early as the rules allow."""
+
+from collections.abc import Sequence
+
+from serendipity.model.actions import conflicting
+from serendipity.model.plans import Step
+from serendipity.model.task import Task
+
+
+def schedule(task: Task, sets: Sequence[tuple[int, ...]]) -> tuple[Step, ...]:
+    """Steps with epochs for a sequence of action sets.
+
+    A set joins the epoch before it if it is applicable there already and disturbs
+    nothing in it, so the states that follow stay the same.
+    """
+    epochs: list[list[int]] = []
+    before = after = task.init
+    for chosen in sets:
+        actions = [task.actions[i] for i in chosen]
+        joins = bool(epochs) and all(
+            action.applicable(before)
+            and not any(conflicting(action, task.actions[i], strict=True) for i in epochs[-1])
+            for action in actions
+        )
+        if joins:
+            epochs[-1].extend(chosen)
+        else:
+            epochs.append(list(chosen))
+            before = after
+        deleted = {f for action in actions for f in action.delete}
+        added = {f for action in actions for f in action.add}
+        after = after.difference(deleted).union(added)
+    return tuple(sorted(Step(t, i) for t, ids in enumerate(epochs, start=1) for i in ids))

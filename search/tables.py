@@ -1,0 +1,101 @@
+"""What every search of one call shares: packed task, key weights, bounds, the human alone."""
+
+from functools import cached_property
+
+from search.alone import Alone, PlanGraph
+from search.clock import Clock
+from search.encoding import Encoding, Goal, Op, encoding, full_encoding, human_facts
+from search.keys import INFINITE_KEY, Weights
+from search.projection import Projection, human_projection
+from search.successors import Option, Successors
+from serendipity.model.actions import Condition
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan, Task
+
+
+class Tables:
+    """Tables of one call.
+
+    Args:
+        task: the task.
+        options: options in force.
+        clock: asked for time while tables are built.
+        plan: ``pi_H`` where it is known; None while it is being predicted.
+    """
+
+    def __init__(self, task: Task, options: Options, clock: Clock, plan: HumanPlan | None = None) -> None:
+        self.task = task
+        self.options = options
+        self.clock = clock
+        self.encoding = full_encoding(task) if options.preservation == "state" else encoding(task)
+        if plan is not None and not self._covers(plan):
+            needed = {f for i in plan for f in (*task.actions[i].pre, *task.actions[i].neg)}
+            extra = human_facts(task) if options.preservation == "state" else frozenset()
+            self.encoding = Encoding(task, extra | needed)
+        self.weights = Weights(task, options, plan)
+        self.keys = self.weights.keys
+
+    def for_plan(self, plan: HumanPlan) -> "Tables":
+        """Tables in which ``pi_H`` is known; these ones, where that makes no difference."""
+        announces = self.options.mode == "communication" and self.options.communication_weight > 0
+        if announces or not self._covers(plan):
+            return Tables(self.task, self.options, self.clock, plan)
+        return self
+
+    def _covers(self, plan: HumanPlan) -> bool:
+        """Whether the encoding packs what every action of a plan asks for."""
+        bits = self.encoding.fact_bits
+        actions = (self.task.actions[i] for i in plan)
+        return all(bits[f] is not None for action in actions for f in (*action.pre, *action.neg))
+
+    @cached_property
+    def bound(self) -> Projection:
+        """Lower bound on what the human still has to pay for ``G_H``."""
+        return human_projection(self.encoding, self.encoding.goal, self.weights.bound, self.clock)
+
+    @cached_property
+    def alone(self) -> Alone:
+        """The human by himself, to ``G_H``."""
+        return Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, self.clock)
+
+    @cached_property
+    def alone_to_both(self) -> Alone | None:
+        """The human by himself, to ``G_H`` and ``G_R``; None where he can't affect ``G_R``."""
+        robot_goal = self.task.robot_goal
+        touched = {*robot_goal.positive, *robot_goal.negative}
+        affects = any(
+            touched.intersection(action.add) or touched.intersection(action.delete)
+            for action in (self.task.actions[i] for i in self.task.human_actions)
+        )
+        if not affects:
+            return None
+        goal = self.encoding.condition(_both(self.task))
+        return Alone(self.encoding, goal, self.weights.alone, self.bound, self.clock)
+
+    def successors(self, *, idle: bool = False) -> Successors:
+        """Action sets under the interference rule; with ``idle`` robots do nothing."""
+        return Successors(self.encoding, self.weights.team, strict=self.options.strict, idle=idle)
+
+    @property
+    def goals(self) -> tuple[Goal, ...]:
+        """``G_H`` and ``G_R``, packed."""
+        return self.encoding.goal, self.encoding.robot_goal
+
+    def optimal_plans(self) -> PlanGraph | None:
+        """The human's optimal plans from ``I``, or None where he has none."""
+        if self.alone.key(self.encoding.init) >= INFINITE_KEY:
+            return None
+        return self.alone.optimal_plans(self.encoding.init)
+
+    def followed(self, plan: HumanPlan) -> list[tuple[Op, Option]]:
+        """The packed actions of a human plan and what they do, in order."""
+        ops = [self.encoding.op(i) for i in plan]
+        weight = self.weights.team
+        return [(op, Option(weight(op.action), op.keep, op.put, (op.action,), op.agents)) for op in ops]
+
+
+def _both(task: Task) -> Condition:
+    return Condition(
+        tuple(sorted({*task.goal.positive, *task.robot_goal.positive})),
+        tuple(sorted({*task.goal.negative, *task.robot_goal.negative})),
+    )

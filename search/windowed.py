@@ -1,0 +1,236 @@
+"""Serendipity: a prefix that leaves the human alone, a window, a suffix (SPEC 3.1).
+
+Nodes are (phase, epoch, packed state).  In the prefix the human follows ``pi_H``
+(or, where the robot may announce itself, does any actions of ``pi_H``); a window
+may open before any epoch; each epoch inside it may be its last.
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import Protocol
+
+from search.best_first import Incumbent, Node
+from search.encoding import Op, applicable
+from search.keys import INFINITE_KEY, Keys
+from search.labels import Labels
+from search.projection import Projection
+from search.successors import NOTHING, Option, Successors
+from search.suffix import Suffix
+
+PREFIX, WINDOW = 0, 1
+
+
+class Prefix(Protocol):
+    """What the human may do before the window, and a bound on what follows.
+
+    Attributes:
+        last: the last epoch in which a window may open (``xi1 <= |pi_H|``).
+    """
+
+    last: int
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """The human's part of ``epoch`` from a packed state."""
+
+    def bound(self, epoch: int, state: int) -> int:
+        """Least key increment from a prefix node after ``epoch``, window included."""
+
+    def worth_keeping(self, epoch: int, state: int, key: int) -> bool:
+        """Record a prefix node; False if one already there dominates it."""
+
+    def alive(self, epoch: int, state: int, key: int) -> bool:
+        """Whether a recorded node has not been superseded since."""
+
+
+class Timetable:
+    """Rule 1: in epoch ``t`` the human does exactly ``pi_H[t]`` (Def. 3.0).
+
+    His private variables follow ``pi_H``, so the bound is known per epoch in advance.
+
+    Args:
+        steps: his packed actions and what they do, in order.
+        bounds: least key increment after ``0 .. |pi_H| - 1`` epochs of the prefix.
+    """
+
+    def __init__(self, steps: list[tuple[Op, Option]], bounds: list[int]) -> None:
+        self.last = len(steps)
+        self._steps = steps
+        self._bounds = bounds
+        self._best: dict[tuple[int, int], int] = {}
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """See :class:`Prefix`."""
+        op, option = self._steps[epoch - 1]
+        return (option,) if applicable(op, state) else ()
+
+    def bound(self, epoch: int, state: int) -> int:
+        """See :class:`Prefix`."""
+        return self._bounds[epoch]
+
+    def worth_keeping(self, epoch: int, state: int, key: int) -> bool:
+        """See :class:`Prefix`."""
+        if key >= self._best.get((epoch, state), INFINITE_KEY):
+            return False
+        self._best[epoch, state] = key
+        return True
+
+    def alive(self, epoch: int, state: int, key: int) -> bool:
+        """See :class:`Prefix`."""
+        return self._best[epoch, state] == key
+
+
+class AnyOfPlan:
+    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (SPEC 3.4)."""
+
+    def __init__(
+        self,
+        *,
+        successors: Successors,
+        planned: frozenset[int],
+        last: int,
+        bound: Projection,
+        opening: int,
+        labels: Labels,
+    ) -> None:
+        self.last = last
+        self._successors = successors
+        self._planned = planned
+        self._projection = bound
+        self._opening = opening
+        self._labels = labels
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """See :class:`Prefix`."""
+        own = (o for o in self._successors.human(state) if o.actions[0] in self._planned)
+        return (NOTHING, *own)
+
+    def bound(self, epoch: int, state: int) -> int:
+        """See :class:`Prefix`."""
+        return self._projection(state) + self._opening
+
+    def worth_keeping(self, epoch: int, state: int, key: int) -> bool:
+        """See :class:`Prefix`."""
+        return self._labels.add(state, epoch, key)
+
+    def alive(self, epoch: int, state: int, key: int) -> bool:
+        """See :class:`Prefix`."""
+        return self._labels.alive(state, epoch, key)
+
+
+class Windowed:
+    """The search space of plans with a window.
+
+    Args:
+        initial: packed initial state.
+        horizon: number of epochs ``T``.
+        max_window: most epochs of a window.
+        most_cost: largest scaled cost of an acceptable plan, or None.
+        keys: layout of keys.
+        successors: what agents can do in an epoch.
+        bound: lower bound on what the human still has to pay.
+        prefix: rule 1.
+        suffix: rule 3.
+        labels: dominance among nodes of the window.
+    """
+
+    def __init__(
+        self,
+        *,
+        initial: int,
+        horizon: int,
+        max_window: int,
+        most_cost: int | None,
+        keys: Keys,
+        successors: Successors,
+        bound: Projection,
+        prefix: Prefix,
+        suffix: Suffix,
+        labels: Labels,
+    ) -> None:
+        self._initial = initial
+        self._horizon = horizon
+        self._max_window = max_window
+        self._most_cost = most_cost
+        self._keys = keys
+        self._successors = successors
+        self._bound = bound
+        self._prefix = prefix
+        self._suffix = suffix
+        self._labels = labels
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The initial state, in the prefix."""
+        if self._prefix.last >= 1:
+            self._prefix.worth_keeping(0, self._initial, 0)
+            root = Node(0, 0, self._initial, PREFIX, 0, None, ())
+            yield self._prefix.bound(0, self._initial), root
+
+    def alive(self, node: Node) -> bool:
+        """Whether no better node makes this one superfluous."""
+        if node.phase == PREFIX:
+            return self._prefix.alive(node.epoch, node.state, node.key)
+        return self._labels.alive(node.state, node.epoch, node.key)
+
+    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors of a node; ends of windows are offered to ``best``."""
+        if node.phase == WINDOW:
+            yield from self._inside(node, best)
+            return
+        yield from self._open(node)
+        if node.epoch + 1 < self._prefix.last:
+            yield from self._follow(node, best)
+
+    def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
+        start = node.epoch + 1
+        key = node.key + self._keys.of_start(start, self._horizon)
+        bound = key + self._keys.epoch_weight + self._bound(node.state)
+        if not self._too_dear(bound) and self._labels.add(node.state, node.epoch, key):
+            yield bound, node._replace(key=key, phase=WINDOW, start=start)
+
+    def _follow(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        epoch = node.epoch + 1
+        for part in self._prefix.options(epoch, node.state):
+            for option in self._successors.with_robots(part, node.state):
+                state = node.state & option.keep | option.put
+                key = node.key + option.weight
+                bound = key + self._prefix.bound(epoch, state)
+                if bound >= best.key or self._too_dear(bound):
+                    continue
+                if self._prefix.worth_keeping(epoch, state, key):
+                    yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions)
+
+    def _inside(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        epoch = node.epoch + 1
+        if epoch > self._horizon:
+            return
+        base = node.key + self._keys.epoch_weight
+        again = self._keys.epoch_weight
+        goes_on = epoch < self._horizon and epoch - node.start + 1 < self._max_window
+        successors, state = self._successors, node.state
+        for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+            # Robots don't change the variables that the bound looks at.
+            rest = self._bound(state & part.keep | part.put)
+            if base + part.weight + rest >= best.key:
+                continue
+            for option in successors.with_robots(part, state):
+                key = base + option.weight
+                bound = key + rest
+                if bound >= best.key or self._too_dear(bound):
+                    break
+                after = state & option.keep | option.put
+                child = Node(key, epoch, after, WINDOW, node.start, node, option.actions)
+                self._end(child, best)
+                bound += again
+                if goes_on and bound < best.key and self._labels.add(after, epoch, key):
+                    yield bound, child
+
+    def _end(self, node: Node, best: Incumbent) -> None:
+        """Offer the plan whose window ends after the node."""
+        left = self._horizon - node.epoch
+        limit = best.key - node.key
+        rest = self._suffix.key(node.state, left, node.start, limit)
+        if rest < limit and not self._too_dear(node.key + rest):
+            best.key, best.node, best.end = node.key + rest, node, node.epoch + 1
+            best.tail = self._suffix.actions(node.state, left, node.start)
+
+    def _too_dear(self, key: int) -> bool:
+        return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

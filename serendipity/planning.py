@@ -1,0 +1,183 @@
+"""The facade over the search: options in, results out, incumbents on the way."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import fields, replace
+from fractions import Fraction
+from typing import Any
+
+from search import Clock, Outcome, optimal_human_plans, solve
+from serendipity.model.errors import UsageError
+from serendipity.model.options import Options
+from serendipity.model.plans import Step
+from serendipity.model.result import PlanStep, Result
+from serendipity.model.task import HumanPlan, Task
+
+
+def plan(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> Result:
+    """The best plan in which robots help the human, with a proof that none is better.
+
+    Args:
+        task: the task.
+        human_plan: names of the actions that the human is going to do; None predicts
+            an optimal plan of his (SPEC 1).
+        **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
+            ``discount=0.6``, ``time_limit=0.1`` (seconds) and so on.
+
+    Raises:
+        UsageError: an option is unknown or has no legal value.
+        PlanError: ``human_plan`` can't be executed, or misses the goal.
+    """
+    *_, last = plan_anytime(task, human_plan=human_plan, **options)
+    return last
+
+
+def plan_anytime(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> Iterator[Result]:
+    """Answers with falling objective and rising lower bound; the last is what :func:`plan` returns.
+
+    Args and errors are those of :func:`plan`.
+    """
+    chosen = options_from(options)
+    clock = Clock(chosen.time_limit)
+    given = None if human_plan is None else task.plan_from_names(human_plan)
+    if chosen.ties != "fixed" and given is None and _depends_on_ties(chosen):
+        yield _over_ties(task, chosen, clock)
+        return
+    for outcome in solve(task, chosen, human_plan=given, clock=clock):
+        yield to_result(task, chosen, outcome, clock)
+
+
+def options_from(given: dict[str, Any]) -> Options:
+    """Options from keyword arguments.
+
+    Raises:
+        UsageError: an option is unknown or has no legal value.
+    """
+    known = [field.name for field in fields(Options)]
+    for name in given:
+        if name not in known:
+            raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
+    chosen = Options(**given)
+    if chosen.mode == "assistance" or chosen.human_model != "omniscient":
+        raise UsageError("mode 'assistance' and human models other than 'omniscient' are not available yet")
+    return chosen
+
+
+def _depends_on_ties(options: Options) -> bool:
+    return options.mode in ("serendipity", "communication")
+
+
+def _over_ties(task: Task, options: Options, clock: Clock) -> Result:
+    """The task solved once for each optimal ``pi_H`` (SPEC 1)."""
+    graph = optimal_human_plans(task)
+    if graph is None:
+        *_, only = solve(task, options, clock=clock)
+        return to_result(task, options, only, clock)
+    count = graph.count()
+    if count > options.max_ties:
+        raise UsageError(
+            f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
+            "raise max_ties, or use ties 'fixed'"
+        )
+    answers = [_last(task, options, human_plan, clock) for human_plan in graph.plans()]
+    ties = [
+        {"human_plan": list(answer.human_plan or ()), "cost": answer.cost, "opportunity": answer.opportunity}
+        for answer in answers
+    ]
+    chosen = _mean(answers) if options.ties == "expected" else _extreme(answers, options.ties)
+    statistics = {**chosen.statistics, "elapsed_seconds": clock.elapsed(), "ties": ties}
+    return replace(chosen, statistics=statistics)
+
+
+def _last(task: Task, options: Options, human_plan: HumanPlan, clock: Clock) -> Result:
+    *_, outcome = solve(task, options, human_plan=human_plan, clock=clock)
+    return to_result(task, options, outcome, clock)
+
+
+def _extreme(answers: list[Result], ties: str) -> Result:
+    """The answer of least (optimistic) or greatest (robust) cost; the first of equals."""
+    sign = 1 if ties == "optimistic" else -1
+    costs = [None if answer.cost is None else Fraction(str(answer.cost)) * sign for answer in answers]
+    if None in costs:
+        return answers[costs.index(None)]
+    return answers[min(range(len(answers)), key=lambda i: (costs[i], i))]
+
+
+def _mean(answers: list[Result]) -> Result:
+    """The expected answer: means of the figures, no single plan."""
+    first = answers[0]
+    if any(answer.status != "optimal" for answer in answers):
+        return next(answer for answer in answers if answer.status != "optimal")
+    if len(answers) == 1:
+        return first
+
+    def mean(name: str) -> float:
+        return float(sum(Fraction(str(getattr(answer, name) or 0)) for answer in answers) / len(answers))
+
+    return replace(
+        first,
+        opportunity=any(answer.opportunity for answer in answers),
+        cost=mean("cost"),
+        saving=mean("saving"),
+        objective=mean("objective"),
+        lower_bound=mean("lower_bound"),
+        window=None,
+        plan=None,
+        agent_costs={},
+    )
+
+
+def to_result(task: Task, options: Options, outcome: Outcome, clock: Clock) -> Result:
+    """An outcome of the search in the form that callers see."""
+    steps = None if outcome.steps is None else tuple(_step(task, options, step) for step in outcome.steps)
+    human_plan = outcome.human_plan
+    return Result(
+        mode=options.mode,
+        status=outcome.status,
+        human=task.agents[task.human],
+        options=options,
+        human_plan=None if human_plan is None else tuple(task.actions[i].name for i in human_plan),
+        human_cost=None if human_plan is None else float(task.cost_of(human_plan)),
+        opportunity=outcome.opportunity,
+        cost=_float(outcome.cost),
+        saving=_float(_saving(outcome)),
+        objective=_float(outcome.objective),
+        lower_bound=_float(outcome.lower_bound),
+        horizon=outcome.horizon,
+        window=outcome.window,
+        reason=outcome.reason,
+        saving_alone=None if outcome.baseline is None else float(outcome.saving_alone),
+        plan=steps,
+        agent_costs={} if outcome.steps is None else _agent_costs(task, options, outcome.steps),
+        statistics={
+            "elapsed_seconds": clock.elapsed(),
+            "expanded": outcome.expanded,
+            "generated": outcome.generated,
+        },
+    )
+
+
+def _saving(outcome: Outcome) -> Fraction | None:
+    if outcome.baseline is None or outcome.cost is None:
+        return None
+    return outcome.baseline - outcome.cost if outcome.opportunity else Fraction(0)
+
+
+def _float(value: Fraction | None) -> float | None:
+    return None if value is None else float(value)
+
+
+def _step(task: Task, options: Options, step: Step) -> PlanStep:
+    action = task.actions[step.action]
+    agents = tuple(task.agents[i] for i in action.participants)
+    return PlanStep(step.epoch, agents, action.name, float(task.team_cost(action, options.discount)))
+
+
+def _agent_costs(task: Task, options: Options, steps: tuple[Step, ...]) -> dict[str, float]:
+    """What each agent contributes; a joint action's cost is shared equally."""
+    costs = {agent: Fraction(0) for agent in task.agents}
+    for step in steps:
+        action = task.actions[step.action]
+        share = task.team_cost(action, options.discount) / len(action.participants)
+        for agent in action.participants:
+            costs[task.agents[agent]] += share
+    return {agent: float(cost) for agent, cost in costs.items()}
