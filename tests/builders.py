@@ -6,7 +6,7 @@ in ``task`` are single words; those of ``usar`` are PDDL atoms (``at h a0``).
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from itertools import permutations
+from itertools import pairwise, permutations
 
 from serendipity.model import Condition, GroundAction, Task
 
@@ -170,7 +170,7 @@ def _pairs(edges: str) -> list[tuple[str, str]]:
     pairs = []
     for chain in edges.replace(",", " ").split():
         rooms = chain.split("-")
-        for a, b in zip(rooms, rooms[1:], strict=False):
+        for a, b in pairwise(rooms):
             pairs += [(a, b), (b, a)]
     return pairs
 

@@ -1,4 +1,4 @@
-"""Profiles of hypothesis, warnings as errors, the marker ``slow``, data that may be absent."""
+"""Profiles of hypothesis (``HYPOTHESIS_PROFILE=fuzz`` for the long one), data that may be absent."""
 
 import os
 from pathlib import Path
@@ -9,28 +9,10 @@ from hypothesis import HealthCheck, settings
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
-settings.register_profile("ci", derandomize=True, max_examples=150, database=None, **_CALM)
+settings.register_profile("ci", derandomize=True, max_examples=100, database=None, **_CALM)
 settings.register_profile("dev", max_examples=50, **_CALM)
 settings.register_profile("fuzz", max_examples=3000, print_blob=True, **_CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
-
-
-def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--slow", action="store_true", help="run the tests marked slow too")
-
-
-def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "slow: takes more than a few seconds; runs with --slow")
-    config.addinivalue_line("filterwarnings", "error")
-
-
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    if config.getoption("--slow"):
-        return
-    skip = pytest.mark.skip(reason="slow; run with --slow")
-    for item in items:
-        if "slow" in item.keywords:
-            item.add_marker(skip)
 
 
 def _data(name: str) -> Path:

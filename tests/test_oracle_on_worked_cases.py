@@ -8,7 +8,6 @@ from serendipity.model import Options, Task, UsageError, Window
 from tests.cases import CASE_3_PLAN, WORKED, Worked, case_2, case_3, case_4, case_7, case_8, case_9, case_10
 from tests.oracle import action_sets_of_names, best, human_plans, optimal_human_plan
 
-
 QUICK = (case_2, case_3, case_8, case_9, case_10)
 
 
@@ -61,7 +60,8 @@ def test_case_7_which_actions_share_an_epoch() -> None:
     assert _allowed(task, "move h a b", robot.format("k1"))
     held = case_7(first_kit="@h")
     drop, hand = "drop_off h k1 a", "hand_over h rob k1 a"
-    assert _allowed(held, drop) and _allowed(held, hand)
+    assert _allowed(held, drop)
+    assert _allowed(held, hand)
     assert not _allowed(held, drop, robot.format("k2"))
     assert not _allowed(held, hand, robot.format("k2"))
     assert not _allowed(held, hand, "move rob a b")

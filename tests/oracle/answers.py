@@ -140,12 +140,12 @@ class Solver:
         return min(self._goal_labels(layer), key=lambda label: label[1:], default=None)
 
     def _idle(self, baseline: Label | None) -> int | None:
-        """Cost of the answer with all robots idle; differs from the baseline if a given plan is not optimal."""
+        """Cost of the answer with all robots idle: less than the baseline if a given plan can be improved."""
         if not self.given or self.robots_goal or baseline is None:
             return None if baseline is None else baseline[1]
         idle = Solver(_without_robots(self.task), self.options, self.human_plan, given=False)
         idle.unit = self.unit
-        idle.human_plan = _renumbered(self.task, idle.task, self.human_plan or ())
+        idle.human_plan = _renumbered(self.task, self.human_plan or ())
         found = min(idle._candidates(baseline), key=Candidate.order)
         return found.label[1]
 
@@ -172,16 +172,18 @@ class Solver:
         if baseline is not None:
             assert idle is not None
             known = replace(known, saving=Fraction(0), saving_alone=self._cost(baseline[1] - idle))
-        if found is not None and (idle is None or found.label[1] < idle):
+        helps = found is not None and (idle is None or found.label[1] < idle)
+        if found is not None and (helps or not self.options.windowed):
             _, spent, actions = found.label
-            saving = None if baseline is None else self._cost(baseline[1] - spent)
+            helps = helps and self.human_plan is not None
+            saving = None if baseline is None else self._cost(baseline[1] - spent if helps else 0)
             return replace(
                 known,
                 cost=self._cost(spent),
                 objective=self._cost(found.objective),
                 window=found.window,
                 actions=actions,
-                opportunity=True,
+                opportunity=helps,
                 saving=saving,
             )
         if baseline is None:
@@ -323,5 +325,5 @@ def _without_robots(task: Task) -> Task:
     return replace(task, actions=tuple(task.actions[i] for i in task.human_actions))
 
 
-def _renumbered(task: Task, idle: Task, plan: HumanPlan) -> HumanPlan:
+def _renumbered(task: Task, plan: HumanPlan) -> HumanPlan:
     return tuple(task.human_actions.index(i) for i in plan)
