@@ -99,7 +99,7 @@ class Alone:
         self._lookup = Lookup(encoding, own, weight)
         self._bound = bound
         self._clock = clock
-        mask = goal.need_mask
+        mask = goal.need_mask | bound.mask
         for m, _ in goal.forbidden:
             mask |= m
         for i in own:

@@ -119,13 +119,11 @@ class Encoding:
             self._compatible[key] = answer
         return answer
 
-    def mask_of(self, facts: Iterable[int]) -> int:
-        """The union of the fields of the packed ones among ``facts``."""
+    def changed_by(self, ops: Iterable[Op]) -> int:
+        """The union of the fields that some of ``ops`` set."""
         mask = 0
-        for fact in facts:
-            bits = self.fact_bits[fact]
-            if bits is not None:
-                mask |= bits[0]
+        for op in ops:
+            mask |= self.all_ones & ~op.keep
         return mask
 
     def _literals(

@@ -12,7 +12,7 @@ class Followed:
 
     Args:
         initial: packed initial state.
-        horizon: number of epochs ``T``.
+        horizon: number of epochs ``T``, or None for any.
         steps: the human's packed actions and what they do, in order.
         goals: what has to hold at the end.
         successors: what agents can do in an epoch.
@@ -22,7 +22,7 @@ class Followed:
         self,
         *,
         initial: int,
-        horizon: int,
+        horizon: int | None,
         steps: list[tuple[Op, Option]],
         goals: tuple[Goal, ...],
         successors: Successors,
@@ -54,7 +54,8 @@ class Followed:
             best.key, best.node = node.key, node
         if node.epoch == self._horizon:
             return
-        epoch = node.epoch + 1
+        # Without a horizon, epochs after the end of pi_H need no telling apart.
+        epoch = node.epoch + (self._horizon is not None or not done)
         part = NOTHING
         if not done:
             op, part = self._steps[node.epoch]

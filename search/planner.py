@@ -78,7 +78,7 @@ def _individual(task: Task, plan: HumanPlan) -> Outcome:
 def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
     """``T`` (SPEC 2, 3.5)."""
     if options.horizon is not None:
-        shortest = 0 if plan is None or options.mode == "composite" else len(plan)
+        shortest = 0 if plan is None else len(plan)
         if isinstance(options.horizon, int) and options.horizon < shortest:
             raise UsageError(
                 f"horizon: expected at least {shortest}, the length of the human's plan, got {options.horizon}"
@@ -137,16 +137,16 @@ class _Call:
         if plan is not None and (epochs is None or len(plan) <= epochs):
             if not self.task.robot_goal:
                 self.baseline.key = sum(self.tables.weights.team(i) for i in plan)
-            elif epochs is not None:
-                self._pursue_robot_goal(plan, epochs)
+            else:
+                self._pursue_robot_goal(plan)
         if self.baseline.key < INFINITE_KEY:
             self.best = replace(self.baseline, key=self.baseline.key + self._window_of_nothing())
         self.idle = replace(self.best)
 
-    def _pursue_robot_goal(self, plan: HumanPlan, epochs: int) -> None:
+    def _pursue_robot_goal(self, plan: HumanPlan) -> None:
         space = Followed(
             initial=self.tables.encoding.init,
-            horizon=epochs,
+            horizon=self.epochs,
             steps=self.tables.followed(plan),
             goals=self.tables.goals,
             successors=self.tables.successors(),

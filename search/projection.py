@@ -53,12 +53,10 @@ def human_projection(
     task = encoding.task
     human_bit = 1 << task.human
     ops = [encoding.op(i) for i in encoding.useful]
-    shared = 0
-    for op in ops:
-        if not op.agents & human_bit:
-            shared |= encoding.all_ones & ~op.keep
     own = [op for op in ops if op.agents & human_bit]
-    private = [mask for mask in encoding.fields if not mask & shared]
+    others = [op for op in ops if not op.agents & human_bit]
+    changed, shared = encoding.changed_by(own), encoding.changed_by(others)
+    private = [mask for mask in encoding.fields if mask & changed and not mask & shared]
     for fields in _patterns(private, goal):
         distances = _distances(encoding.init, fields, own, goal, weight, clock)
         if distances is not None:

@@ -10,7 +10,7 @@ from typing import Protocol
 
 from search.best_first import Incumbent, Node
 from search.encoding import Op, applicable
-from search.keys import INFINITE_KEY, Keys
+from search.keys import Keys
 from search.labels import Labels
 from search.projection import Projection
 from search.successors import NOTHING, Option, Successors
@@ -34,12 +34,6 @@ class Prefix(Protocol):
     def bound(self, epoch: int, state: int) -> int:
         """Least key increment from a prefix node after ``epoch``, window included."""
 
-    def worth_keeping(self, epoch: int, state: int, key: int) -> bool:
-        """Record a prefix node; False if one already there dominates it."""
-
-    def alive(self, epoch: int, state: int, key: int) -> bool:
-        """Whether a recorded node has not been superseded since."""
-
 
 class Timetable:
     """Rule 1: in epoch ``t`` the human does exactly ``pi_H[t]`` (Def. 3.0).
@@ -55,7 +49,6 @@ class Timetable:
         self.last = len(steps)
         self._steps = steps
         self._bounds = bounds
-        self._best: dict[tuple[int, int], int] = {}
 
     def options(self, epoch: int, state: int) -> Iterable[Option]:
         """See :class:`Prefix`."""
@@ -65,17 +58,6 @@ class Timetable:
     def bound(self, epoch: int, state: int) -> int:
         """See :class:`Prefix`."""
         return self._bounds[epoch]
-
-    def worth_keeping(self, epoch: int, state: int, key: int) -> bool:
-        """See :class:`Prefix`."""
-        if key >= self._best.get((epoch, state), INFINITE_KEY):
-            return False
-        self._best[epoch, state] = key
-        return True
-
-    def alive(self, epoch: int, state: int, key: int) -> bool:
-        """See :class:`Prefix`."""
-        return self._best[epoch, state] == key
 
 
 class AnyOfPlan:
@@ -89,14 +71,12 @@ class AnyOfPlan:
         last: int,
         bound: Projection,
         opening: int,
-        labels: Labels,
     ) -> None:
         self.last = last
         self._successors = successors
         self._planned = planned
         self._projection = bound
         self._opening = opening
-        self._labels = labels
 
     def options(self, epoch: int, state: int) -> Iterable[Option]:
         """See :class:`Prefix`."""
@@ -106,14 +86,6 @@ class AnyOfPlan:
     def bound(self, epoch: int, state: int) -> int:
         """See :class:`Prefix`."""
         return self._projection(state) + self._opening
-
-    def worth_keeping(self, epoch: int, state: int, key: int) -> bool:
-        """See :class:`Prefix`."""
-        return self._labels.add(state, epoch, key)
-
-    def alive(self, epoch: int, state: int, key: int) -> bool:
-        """See :class:`Prefix`."""
-        return self._labels.alive(state, epoch, key)
 
 
 class Windowed:
@@ -156,18 +128,19 @@ class Windowed:
         self._prefix = prefix
         self._suffix = suffix
         self._labels = labels
+        self._followed: dict[tuple[int, int], int] = {}
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, in the prefix."""
         if self._prefix.last >= 1:
-            self._prefix.worth_keeping(0, self._initial, 0)
+            self._followed[0, self._initial] = 0
             root = Node(0, 0, self._initial, PREFIX, 0, None, ())
             yield self._prefix.bound(0, self._initial), root
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
         if node.phase == PREFIX:
-            return self._prefix.alive(node.epoch, node.state, node.key)
+            return self._followed[node.epoch, node.state] == node.key
         return self._labels.alive(node.state, node.epoch, node.key)
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
@@ -195,7 +168,8 @@ class Windowed:
                 bound = key + self._prefix.bound(epoch, state)
                 if bound >= best.key or self._too_dear(bound):
                     continue
-                if self._prefix.worth_keeping(epoch, state, key):
+                if key < self._followed.get((epoch, state), best.key):
+                    self._followed[epoch, state] = key
                     yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions)
 
     def _inside(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:

@@ -36,7 +36,7 @@ def window_space(
         keys=tables.keys,
         successors=successors,
         bound=tables.bound,
-        prefix=_prefix(tables, plan, horizon, successors, Labels(no_worse)),
+        prefix=_prefix(tables, plan, horizon, successors),
         suffix=_suffix(tables, plan),
         labels=Labels(no_worse),
     )
@@ -59,9 +59,7 @@ def _no_worse(
     return no_worse
 
 
-def _prefix(
-    tables: Tables, plan: HumanPlan, horizon: int, successors: Successors, labels: Labels
-) -> Prefix:
+def _prefix(tables: Tables, plan: HumanPlan, horizon: int, successors: Successors) -> Prefix:
     if tables.options.keep_prefix:
         opening = tables.keys.epoch_weight + tables.keys.of_start(len(plan), horizon)
         return AnyOfPlan(
@@ -70,7 +68,6 @@ def _prefix(
             last=len(plan),
             bound=tables.bound,
             opening=opening,
-            labels=labels,
         )
     return Timetable(tables.followed(plan), _bounds_along(tables, plan, horizon))
 

@@ -134,8 +134,8 @@ class Solver:
         assert self.horizon is not None
         epochs = self.horizon
         for t in range(1, len(plan) + 1):
-            layer = advance(layer, self._moves("prefix", t))
-        idle_human = self._moves("prefix", len(plan) + 1)
+            layer = advance(layer, self._moves("follow", t))
+        idle_human = self._moves("follow", len(plan) + 1)
         layer = _advanced(layer, idle_human, None if epochs == "inf" else int(epochs) - len(plan))
         return min(self._goal_labels(layer), key=lambda label: label[1:], default=None)
 
@@ -228,7 +228,7 @@ class Solver:
     def _moves(self, phase: str, epoch: int) -> Moves:
         """All action sets that a phase allows, as (next state, label)."""
         fixed = (
-            self.human_plan[epoch - 1] if phase == "prefix" and epoch <= len(self.human_plan or ()) else None
+            self.human_plan[epoch - 1] if phase != "free" and epoch <= len(self.human_plan or ()) else None
         )  # type: ignore[index]
         key = (phase, fixed)
 
@@ -245,7 +245,7 @@ class Solver:
         steps: dict[State, list[Label]] = {}
         for chosen in action_sets(self.task, state, everything, strict=self.options.strict):
             his = tuple(i for i in chosen if self.task.human in actions[i].participants)
-            if phase == "prefix" and not self._prefix_allows(his, fixed):
+            if phase != "free" and not self._prefix_allows(phase, his, fixed):
                 continue
             step = NOTHING
             for i in chosen:
@@ -255,8 +255,8 @@ class Solver:
             for label in front(labels):
                 yield next_state, label
 
-    def _prefix_allows(self, his: tuple[int, ...], fixed: int | None) -> bool:
-        if self.options.keep_prefix:
+    def _prefix_allows(self, phase: str, his: tuple[int, ...], fixed: int | None) -> bool:
+        if phase == "prefix" and self.options.keep_prefix:
             return all(i in (self.human_plan or ()) for i in his)
         return his == (() if fixed is None else (fixed,))
 
