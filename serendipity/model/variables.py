@@ -7,7 +7,7 @@ produces a member must consume another.  The idea is the mutex groups of SAS+
 (Baeckstroem and Nebel 1995), found on ground actions.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -65,75 +65,124 @@ def keeps_exactly_one(group: frozenset[int], action: GroundAction) -> bool:
 
 
 class _GroupFinder:
+    """Grows a group from a fact that is true initially, and drops what does not fit.
+
+    An action *consumes* the facts that it needs and deletes.  The group of a seed is
+    the closure under "consumes a member, so what it adds is a member"; members break
+    the group where an action adds one without consuming one, adds two, or deletes one
+    that it need not have found true.  They are excluded, and the closure is taken anew.
+    Everything is linear in the number of actions that touch a group.
+    """
+
     def __init__(self, n_facts: int, init: frozenset[int], actions: Sequence[GroundAction]) -> None:
         self.init = init
-        self.taken: set[int] = set()
-        self.adders: list[list[GroundAction]] = [[] for _ in range(n_facts)]
-        self.deleters: list[list[GroundAction]] = [[] for _ in range(n_facts)]
-        self.consumed: set[int] = set()
-        for action in actions:
+        self.actions = actions
+        self.blocked = set(init)
+        self.adders: list[list[int]] = [[] for _ in range(n_facts)]
+        self.consumers: list[list[int]] = [[] for _ in range(n_facts)]
+        self.strayers: list[list[int]] = [[] for _ in range(n_facts)]  # delete it without need
+        self.sources: dict[int, list[set[int]]] = {}
+        for i, action in enumerate(actions):
+            pre = action.pre
+            consumed = [fact for fact in action.delete if fact in pre]
             for fact in action.add:
-                self.adders[fact].append(action)
-            for fact in action.delete:
-                self.deleters[fact].append(action)
-            self.consumed.update(fact for fact in action.delete if fact in action.pre)
+                self.adders[fact].append(i)
+            for fact in consumed:
+                self.consumers[fact].append(i)
+            if len(consumed) < len(action.delete):
+                for fact in action.delete:
+                    if fact not in pre:
+                        self.strayers[fact].append(i)
+            if init.issuperset(consumed):
+                for fact in action.add:
+                    if fact not in pre:
+                        self.sources.setdefault(fact, []).append(set(consumed))
 
     def groups(self) -> list[tuple[int, ...]]:
         found = []
         for seed in sorted(self.init):
-            if seed in self.taken or not self.deleters[seed]:
-                continue
-            group = self._grow(seed)
-            if group is not None and len(group) > 1:
-                found.append(tuple(sorted(group)))
-                self.taken |= group
+            if self.consumers[seed]:
+                group = self._grow(seed)
+                if len(group) > 1:
+                    found.append(tuple(sorted(group)))
+                    self.blocked |= group
         return found
 
-    def _grow(self, seed: int) -> set[int] | None:
-        """Attempts that rule out, one by one, the members that can't be balanced."""
+    def _grow(self, seed: int) -> set[int]:
+        """The group of a seed; empty if there is none."""
         excluded: set[int] = set()
+        if self._appears_otherwise(seed, seed):
+            return set()
         for _ in range(_MAX_ATTEMPTS):
-            group, culprit = self._attempt(seed, excluded)
-            if culprit is None:
-                return group if self._holds(frozenset(group)) else None
-            if culprit == seed:
-                return None
-            excluded.add(culprit)
-        return None
+            group = self._closure(seed, excluded)
+            misfits = self._unbalanced(group) or self._uneven(group)
+            if not misfits:
+                return group
+            if seed in misfits:
+                return set()
+            excluded |= misfits
+        return set()
 
-    def _attempt(self, seed: int, excluded: set[int]) -> tuple[set[int], int | None]:
-        """A group closed under balancing, or the member whose actions can't be balanced."""
+    def _closure(self, seed: int, excluded: set[int]) -> set[int]:
+        actions, barred = self.actions, self.blocked | excluded
         group, pending = {seed}, [seed]
         while pending:
+            for i in self.consumers[pending.pop()]:
+                for fact in actions[i].add:
+                    if fact not in group and fact not in barred:
+                        if self._appears_otherwise(fact, seed):
+                            barred.add(fact)
+                        else:
+                            group.add(fact)
+                            pending.append(fact)
+        return group
+
+    def _appears_otherwise(self, fact: int, seed: int) -> bool:
+        """Whether an action adds a fact and consumes nothing, or only other initial facts."""
+        return any(seed not in consumed for consumed in self.sources.get(fact, ()))
+
+    def _unbalanced(self, group: set[int]) -> set[int]:
+        """Members that an action adds without consuming a member, directly or in the end."""
+        consumed: dict[int, int] = {}
+        for member in group:
+            for i in self.consumers[member]:
+                consumed[i] = consumed.get(i, 0) + 1
+        actions = self.actions
+        misfits: set[int] = set()
+        pending = [
+            member
+            for member in group
+            for i in self.adders[member]
+            if i not in consumed and member not in actions[i].pre
+        ]
+        while pending:
             member = pending.pop()
-            for action in chain(self.deleters[member], self.adders[member]):
-                candidates = _needed_partners(action, group)
-                if candidates is None:
-                    continue
-                usable = [
-                    f
-                    for f in candidates
-                    if f not in self.init and f not in excluded and f not in self.taken
-                ]
-                if not usable:
-                    return group, member
-                # A fact that is never consumed is a record of what happened, not a value.
-                partner = min(usable, key=lambda f: (f not in self.consumed, len(self.adders[f]), f))
-                group.add(partner)
-                pending.append(partner)
-        return group, None
+            if member in misfits:
+                continue
+            misfits.add(member)
+            for i in self.consumers[member]:
+                consumed[i] -= 1
+                if not consumed[i]:
+                    pending += [f for f in actions[i].add if f in group and f not in actions[i].pre]
+        return misfits
 
-    def _holds(self, group: frozenset[int]) -> bool:
-        touching = chain.from_iterable(chain(self.adders[f], self.deleters[f]) for f in group)
-        return all(keeps_exactly_one(group, action) for action in touching)
+    def _uneven(self, group: set[int]) -> set[int]:
+        """Members that are added beside another one, or else deleted without a successor."""
+        actions = self.actions
+        beside: set[int] = set()
+        dropped: set[int] = set()
+        for member in group:
+            for i in self.consumers[member]:
+                added = [fact for fact in actions[i].add if fact in group]
+                if len(added) > 1:
+                    beside.update(sorted(added, key=self._standing)[:-1])
+                elif not added:
+                    dropped.add(member)
+            for i in self.strayers[member]:
+                if group.isdisjoint(actions[i].pre):
+                    dropped.add(member)
+        return beside or dropped
 
-
-def _needed_partners(action: GroundAction, group: set[int]) -> Iterable[int] | None:
-    """Facts of which one must join ``group`` for the action to keep it; None if it does."""
-    consumed = any(f in group and f in action.pre for f in action.delete)
-    produced = any(f in group for f in action.add)
-    if consumed and not produced:
-        return action.add
-    if produced and not consumed and not any(f in group for f in action.pre):
-        return [f for f in action.delete if f in action.pre]
-    return None
+    def _standing(self, fact: int) -> tuple[int, int]:
+        """Of facts added together, the one that is consumed most makes the best member."""
+        return len(self.consumers[fact]), -fact

@@ -1,9 +1,12 @@
 """United files to a task: ground once, prune, number the facts."""
 
-from collections.abc import Iterable, Sequence
+import gc
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
+from operator import attrgetter
 
 from serendipity.model import Condition, GroundAction, InputError, Task
 from serendipity.pddl.instantiate import FactTable, Instantiator, Participants, Record
@@ -57,6 +60,23 @@ def assemble(blueprint: Blueprint) -> Task:
     Raises:
         InputError: costs, goals or conditions that are not supported.
     """
+    with _no_collection():
+        return _assemble(blueprint)
+
+
+@contextmanager
+def _no_collection() -> Iterator[None]:
+    """No garbage collection: grounding makes many tuples and no cycles."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
+
+
+def _assemble(blueprint: Blueprint) -> Task:
     units = [source.unit for source in blueprint.sources]
     relations = _relations(blueprint.sources, units)
     instantiator = Instantiator(relations, _values(units))
@@ -84,12 +104,7 @@ def _owned(records: list[Record], warnings: list[str]) -> list[Record]:
 
 
 def _relations(sources: Iterable[Source], units: Iterable[Unit]) -> Relations:
-    effects = [
-        effect.literal
-        for source in sources
-        for schema in source.schemas
-        for effect in schema.effects
-    ]
+    effects = [effect.literal for source in sources for schema in source.schemas for effect in schema.effects]
     fluent = frozenset([literal.key[0] for literal in effects])
     added = frozenset([literal.key[0] for literal in effects if literal.positive])
     return Relations(chain.from_iterable(unit.problem.init for unit in units), fluent, added)
@@ -100,20 +115,22 @@ def _values(units: Iterable[Unit]) -> dict[Key, Fraction]:
     for unit in units:
         for key, value in unit.problem.values.items():
             if values.setdefault(key, value) != value:
-                message = f"'{' '.join(key)}' is {float(value):g} here, {float(values[key]):g} in another agent's file"
-                raise InputError(message, unit.problem_file)
+                other = f"{float(values[key]):g} in another agent's file"
+                raise InputError(f"'{' '.join(key)}' is {float(value):g} here, {other}", unit.problem_file)
     return values
 
 
 def _goal(unit: Unit, relations: Relations) -> list[Literal]:
     """The goal as literals, without equalities."""
-    possible = []
+    possible: list[list[Literal]] = []
     for clause in goal_clauses(unit.problem.goal, unit):
         decided = [lit for lit in clause.literals if relations.filtered(lit)]
         if all(relations.holds(lit, lit.key) for lit in decided):
-            possible.append([lit for lit in dict.fromkeys(clause.literals) if not relations.filtered(lit)])
+            literals = [lit for lit in dict.fromkeys(clause.literals) if not relations.filtered(lit)]
+            if literals not in possible:
+                possible.append(literals)
     if len(possible) != 1:
-        what = "disjunctive goals are not supported" if possible else "the goal is false by its equalities"
+        what = "disjunctive goals are not supported" if possible else "the goal can never hold"
         raise unit.problem_error(what, unit.problem.goal_line)
     return possible[0]
 
@@ -126,9 +143,9 @@ class _Numbering:
         added = set(chain.from_iterable([r.add for r in kept]))
         self.always = init - deleted
         self.never = set(range(len(facts))) - init - added
-        relevant = added | deleted | set(chain.from_iterable([r.pre for r in kept])) | set(
-            chain.from_iterable([r.neg for r in kept])
-        )
+        needed = set(chain.from_iterable([r.pre for r in kept]))
+        forbidden = set(chain.from_iterable([r.neg for r in kept]))
+        relevant = added | deleted | needed | forbidden
         relevant -= self.always | (self.never - deleted)
         relevant.update(goal_ids)
         names = sorted((" ".join(key), old) for key, old in facts.items() if old in relevant)
@@ -158,21 +175,35 @@ class _Numbering:
         )
 
     def _actions(self) -> list[GroundAction]:
-        numbered = [record for record in map(self._numbered, self.kept) if any(record[2:6])]
-        numbered.sort()
-        actions: list[GroundAction] = []
-        previous = None
-        for record in numbered:
-            if record != previous:
-                actions.append(GroundAction(" ".join(record[0]), *record[1:]))
-            previous = record
-        return actions
+        actions = []
+        number, always = self.ids.__getitem__, self.always
+        for key, participants, pre, neg, add, delete, cost in self.kept:
+            if always:
+                pre = tuple([fact for fact in pre if fact not in always])
+                add = tuple([fact for fact in add if fact not in always])
+            if neg:
+                neg = tuple([fact for fact in neg if fact not in self.never])
+            if not (pre or neg or add or delete):
+                continue  # a noop
+            actions.append(
+                GroundAction(
+                    " ".join(key),
+                    participants,
+                    tuple(sorted({*map(number, pre)})),
+                    tuple(sorted({*map(number, neg)})) if neg else (),
+                    tuple(sorted({*map(number, add)})),
+                    tuple(sorted([number(fact) for fact in {*delete} if fact not in add])),
+                    cost,
+                )
+            )
+        return _sorted(actions)
 
-    def _numbered(self, record: Record) -> Record:
-        key, participants, pre, neg, add, delete, cost = record
-        ids = self.ids
-        new_pre = tuple(sorted({ids[f] for f in pre if f not in self.always}))
-        new_neg = tuple(sorted({ids[f] for f in neg if f not in self.never})) if neg else ()
-        new_add = tuple(sorted({ids[f] for f in add if f not in self.always}))
-        new_delete = tuple(sorted({ids[f] for f in delete if f not in add}))
-        return Record(key, participants, new_pre, new_neg, new_add, new_delete, cost)
+
+def _sorted(actions: list[GroundAction]) -> list[GroundAction]:
+    """Ascending in name, then in all the rest; each once.
+
+    A blank is less than any character of a word, so this is the order of ``key``.
+    """
+    if len({action.name for action in actions}) == len(actions):
+        return sorted(actions, key=attrgetter("name"))
+    return sorted(set(actions), key=attrgetter(*GroundAction.__slots__))

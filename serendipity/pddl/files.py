@@ -4,10 +4,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
+from re import compile as regex
+from typing import Final
 
 from serendipity.model import InputError
 from serendipity.pddl.lifted import Unit
 from serendipity.pddl.resolve import read_domain, read_problem
+
+_CONTROL: Final = regex(r"[\x00-\x08\x0e-\x1f\x7f]")
 
 
 def read_unit(owner: str | None, domain: str | PathLike[str], problem: str | PathLike[str]) -> Unit:
@@ -39,8 +43,10 @@ def read_text(path: str | PathLike[str]) -> str:
         raise InputError(f"the file can't be read: {(error.strerror or str(error)).lower()}", path) from None
     except ValueError as error:
         raise InputError(f"not the name of a file: {error}", path) from None
-    if "\0" in text:
-        raise InputError("the file is binary, expected PDDL text", path, text.count("\n", 0, text.index("\0")) + 1)
+    control = _CONTROL.search(text)
+    if control is not None:
+        line = text.count("\n", 0, control.start()) + 1
+        raise InputError("the file is not text: it has control characters", path, line)
     return text
 
 
@@ -52,3 +58,5 @@ def _errors_in(path: str | PathLike[str]) -> Iterator[None]:
         if error.file is not None:
             raise
         raise InputError(error.message, path, error.line) from None
+    except RecursionError:
+        raise InputError("brackets are nested too deeply", path) from None

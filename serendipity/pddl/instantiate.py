@@ -6,10 +6,9 @@ Columns of records are built by C loops (``map``, ``zip``, ``itemgetter``): at
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from itertools import repeat
+from itertools import chain, repeat
 from typing import Final, NamedTuple
 
-from serendipity.model import InputError
 from serendipity.pddl.join import Relations, Row, bindings, picker
 from serendipity.pddl.lifted import Expression, FunctionValue, Key, Literal, Operation, Unit
 from serendipity.pddl.normal import Operator
@@ -65,9 +64,8 @@ class Instantiator:
         position, rows = bindings(operator, unit, self.relations)
         if not rows:
             return ()
-        columns = _Columns(position, rows, self.facts)
-        schema = operator.schema
-        keys = columns.keys((schema.name, *(p.name for p in schema.parameters)))
+        columns = _Columns(operator, position, rows, self.facts)
+        keys = columns.keys(schema_key(operator))
         fluents = [lit for lit in operator.precondition if lit.key[0] in self.relations.fluent]
         records = map(
             Record,
@@ -89,8 +87,9 @@ class Instantiator:
         increases = operator.schema.increases
         if not unit.priced:
             return repeat(ONE)
-        if all(isinstance(value, Fraction) for value in increases):
-            return repeat(sum(increases, NOTHING))  # type: ignore[arg-type]
+        constant = [value for value in increases if isinstance(value, Fraction)]
+        if len(constant) == len(increases):
+            return repeat(constant[0] if len(constant) == 1 else sum(constant, NOTHING))
         return self._computed_costs(operator, unit, columns, keys)
 
     def _computed_costs(
@@ -103,7 +102,8 @@ class Instantiator:
                 message = f"action '{' '.join(key)}': division by zero in its cost"
                 raise unit.domain_error(message, operator.schema.line) from None
             except KeyError as missing:
-                message = f"action '{' '.join(key)}': no initial value of '{' '.join(missing.args[0])}' for its cost"
+                function = " ".join(missing.args[0])
+                message = f"action '{' '.join(key)}': no initial value of '{function}' for its cost"
                 raise unit.domain_error(message, operator.schema.line) from None
             if cost < 0:
                 message = f"action '{' '.join(key)}': expected a cost of at least 0, got {float(cost):g}"
@@ -120,42 +120,65 @@ class Instantiator:
 
 
 class _Columns:
-    """Ground atoms of lifted ones, for all rows at once."""
+    """Ground atoms of lifted ones, for all rows at once.
 
-    def __init__(self, position: dict[str, int], rows: list[Row], facts: FactTable) -> None:
-        self.position = position
-        self.rows = rows
+    Each row is extended by the operator's constants, predicates among them, so that a
+    ground atom is a mere selection from its row.
+    """
+
+    def __init__(
+        self, operator: Operator, position: dict[str, int], rows: list[Row], facts: FactTable
+    ) -> None:
+        self.position = dict(position)
         self.facts = facts
-        self._constants: dict[str, int] = {}
-        self._extended: list[Row] | None = None
+        for key in _lifted_keys(operator):
+            for term in (f"{_HEAD}{key[0]}", *key[1:]):
+                self.position.setdefault(term, len(self.position))
+        tail = tuple(term.removeprefix(_HEAD) for term in list(self.position)[len(position) :])
+        self.rows = [row + tail for row in rows] if position else [tail]
 
     def key(self, lifted: Key, row: int) -> Key:
         """The ground atom of one row."""
         values = self.rows[row]
-        return (lifted[0], *(values[self.position[t]] if t[0] == "?" else t for t in lifted[1:]))
+        return (lifted[0], *(values[self.position[term]] for term in lifted[1:]))
 
     def keys(self, lifted: Key) -> list[Key]:
         """The ground atoms of all rows."""
-        if not self.position:
-            return [lifted] * len(self.rows)
         head, *terms = lifted
-        constants = {head: len(self.position)}
-        for term in terms:
-            if term[0] != "?":
-                constants.setdefault(term, len(self.position) + len(constants))
-        tail = tuple(constants)
-        places = [constants[head], *(self.position[t] if t[0] == "?" else constants[t] for t in terms)]
-        pick = picker(places)
-        return [pick(row + tail) for row in self.rows]
+        pick = picker([self.position[f"{_HEAD}{head}"], *(self.position[term] for term in terms)])
+        return [pick(row) for row in self.rows]
 
     def ids(self, lifted: Sequence[Key]) -> Iterable[tuple[int, ...]]:
         """The fact ids of some atoms, as one tuple for each row."""
-        facts = self.facts
         if not lifted:
             return repeat(())
-        if not self.position:
-            return repeat(tuple([facts[key] for key in lifted]), len(self.rows))
-        return zip(*(map(facts.__getitem__, self.keys(key)) for key in lifted), strict=True)
+        return zip(*[map(self.facts.__getitem__, self.keys(key)) for key in lifted], strict=True)
+
+
+_HEAD: Final = " "
+"""Tells a predicate from an object of the same name among an operator's constants."""
+
+
+def _lifted_keys(operator: Operator) -> Iterator[Key]:
+    """Every atom and function term of an operator, and the name of its actions."""
+    yield schema_key(operator)
+    for literal in chain(operator.precondition, operator.effects):
+        yield literal.key
+    for when, then in operator.conditional:
+        for literal in chain(when, then):
+            yield literal.key
+    pending = list(operator.schema.increases)
+    while pending:
+        match pending.pop():
+            case FunctionValue(key):
+                yield key
+            case Operation(_, left, right):
+                pending += (left, right)
+
+
+def schema_key(operator: Operator) -> Key:
+    """The lifted name of an operator's actions: name, declared parameters."""
+    return (operator.schema.name, *(p.name for p in operator.schema.parameters))
 
 
 class _Conditional:

@@ -19,7 +19,7 @@ Row = tuple[str, ...]
 def picker(positions: Sequence[int]) -> Callable[[Any], tuple[Any, ...]]:
     """A function from a row to the tuple of its values at some positions."""
     if not positions:
-        return lambda row: ()
+        return lambda _: ()
     if len(positions) == 1:
         only = positions[0]
         return lambda row: (row[only],)
@@ -99,7 +99,8 @@ class _Join:
         def growth(literal: Literal) -> tuple[bool, int]:
             terms = literal.key[1:]
             bound = sum(term in self.position or term[0] != "?" for term in terms)
-            return bound == 0 and len(terms) > 0, len(self.relations.table(literal.key[0])) if bound < len(terms) else 0
+            size = len(self.relations.table(literal.key[0])) if bound < len(terms) else 0
+            return bound == 0 and len(terms) > 0, size
 
         chosen = min(self.joins, key=growth)
         self.joins.remove(chosen)

@@ -73,9 +73,7 @@ def load_agents(
     everyone = [*units.values(), *([] if team_unit is None else [team_unit])]
     check_objects(everyone)
     human_name = _choose_human(units, human)
-    sources = [
-        Source(unit, unit.domain.schemas, by_owner(names.index(who))) for who, unit in units.items()
-    ]
+    sources = [Source(unit, unit.domain.schemas, by_owner(names.index(who))) for who, unit in units.items()]
     if team_unit is not None:
         owned = {schema.name for unit in units.values() for schema in unit.domain.schemas}
         joint = tuple(schema for schema in team_unit.domain.schemas if schema.name not in owned)

@@ -198,8 +198,8 @@ class Unit:
 
     def objects_of(self, type_name: str) -> list[str]:
         """Names of the objects of a type, sorted."""
-        types = self.domain.types
-        return sorted(name for name, kind in self.problem.objects.items() if types.is_subtype(kind, type_name))
+        fits = self.domain.types.is_subtype
+        return sorted(name for name, kind in self.problem.objects.items() if fits(kind, type_name))
 
     def domain_error(self, message: str, line: int | None) -> InputError:
         """An error in the domain file."""

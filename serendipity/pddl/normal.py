@@ -9,7 +9,19 @@ from dataclasses import dataclass
 from itertools import count, product
 from typing import Final, TypeVar
 
-from serendipity.pddl.lifted import EQUALITY, And, Effect, Formula, Key, Literal, Or, Parameter, Quantified, Schema, Unit
+from serendipity.pddl.lifted import (
+    EQUALITY,
+    And,
+    Effect,
+    Formula,
+    Key,
+    Literal,
+    Or,
+    Parameter,
+    Quantified,
+    Schema,
+    Unit,
+)
 
 T = TypeVar("T")
 
@@ -17,7 +29,7 @@ MAX_DISJUNCTS: Final = 256
 """The most operators that one action may become."""
 
 
-class TooManyCases(Exception):
+class TooManyCasesError(Exception):
     """A condition has more than ``MAX_DISJUNCTS`` disjuncts."""
 
 
@@ -73,16 +85,16 @@ def goal_clauses(goal: Formula, unit: Unit) -> list[Clause]:
     """
     try:
         return Expander(unit, hide=False).clauses(goal)
-    except TooManyCases:
+    except TooManyCasesError:
         raise unit.problem_error("the goal has too many cases", unit.problem.goal_line) from None
 
 
 def _guarded(schema: Schema, unit: Unit, work: Callable[[], T]) -> T:
     try:
         return work()
-    except TooManyCases:
-        message = f"action '{schema.name}': more than {MAX_DISJUNCTS} cases of its conditions are not supported"
-        raise unit.domain_error(message, schema.line) from None
+    except TooManyCasesError:
+        message = f"more than {MAX_DISJUNCTS} cases of its conditions are not supported"
+        raise unit.domain_error(f"action '{schema.name}': {message}", schema.line) from None
 
 
 class Expander:
@@ -105,7 +117,7 @@ class Expander:
             case Quantified(True, parameters, body):
                 return self._conjunction([self.clauses(b) for b in self.instances(parameters, body)])
             case Quantified(_, parameters, body) if self.hide:
-                renaming = {p.name: f"?{p.name[1:]}#{next(self.fresh)}" for p in parameters}
+                renaming = {p.name: f"{p.name} {next(self.fresh)}" for p in parameters}
                 hidden = tuple(Parameter(renaming[p.name], p.type) for p in parameters)
                 inner = self.clauses(substitute(body, renaming))
                 return [Clause(clause.literals, hidden + clause.hidden) for clause in inner]
@@ -139,7 +151,7 @@ class Expander:
 
 def _limited(clauses: list[Clause]) -> list[Clause]:
     if len(clauses) > MAX_DISJUNCTS:
-        raise TooManyCases
+        raise TooManyCasesError
     return clauses
 
 

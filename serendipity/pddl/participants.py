@@ -15,13 +15,13 @@ def by_owner(agent: int) -> Participants:
 
 def by_arguments(agents: Sequence[str]) -> Participants:
     """The agents among the arguments; nobody where there is none."""
-    ids = {name: i for i, name in enumerate(agents)}
+    everyone = frozenset(agents)
 
-    def participants(keys: Sequence[Key]) -> Iterable[tuple[int, ...]]:
-        for key in keys:
-            yield tuple(sorted({ids[term] for term in key[1:] if term in ids}))
+    @cache
+    def ids(present: frozenset[str]) -> tuple[int, ...]:
+        return tuple([i for i, name in enumerate(agents) if name in present])
 
-    return participants
+    return lambda keys: [ids(everyone.intersection(key[1:])) for key in keys]
 
 
 def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
@@ -55,8 +55,8 @@ def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
             found = tuple(sorted(frozenset().union(*map(named, key))))
             if not found:
                 line = next(s.line for s in unit.domain.schemas if s.name == key[0])
-                message = f"joint action '{' '.join(key)}': no agent's name ({', '.join(agents)}) occurs in its name"
-                raise unit.domain_error(message, line)
+                message = f"no agent's name ({', '.join(agents)}) occurs in its name"
+                raise unit.domain_error(f"joint action '{' '.join(key)}': {message}", line)
             yield found
 
     return participants

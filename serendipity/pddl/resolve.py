@@ -35,6 +35,9 @@ from serendipity.pddl.lifted import (
 from serendipity.pddl.syntax import DomainSyntax, ProblemSyntax, parse_domain, parse_problem
 
 TOTAL_COST: Final = "total-cost"
+_MAX_EXPONENT_DIGITS: Final = 3
+"""Enough for any cost; ``1e999999999`` as a rational would fill the memory."""
+
 _OPERATORS: Final = {pddl.Sum: "+", pddl.Subtraction: "-", pddl.Product: "*", pddl.Division: "/"}
 
 
@@ -348,14 +351,14 @@ def _minimises_cost(syntax: ProblemSyntax) -> bool:
     expression = metric.expression
     total = type(expression) is pddl.FunctionCall and expression.name == TOTAL_COST
     if metric.direction != pddl.Metric.MINIMIZE or not total:
-        raise InputError(
-            f"the only metric supported is 'minimize ({TOTAL_COST})'", line=syntax.metric_line
-        )
+        raise InputError(f"the only metric supported is 'minimize ({TOTAL_COST})'", line=syntax.metric_line)
     return True
 
 
 def _number(text: str) -> Fraction:
     try:
+        if "e" in text and len(text.partition("e")[2]) > _MAX_EXPONENT_DIGITS:
+            raise ValueError
         return Fraction(str(text))
     except (ValueError, ZeroDivisionError):
         raise InputError(f"expected a number, got '{text}'", line=getattr(text, "line", None)) from None

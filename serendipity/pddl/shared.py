@@ -21,12 +21,13 @@ def check_objects(units: Sequence[Unit]) -> None:
         for name, kind in unit.problem.objects.items():
             before, other = objects.setdefault(name, (kind, unit))
             if not (_fits(unit.domain.types, before, kind) or _fits(other.domain.types, before, kind)):
-                message = f"object '{name}' is of type '{kind}' here, of type '{before}' in {other.problem_file}"
-                raise InputError(message, unit.problem_file)
+                there = f"of type '{before}' in {other.problem_file}"
+                raise InputError(f"object '{name}' is of type '{kind}' here, {there}", unit.problem_file)
         for name, signature in unit.domain.predicates.items():
             arity, other = predicates.setdefault(name, (len(signature), unit))
             if arity != len(signature):
-                message = f"predicate '{name}' takes {len(signature)} arguments here, {arity} in {other.domain_file}"
+                there = f"{arity} in {other.domain_file}"
+                message = f"predicate '{name}' takes {len(signature)} arguments here, {there}"
                 raise InputError(message, unit.domain_file)
 
 

@@ -88,7 +88,8 @@ def _parse(text: str, kind: str, make: type[T], section: Callable[[T, Word, Toke
         while next(tokens).cat is Category.LBRACK:
             keyword = next(tokens).tok
             if keyword != ":action" and seen.setdefault(keyword, keyword.line) != keyword.line:
-                raise InputError(f"section '{keyword}' was given already in line {seen[keyword]}", line=keyword.line)
+                before = seen[keyword]
+                raise InputError(f"'{keyword}' was given already in line {before}", line=keyword.line)
             _refuse_unsupported(keyword)
             section(syntax, keyword, tokens)
     except plado.ParseError as error:
@@ -135,7 +136,7 @@ def _problem_section(problem: ProblemSyntax, keyword: Word, tokens: TokenStream)
         case ":goal":
             problem.goal_line = keyword.line
             if tokens[0].cat is not Category.RBRACK:
-                problem.goal = plado._parse_condition(tokens)  # noqa: SLF001  no public name for it
+                problem.goal = plado._parse_condition(tokens)
             tokens.expect(")")
         case ":metric":
             problem.metric_line = keyword.line
@@ -156,7 +157,7 @@ def _refuse_unsupported(keyword: Word) -> None:
 
 
 def _syntax_error(error: Exception, tokens: TokenStream) -> InputError:
-    """plado's complaint with the place, and the action that it is in."""
+    """Plado's complaint with the place, and the action that it is in."""
     got = tokens.last().tok
     nearby = tokens.tokens[max(0, tokens.position - 3) : tokens.position + 1]
     for token in nearby:
