@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any, Final
 from serendipity._siblings import require_siblings
 
 if TYPE_CHECKING:
-    from serendipity.certify import verify
+    from serendipity.certify import check, verify
     from serendipity.model import (
+        Certificate,
         InputError,
         Options,
         PlanError,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Certificate",
     "InputError",
     "Options",
     "PlanError",
@@ -44,6 +46,7 @@ __all__ = [
     "UsageError",
     "Window",
     "__version__",
+    "check",
     "example",
     "generate_usar",
     "load",
@@ -62,6 +65,7 @@ _HOMES: Final = {
     "generate_usar": "serendipity.scenarios",
     "plan": "serendipity.planning",
     "plan_anytime": "serendipity.planning",
+    "check": "serendipity.certify",
     "verify": "serendipity.certify",
 }
 """Where the public functions live; the public classes live in ``serendipity.model``."""

@@ -7,6 +7,7 @@ Serendipity" (Chakraborti et al., IROS 2015), as made precise in
 """
 
 from serendipity.model.actions import Condition, GroundAction
+from serendipity.model.certificate import Certificate, Claim
 from serendipity.model.errors import InputError, PlanError, SerendipityError, UsageError
 from serendipity.model.numbers import exact
 from serendipity.model.options import INFINITE, Options
@@ -16,6 +17,8 @@ from serendipity.model.task import HumanPlan, Task
 
 __all__ = [
     "INFINITE",
+    "Certificate",
+    "Claim",
     "Condition",
     "GroundAction",
     "HumanPlan",

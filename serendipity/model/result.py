@@ -30,6 +30,15 @@ class PlanStep:
     action: str
     cost: float
 
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of a step; plain values only."""
+        return {
+            "epoch": self.epoch,
+            "agents": list(self.agents),
+            "action": self.action,
+            "cost": self.cost,
+        }
+
 
 @dataclass(frozen=True, slots=True)
 class Result:
@@ -62,12 +71,7 @@ class Result:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
         window = None if self.window is None else {"start": self.window.start, "end": self.window.end}
-        plan = None
-        if self.plan is not None:
-            plan = [
-                {"epoch": s.epoch, "agents": list(s.agents), "action": s.action, "cost": s.cost}
-                for s in self.plan
-            ]
+        plan = None if self.plan is None else [step.to_dict() for step in self.plan]
         return {
             "schema": SCHEMA,
             "mode": self.mode,

@@ -93,7 +93,7 @@ def _folders(task: Usar) -> dict[str, str]:
 
 LAYOUTS: Final[dict[str, Callable[[Usar], dict[str, str]]]] = {"agents": _folders, "pair": _pair}
 """``agents``, the default: a folder per agent and ``superagent/``.  ``pair``: one domain and
-one problem, agents are objects; half the text, and the quicker one to load."""
+one problem, agents are objects."""
 
 
 def _domain(name: str, actions: Sequence[str], *, equality: bool = False) -> str:

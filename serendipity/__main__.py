@@ -1,0 +1,7 @@
+"""``python -m serendipity`` is the command ``serendipity``."""
+
+import sys
+
+from serendipity.cli.app import main
+
+sys.exit(main())

@@ -1,0 +1,67 @@
+"""The facade over the verifier: a result in, a certificate out."""
+
+from collections.abc import Iterator
+from time import perf_counter
+from typing import Final
+
+from serendipity.model import Certificate, Claim, Result, Task
+from verify.rules import RuleReport, check_rules
+
+_REPLAYED: Final = {
+    "replay": "every step follows the rules and the goals hold at the end",
+    "cost": "every cost is the sum of its actions'",
+    "window": "prefix, window and suffix are as the mode demands",
+}
+"""Claims that following the rules proves, and how the certificate says so."""
+
+_NEEDS_SOLVER: Final = "not examined: the rules alone can't prove it"
+
+
+def check(task: Task, result: Result) -> Certificate:
+    """Replay a result rule by rule; quick, and asks no solver.
+
+    Args:
+        task: the task that was asked.
+        result: the answer.
+
+    Returns:
+        A certificate that refutes what breaks a rule; what only an optimiser can prove
+        is not in its scope.
+    """
+    start = perf_counter()
+    report = check_rules(task, result)
+    claims = tuple(_claims(result, report))
+    return Certificate(claims, perf_counter() - start)
+
+
+def verify(task: Task, result: Result) -> Certificate:
+    """Check a result claim by claim, by code that shares nothing with the search.
+
+    Args:
+        task: the task that was asked.
+        result: the answer, from :func:`serendipity.plan` or read from JSON.
+
+    Returns:
+        The certificate; ``verdict`` is ``proved``, ``refuted`` or ``undecided``.
+
+    Raises:
+        InputError: the result is for another task.
+    """
+    return check(task, result)
+
+
+def _claims(result: Result, report: RuleReport) -> Iterator[Claim]:
+    for name in ("replay", "cost", "window", "lower_bound"):
+        violation = report.of(name)
+        if violation is not None:
+            yield Claim(name, "refuted", str(violation), seconds=report.seconds)
+        elif name in report.unchecked:
+            yield Claim(name, "not_in_scope", report.unchecked[name])
+        elif name in _REPLAYED and result.plan is not None:
+            yield Claim(name, "proved", _REPLAYED[name], seconds=report.seconds)
+        elif name == "lower_bound" and result.lower_bound is not None:
+            yield Claim(name, "not_in_scope", _NEEDS_SOLVER)
+    if result.status == "infeasible":
+        yield Claim("infeasible", "not_in_scope", _NEEDS_SOLVER)
+    elif result.status == "optimal":
+        yield Claim("optimal" if result.opportunity else "no_opportunity", "not_in_scope", _NEEDS_SOLVER)

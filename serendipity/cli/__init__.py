@@ -1,0 +1,1 @@
+"""The command line; ``serendipity.cli.app:main`` is its entry point."""

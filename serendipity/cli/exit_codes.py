@@ -1,0 +1,37 @@
+"""What the exit codes mean: the one place that says so."""
+
+from enum import IntEnum
+from typing import Final
+
+
+class ExitCode(IntEnum):
+    """Exit code of every command."""
+
+    ANSWERED = 0
+    """An answer: an opportunity, a proof that there is none, a certificate that holds."""
+    REFUTED = 1
+    """A certificate that is refuted."""
+    WRONG_INPUT = 2
+    """Wrong usage or input: one line on stderr says what was expected."""
+    INFEASIBLE = 3
+    """Proved: there is no plan at all."""
+    UNDECIDED = 4
+    """The limit came before any answer, or a certificate is undecided."""
+    INTERRUPTED = 130
+    """Interrupted; the best plan found so far is still written."""
+
+
+OF_STATUS: Final = {
+    "optimal": ExitCode.ANSWERED,
+    "feasible": ExitCode.ANSWERED,
+    "infeasible": ExitCode.INFEASIBLE,
+    "unknown": ExitCode.UNDECIDED,
+}
+"""By ``Result.status``."""
+
+OF_VERDICT: Final = {
+    "proved": ExitCode.ANSWERED,
+    "refuted": ExitCode.REFUTED,
+    "undecided": ExitCode.UNDECIDED,
+}
+"""By the verdict of a certificate."""

@@ -1,0 +1,54 @@
+"""``serendipity generate``: seeded tasks of any size."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from serendipity.cli.help_examples import epilog
+
+app = typer.Typer(help="Write seeded tasks of any size as PDDL.", no_args_is_help=True, rich_markup_mode=None)
+
+
+@app.callback()
+def _group() -> None:
+    """Keeps ``usar`` a command of its own while it is the only one."""
+
+
+@app.command(epilog=epilog("generate"))
+def usar(
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder to write to.")],
+    rooms: Annotated[int, typer.Option(metavar="N", help="Locations, halls included.")] = 21,
+    medkits: Annotated[int, typer.Option(metavar="M", help="Medkits.")] = 2,
+    robots: Annotated[int, typer.Option(metavar="K", help="Robots.")] = 1,
+    seed: Annotated[int, typer.Option(metavar="S", help="Equal seeds give equal files.")] = 0,
+    extra_edges: Annotated[
+        int, typer.Option(metavar="E", help="Connections beyond a tree; each closes a cycle.")
+    ] = 0,
+    preset: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="figure2 (the paper's building), or room2, room5, room7 in it."),
+    ] = None,
+    layout: Annotated[
+        str,
+        typer.Option(
+            metavar="agents|pair",
+            help="A folder per agent and superagent/, or one domain and one problem.",
+        ),
+    ] = "agents",
+) -> None:
+    """Write a search-and-rescue building: a human, robots, medkits and a place for triage."""
+    from serendipity.scenarios import generate_usar
+
+    written = generate_usar(
+        output,
+        rooms=rooms,
+        medkits=medkits,
+        robots=robots,
+        seed=seed,
+        extra_edges=extra_edges,
+        preset=preset,
+        layout=layout,
+    )
+    for path in written:
+        typer.echo(path)

@@ -1,0 +1,21 @@
+"""The examples of ``--help``: data, so that the tests can run them in this order."""
+
+import shlex
+from typing import Final
+
+EXAMPLES: Final = (
+    "serendipity examples",
+    "serendipity plan --example room2 --discount 0.6",
+    "serendipity plan --example room7 --discount 0.6 --mode communication --format json -o help.json",
+    "serendipity verify --example room7 help.json",
+    "serendipity generate usar --rooms 30 --medkits 3 --seed 7 -o building",
+    "serendipity plan building --discount 0.9",
+    "serendipity generate usar --preset figure2 --seed 7 --layout pair -o figure2",
+    "serendipity plan figure2/domain.pddl figure2/problem.pddl --human commx --robot robot",
+)
+
+
+def epilog(command: str = "") -> str:
+    """The examples of one command (all without one), as the closing lines of its help."""
+    chosen = [text for text in EXAMPLES if not command or shlex.split(text)[1] == command]
+    return "\n".join(["\b", "Examples:", *(f"  {text}" for text in chosen)])

@@ -1,0 +1,105 @@
+"""How a command line names a task: two files, one pair per agent, a folder, or an example."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from serendipity.model import Task, UsageError
+
+Files = Annotated[
+    list[Path] | None,
+    typer.Argument(
+        metavar="TASK",
+        help="DOMAIN PROBLEM, or a folder with a folder per agent and superagent/.",
+        show_default=False,
+    ),
+]
+Human = Annotated[
+    str | None, typer.Option("--human", metavar="H", help="The human; by default the only agent with a goal.")
+]
+Robots = Annotated[
+    list[str] | None, typer.Option("--robot", metavar="R", help="A robot (with DOMAIN PROBLEM; repeat it).")
+]
+Agents = Annotated[
+    list[str] | None,
+    typer.Option("--agent", metavar="A=DOMAIN,PROBLEM", help="An agent and his own files (repeat it)."),
+]
+Team = Annotated[
+    str | None,
+    typer.Option("--team", metavar="DOMAIN,PROBLEM", help="With --agent: the files of the joint actions."),
+]
+Example = Annotated[str | None, typer.Option("--example", metavar="NAME", help="A task that is shipped.")]
+
+
+@dataclass(frozen=True, slots=True)
+class TaskName:
+    """The words that name a task; exactly one of the four ways."""
+
+    files: tuple[Path, ...] = ()
+    human: str | None = None
+    robots: tuple[str, ...] = ()
+    agents: tuple[str, ...] = ()
+    team: str | None = None
+    example: str | None = None
+
+    def load(self) -> Task:
+        """The task.
+
+        Raises:
+            UsageError: no way of naming a task, two at once, or half of one.
+            InputError: a file can't be read or understood.
+        """
+        ways = [bool(self.files), bool(self.agents), self.example is not None]
+        if sum(ways) != 1:
+            raise UsageError(
+                "task: expected one of DOMAIN PROBLEM --human H --robot R, --agent A=DOMAIN,PROBLEM ..., "
+                f"a folder, or --example NAME; got {'none' if not any(ways) else 'more than one'}"
+            )
+        if self.team is not None and not self.agents:
+            raise UsageError("--team: goes with --agent only")
+        if self.robots and len(self.files) != 2:
+            raise UsageError("--robot: goes with DOMAIN PROBLEM only")
+        if self.example is not None:
+            return self._from_example(self.example)
+        if self.agents:
+            return self._from_agents()
+        return self._from_files()
+
+    def _from_example(self, name: str) -> Task:
+        from serendipity.scenarios import example
+
+        task = example(name)
+        return task if self.human is None else task.with_human(self.human)
+
+    def _from_agents(self) -> Task:
+        from serendipity.pddl import load_agents
+
+        pairs: dict[str, tuple[Path, Path]] = {}
+        for text in self.agents:
+            name, _, files = text.partition("=")
+            if not name or name in pairs:
+                raise UsageError(f"--agent: expected NAME=DOMAIN,PROBLEM, each name once, got '{text}'")
+            pairs[name] = _pair(files, f"--agent {name}=")
+        team = None if self.team is None else _pair(self.team, "--team ")
+        return load_agents(pairs, team=team, human=self.human)
+
+    def _from_files(self) -> Task:
+        from serendipity.pddl import load, load_pddl
+
+        if len(self.files) == 1:
+            return load(self.files[0], human=self.human)
+        domain, problem, *more = self.files
+        if more:
+            raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(self.files)} paths")
+        if self.human is None or not self.robots:
+            raise UsageError("task: with DOMAIN PROBLEM, name the agents: --human H --robot R ...")
+        return load_pddl(domain, problem, human=self.human, robots=self.robots)
+
+
+def _pair(text: str, where: str) -> tuple[Path, Path]:
+    files = text.split(",")
+    if len(files) != 2 or not all(files):
+        raise UsageError(f"{where}: expected DOMAIN,PROBLEM, got '{text}'")
+    return Path(files[0]), Path(files[1])

@@ -1,0 +1,104 @@
+"""``serendipity plan``: the main job."""
+
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import serendipity
+from serendipity.cli import naming, output, plan_options
+from serendipity.cli.exit_codes import OF_STATUS, ExitCode
+from serendipity.cli.human_plan import read_human_plan
+from serendipity.model import Result
+
+
+def plan(
+    files: naming.Files = None,
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    mode: plan_options.Mode = None,
+    discount: plan_options.Discount = None,
+    horizon: plan_options.Horizon = None,
+    human_plan: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
+    ] = None,
+    window_weight: plan_options.WindowWeight = None,
+    max_window: plan_options.MaxWindow = None,
+    suffix: plan_options.Suffix = None,
+    preservation: plan_options.Preservation = None,
+    interference: plan_options.Interference = None,
+    max_cost: plan_options.MaxCost = None,
+    communication_weight: plan_options.CommunicationWeight = None,
+    keep_prefix: plan_options.KeepPrefix = None,
+    human_model: plan_options.HumanModel = None,
+    ties: plan_options.Ties = None,
+    max_ties: plan_options.MaxTies = None,
+    no_block: plan_options.NoBlock = None,
+    time_limit: plan_options.TimeLimit = None,
+    certify: Annotated[bool, typer.Option("--verify", help="Add the certificate of `verify`.")] = False,
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Find the best plan in which robots help the human, and prove that none is better."""
+    output.start_logging(verbose)
+    form = output.choose_format(format, output_file)
+    output.check_output(output_file)
+    name = naming.TaskName(
+        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    options = plan_options.given(
+        mode=mode,
+        discount=discount,
+        horizon=horizon,
+        window_weight=window_weight,
+        max_window=max_window,
+        suffix=suffix,
+        preservation=preservation,
+        interference=interference,
+        max_cost=max_cost,
+        communication_weight=communication_weight,
+        keep_prefix=keep_prefix,
+        human_model=human_model,
+        ties=ties,
+        max_ties=max_ties,
+        no_block=no_block,
+        time_limit=time_limit,
+    )
+    if human_plan is not None:
+        options["human_plan"] = read_human_plan(human_plan).checked(task)
+    result, interrupted = _last(serendipity.plan_anytime(task, **options))
+    if result is None:
+        sys.stderr.write("Interrupted before there was any plan.\n")
+        return ExitCode.INTERRUPTED
+    certificate = serendipity.verify(task, result) if certify else serendipity.check(task, result)
+    if form == "json":
+        answer = result.to_dict() | ({"certificate": certificate.to_dict()} if certify else {})
+        output.write_answer(output.as_json(answer), output_file)
+    else:
+        from serendipity.cli.text import plan_report
+
+        output.write_answer(plan_report(task, result, certificate, claims=certify), output_file)
+    if certificate.verdict == "refuted":
+        return ExitCode.REFUTED
+    return ExitCode.INTERRUPTED if interrupted else OF_STATUS[result.status]
+
+
+def _last(answers: Iterable[Result]) -> tuple[Result | None, bool]:
+    """The last answer that came, and whether the user interrupted the work on a better one."""
+    result = None
+    try:
+        for result in answers:  # noqa: B007 - the last one is what counts
+            pass
+    except KeyboardInterrupt:
+        return result, True
+    return result, False

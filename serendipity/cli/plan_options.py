@@ -1,0 +1,64 @@
+"""The options of ``plan`` that change what an answer means.
+
+Their legal values and defaults are those of ``serendipity.model.Options``, which also
+validates them: here they are text, so that ``0.1`` stays exactly a tenth.
+"""
+
+from dataclasses import fields
+from typing import Annotated, Any, Final
+
+import typer
+
+from serendipity.model.options import CHOICES, Options
+
+_DEFAULTS: Final = {field.name: getattr(Options(), field.name) for field in fields(Options)}
+
+
+def _option(name: str, help: str, metavar: str | None = None) -> Any:  # noqa: A002 - typer's word
+    default = _DEFAULTS[name]
+    shown = "" if default is None else f" [default: {default}]"
+    return typer.Option(
+        f"--{name.replace('_', '-')}",
+        metavar=metavar or "|".join(CHOICES[name]),
+        help=help + shown,
+        show_default=False,
+    )
+
+
+Mode = Annotated[str | None, _option("mode", "What kind of plan.")]
+Discount = Annotated[str | None, _option("discount", "Taken off the cost of robots' actions, 0 to 1.", "D")]
+Horizon = Annotated[
+    str | None, _option("horizon", "Epochs; by default as many as the human's plan has.", "N|inf")
+]
+WindowWeight = Annotated[
+    str | None, _option("window_weight", "K: cost of each epoch that the window lasts.", "K")
+]
+MaxWindow = Annotated[str | None, _option("max_window", "Longest window, in epochs.", "N")]
+Suffix = Annotated[str | None, _option("suffix", "What the human does after the window.")]
+Preservation = Annotated[
+    str | None, _option("preservation", "What has to be left of his plan's state (Def. 3.1).")
+]
+Interference = Annotated[str | None, _option("interference", "Which actions may share an epoch.")]
+MaxCost = Annotated[
+    str | None, _option("max_cost", "Reject plans that cost more; 'human': than his own.", "X|human")
+]
+CommunicationWeight = Annotated[
+    str | None, _option("communication_weight", "Cost per unit of his actions that he must be told.", "W")
+]
+KeepPrefix = Annotated[
+    bool | None,
+    typer.Option("--keep-prefix", help="In communication mode: windows, as in the paper's second (7b)."),
+]
+HumanModel = Annotated[str | None, _option("human_model", "How the human reacts.")]
+Ties = Annotated[str | None, _option("ties", "Which of the human's optimal plans counts.")]
+MaxTies = Annotated[str | None, _option("max_ties", "The most of his optimal plans that are tried.", "N")]
+NoBlock = Annotated[
+    bool | None,
+    typer.Option("--no-block/--allow-block", help="Whether robots may leave the human without a plan."),
+]
+TimeLimit = Annotated[str | None, _option("time_limit", "Stop after so many seconds.", "SECONDS")]
+
+
+def given(**options: str | bool | None) -> dict[str, Any]:
+    """The options that the user gave; what he left out keeps its default."""
+    return {name: value for name, value in options.items() if value is not None}

@@ -1,0 +1,39 @@
+"""Reading the files that a command line names: one clear line for what is wrong with them."""
+
+import json
+from pathlib import Path
+from typing import Any, NoReturn
+
+from serendipity.model import InputError
+
+
+def read_text(path: Path) -> str:
+    """The text of a file.
+
+    Raises:
+        InputError: it can't be read, or is not UTF-8.
+    """
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise InputError("expected a text in UTF-8", path) from None
+    except OSError as error:
+        raise InputError(f"can't be read: {error.strerror}", path) from None
+
+
+def read_json(path: Path) -> Any:
+    """The value that a JSON file writes down.
+
+    Raises:
+        InputError: it can't be read or is not JSON; NaN and infinity are not JSON either.
+    """
+
+    def refuse(constant: str) -> NoReturn:
+        raise InputError(f"expected a finite number, got {constant}", path)
+
+    try:
+        return json.loads(read_text(path), parse_constant=refuse)
+    except json.JSONDecodeError as error:
+        raise InputError(f"expected JSON: {error.msg} at column {error.colno}", path, error.lineno) from None
+    except RecursionError:
+        raise InputError("expected JSON: it is nested too deeply", path) from None

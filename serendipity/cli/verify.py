@@ -1,0 +1,54 @@
+"""``serendipity verify``: a second opinion on a result."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import serendipity
+from serendipity.cli import naming, output
+from serendipity.cli.exit_codes import OF_VERDICT
+from serendipity.cli.reading import read_json
+from serendipity.model import Result, UsageError
+
+
+def verify(
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="TASK RESULT.json",
+            help="The task, named as for `plan`; then the result.",
+            show_default=False,
+        ),
+    ],
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Check a result of `plan --format json` claim by claim, independently of the search."""
+    output.start_logging(verbose)
+    form = output.choose_format(format, output_file)
+    output.check_output(output_file)
+    *named, answer = files
+    if answer.suffix == ".pddl" or answer.is_dir():
+        raise UsageError(f"verify: expected TASK and then RESULT.json, got {answer} last")
+    result = Result.from_dict(read_json(answer), answer)
+    name = naming.TaskName(
+        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    certificate = serendipity.verify(task, result)
+    if form == "json":
+        output.write_answer(output.as_json(certificate.to_dict()), output_file)
+    else:
+        from serendipity.cli.text import certificate_report
+
+        output.write_answer(certificate_report(certificate), output_file)
+    return OF_VERDICT[certificate.verdict]

@@ -1,0 +1,102 @@
+"""A second opinion on a result, claim by claim (schema ``serendipity.certificate/1``)."""
+
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from serendipity.model.errors import UsageError
+from serendipity.model.result import PlanStep
+
+SCHEMA: Final = "serendipity.certificate/1"
+CLAIMS: Final = (
+    "replay",
+    "cost",
+    "window",
+    "lower_bound",
+    "optimal",
+    "no_opportunity",
+    "infeasible",
+    "realised",
+)
+VERDICTS: Final = ("proved", "refuted", "undecided", "not_in_scope")
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """One claim of a result, and what the verifier says of it.
+
+    Attributes:
+        claim: one of ``CLAIMS``.
+        verdict: ``proved``, ``refuted``, ``undecided`` (the limit came first) or
+            ``not_in_scope`` (nothing was tried; ``reason`` says why).
+        reason: one line for people.
+        counterexample: a plan that refutes the claim, where there is one.
+        seconds: time spent on it.
+
+    Raises:
+        UsageError: there is no such claim or verdict.
+    """
+
+    claim: str
+    verdict: str
+    reason: str
+    counterexample: tuple[PlanStep, ...] | None = None
+    seconds: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.claim not in CLAIMS:
+            raise UsageError(f"claim: expected one of {', '.join(CLAIMS)}, got '{self.claim}'")
+        if self.verdict not in VERDICTS:
+            raise UsageError(f"verdict: expected one of {', '.join(VERDICTS)}, got '{self.verdict}'")
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        example = self.counterexample
+        return {
+            "claim": self.claim,
+            "verdict": self.verdict,
+            "reason": self.reason,
+            "counterexample": None if example is None else [step.to_dict() for step in example],
+            "seconds": self.seconds,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """What the verifier says of a result.
+
+    Attributes:
+        claims: in the order in which they were examined.
+        elapsed_seconds: time from question to verdict.
+        solver: name and version, or None where no solver was asked.
+        encoding: of the integer program, or None.
+        size: numbers of ``variables`` and ``constraints`` of the integer program.
+    """
+
+    claims: tuple[Claim, ...]
+    elapsed_seconds: float
+    solver: str | None = None
+    encoding: str | None = None
+    size: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def verdict(self) -> str:
+        """``refuted`` if a claim is, else ``undecided`` if one is, else ``proved``."""
+        verdicts = {claim.verdict for claim in self.claims}
+        return next((verdict for verdict in ("refuted", "undecided") if verdict in verdicts), "proved")
+
+    @property
+    def refuted(self) -> Claim | None:
+        """The first claim that is refuted, or None."""
+        return next((claim for claim in self.claims if claim.verdict == "refuted"), None)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return {
+            "schema": SCHEMA,
+            "verdict": self.verdict,
+            "claims": [claim.to_dict() for claim in self.claims],
+            "solver": self.solver,
+            "encoding": self.encoding,
+            "size": dict(self.size),
+            "elapsed_seconds": self.elapsed_seconds,
+        }

@@ -1,0 +1,180 @@
+"""Bad input: exit 2 and one line that a person can act on, never a traceback."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from tests.cli.conftest import Run, assert_one_line
+
+
+@pytest.fixture
+def pair(tmp_path: Path) -> tuple[Path, Path]:
+    """A good domain and problem to spoil."""
+    serendipity.generate_usar(tmp_path, preset="room2", layout="pair")
+    return tmp_path / "domain.pddl", tmp_path / "problem.pddl"
+
+
+TASK = "plan domain.pddl problem.pddl --human commx --robot robot"
+
+
+def spoil(path: Path, old: str, new: str) -> None:
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+
+
+def line_of(path: Path, part: str) -> int:
+    return next(i for i, line in enumerate(path.read_text().splitlines(), 1) if part in line)
+
+
+def test_missing_file(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    pair[1].unlink()
+    assert_one_line(run(TASK), "problem.pddl")
+
+
+def test_empty_file(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    pair[1].write_text("")
+    assert_one_line(run(TASK), "problem.pddl")
+
+
+def test_binary_noise(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    pair[0].write_bytes(bytes(range(256)) * 4)
+    assert_one_line(run(TASK), "domain.pddl")
+
+
+@pytest.mark.parametrize("share", [0.1, 0.3, 0.5, 0.7, 0.9, 0.99])
+@pytest.mark.parametrize("which", [0, 1])
+def test_file_cut_in_the_middle(
+    which: int, share: float, pair: tuple[Path, Path], run: Callable[[str], Run]
+) -> None:
+    text = pair[which].read_text()
+    pair[which].write_text(text[: int(len(text) * share)])
+    assert_one_line(run(TASK), pair[which].name)
+
+
+def test_unknown_predicate(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    spoil(pair[1], "(at mk1 room2)", "(lies mk1 room2)")
+    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], 'lies')}:", "lies")
+
+
+def test_wrong_arity(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    spoil(pair[1], "(at mk1 room2)", "(at mk1 room2 room3)")
+    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], 'room2 room3)')}:", "at")
+
+
+def test_undeclared_object(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    spoil(pair[1], "(at mk1 room2)", "(at mk7 room2)")
+    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], 'mk7')}:", "mk7")
+
+
+def test_type_error(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    spoil(pair[1], "(at mk1 room2)", "(at mk1 mk2)")
+    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], '(at mk1 mk2)')}:", "mk2")
+
+
+def test_no_human(tmp_path: Path, run: Callable[[str], Run]) -> None:
+    serendipity.generate_usar(tmp_path / "task", preset="room2")
+    spoil(tmp_path / "task/commx/problem.pddl", " (conducted_triage commx room1)", "")
+    assert_one_line(run("plan task"), "human")
+
+
+def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
+    serendipity.generate_usar(tmp_path / "task", preset="room2")
+    spoil(tmp_path / "task/robot/problem.pddl", "(:goal (and))", "(:goal (at robot room1))")
+    assert_one_line(run("plan task"), "commx", "robot", "human")
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("plan --example room2 --discount 1.5", ["discount", "[0, 1]", "1.5"]),
+        ("plan --example room2 --discount -0.1", ["discount"]),
+        ("plan --example room2 --discount nan", ["discount", "nan"]),
+        ("plan --example room2 --discount much", ["discount", "much"]),
+        ("plan --example room2 --horizon -1", ["horizon", "-1"]),
+        ("plan --example room2 --horizon 3", ["horizon", "13"]),
+        ("plan --example room2 --horizon inf", ["horizon", "composite"]),
+        ("plan --example room2 --mode magic", ["mode", "serendipity", "magic"]),
+        ("plan --example room2 --max-window 0", ["max_window"]),
+        ("plan --example room2 --window-weight -1", ["window_weight"]),
+        ("plan --example room2 --keep-prefix", ["keep_prefix", "communication"]),
+        ("plan --example room2 --time-limit soon", ["time_limit", "soon"]),
+        ("plan --example room2 --format xml", ["--format", "text", "json", "xml"]),
+        ("plan --example room3", ["example", "room2", "room3"]),
+        ("plan --example room2 --human nobody", ["nobody", "commx"]),
+        ("plan --example room2 --robot robot", ["--robot"]),
+        ("plan --example room2 --team a,b", ["--team", "--agent"]),
+        ("plan", ["--example", "none"]),
+        ("plan --example room2 somewhere", ["more than one"]),
+        ("plan nowhere", ["nowhere"]),
+        ("plan a b c", ["3 paths"]),
+        ("plan a b", ["--human", "--robot"]),
+        ("plan --agent commx", ["--agent"]),
+        ("plan --agent commx=a", ["DOMAIN,PROBLEM"]),
+        ("plan --agent commx=a,b --agent commx=a,b", ["each name once"]),
+        ("plan --example room2 --human-plan nowhere", ["nowhere", "read"]),
+        ("plan --example room2 -o nowhere/answer.json", ["-o", "nowhere"]),
+        ("plan --example room2 -o .", ["-o", "folder"]),
+        ("plan --example room2 --colour red", ["--colour"]),
+        ("verify --example room2", ["TASK RESULT.json"]),
+        ("verify --example room2 nowhere.json", ["nowhere.json"]),
+        ("verify --example room2 .", ["RESULT.json"]),
+        ("generate usar", ["-o"]),
+        ("generate usar -o out --rooms 1", ["rooms"]),
+        ("generate usar -o out --rooms many", ["--rooms", "integer"]),
+        ("generate usar -o out --preset room3", ["preset", "room3"]),
+        ("dance", ["dance"]),
+    ],
+)
+def test_wrong_usage(command: str, words: list[str], run: Callable[[str], Run]) -> None:
+    assert_one_line(run(command), *words)
+
+
+@pytest.fixture
+def answer(run: Callable[[str], Run]) -> dict[str, object]:
+    """A good result to spoil."""
+    read: dict[str, object] = json.loads(run("plan --example room2 --discount 0.6 --format json").out)
+    return read
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"schema": "serendipity.result/0"}, ["schema"]),
+        ({"cost": -1}, ["cost"]),
+        ({"status": "great"}, ["status"]),
+        ({"window": {"start": 6, "end": 10**9}}, ["window.end"]),
+        ({"plan": [{"epoch": 10**9, "agents": ["commx"], "action": "x", "cost": 1}]}, ["plan[0].epoch"]),
+        ({"options": {"discount": 2}}, ["discount"]),
+    ],
+)
+def test_spoilt_results(
+    changes: dict[str, object], words: list[str], answer: dict[str, object], run: Callable[[str], Run]
+) -> None:
+    Path("answer.json").write_text(json.dumps(answer | changes))
+    assert_one_line(run("verify --example room2 answer.json"), "answer.json", *words)
+
+
+def test_result_with_nan(answer: dict[str, object], run: Callable[[str], Run]) -> None:
+    Path("answer.json").write_text(json.dumps(answer | {"cost": float("nan")}))
+    assert_one_line(run("verify --example room2 answer.json"), "answer.json", "NaN")
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "[" * 100_000, "\x00"])
+def test_results_that_are_no_object(text: str, run: Callable[[str], Run]) -> None:
+    Path("answer.json").write_text(text)
+    assert_one_line(run("verify --example room2 answer.json"), "answer.json")
+
+
+def test_truncated_result_names_the_line(answer: dict[str, object], run: Callable[[str], Run]) -> None:
+    Path("answer.json").write_text(json.dumps(answer, indent=1)[:-40])
+    lines = Path("answer.json").read_text().count("\n") + 1
+    assert_one_line(run("verify --example room2 answer.json"), f"answer.json:{lines}:")
+
+
+def test_in_a_process_of_its_own(process: Callable[[str], Run]) -> None:
+    assert_one_line(process("plan nowhere --discount 0.5"), "nowhere")
+    assert_one_line(process("plan --discount"), "--discount")

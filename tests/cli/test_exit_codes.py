@@ -1,0 +1,114 @@
+"""Each exit code, and that nothing but the documented ones comes out."""
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity.cli.exit_codes import OF_STATUS, OF_VERDICT, ExitCode
+from serendipity.model import Result, Task
+from serendipity.model.result import STATUSES
+from tests.cli.conftest import Run
+
+HUMAN_ALONE_CANNOT = """
+(define (domain d) (:requirements :strips)
+  (:predicates (help ?a) (done ?a) (held ?a))
+  (:action lift :parameters (?x ?y) :precondition (held ?x) :effect (help ?y))
+  (:action finish :parameters (?x) :precondition (help ?x) :effect (done ?x)))
+"""
+PROBLEM = "(define (problem p) (:domain d) (:objects h r) (:init (held r)) (:goal (done h)))"
+
+
+@pytest.fixture
+def stuck(tmp_path: Path) -> str:
+    """A task whose human can't reach his goal alone."""
+    (tmp_path / "d.pddl").write_text(HUMAN_ALONE_CANNOT)
+    (tmp_path / "p.pddl").write_text(PROBLEM)
+    return "d.pddl p.pddl --human h --robot r"
+
+
+def test_codes_are_the_documented_ones() -> None:
+    assert {code.name: int(code) for code in ExitCode} == {
+        "ANSWERED": 0,
+        "REFUTED": 1,
+        "WRONG_INPUT": 2,
+        "INFEASIBLE": 3,
+        "UNDECIDED": 4,
+        "INTERRUPTED": 130,
+    }
+    assert set(OF_STATUS) == set(STATUSES)
+    assert set(OF_VERDICT) == {"proved", "refuted", "undecided"}
+
+
+@pytest.mark.parametrize("discount", ["0", "0.6"])
+def test_an_answer_is_0(discount: str, run: Callable[[str], Run]) -> None:
+    assert run(f"plan --example room2 --discount {discount}").code == 0
+
+
+def test_infeasible_is_3_and_still_written(stuck: str, run: Callable[[str], Run]) -> None:
+    done = run(f"plan {stuck} --format json")
+    assert done.code == 3
+    assert (json.loads(done.out)["status"], json.loads(done.out)["reason"]) == ("infeasible", "no-human-plan")
+    assert run(f"plan {stuck}").out.count("infeasible") == 1
+
+
+def test_a_joint_plan_where_he_has_none_is_0(stuck: str, run: Callable[[str], Run]) -> None:
+    assert run(f"plan {stuck} --mode composite").code == 0
+    assert run(f"plan {stuck} --mode communication --horizon 2").code == 0
+
+
+def test_no_answer_within_the_limit_is_4(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
+    def nothing(task: Task, **options: Any) -> Iterator[Result]:
+        yield Result("serendipity", "unknown", "commx", serendipity.Options(**options))
+
+    monkeypatch.setattr(serendipity, "plan_anytime", nothing)
+    done = run("plan --example room2 --time-limit 0")
+    assert done.code == 4
+    assert "the limit came before any answer" in done.out
+
+
+def test_an_interrupt_writes_the_incumbent_and_is_130(
+    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = serendipity.plan(serendipity.example("room2"), discount=0.6)
+
+    def interrupted(task: Task, **options: Any) -> Iterator[Result]:
+        yield replace(found, status="feasible")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(serendipity, "plan_anytime", interrupted)
+    done = run("plan --example room2 --discount 0.6 --format json -o answer.json")
+    assert done.code == 130
+    assert json.loads(Path("answer.json").read_text())["status"] == "feasible"
+
+
+def test_an_interrupt_before_any_plan_is_130_too(
+    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(task: Task, **options: Any) -> Iterator[Result]:
+        raise KeyboardInterrupt
+        yield
+
+    monkeypatch.setattr(serendipity, "plan_anytime", interrupted)
+    done = run("plan --example room2 -o answer.json")
+    assert done.code == 130
+    assert not Path("answer.json").exists()
+    assert done.err.count("\n") == 1
+
+
+def test_a_doctored_result_is_1(run: Callable[[str], Run]) -> None:
+    assert run("plan --example room2 --discount 0.6 -o answer.json").code == 0
+    assert run("verify --example room2 answer.json").code in (0, 4)
+    answer = json.loads(Path("answer.json").read_text())
+    answer["plan"] = [step for step in answer["plan"] if not step["action"].startswith("hand_over")]
+    Path("answer.json").write_text(json.dumps(answer))
+    done = run("verify --example room2 answer.json")
+    assert done.code == 1
+    assert "refuted" in done.out
+    certificate = json.loads(run("verify --example room2 answer.json --format json").out)
+    assert certificate["verdict"] == "refuted"
+    assert any(claim["verdict"] == "refuted" and claim["reason"] for claim in certificate["claims"])

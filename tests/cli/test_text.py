@@ -1,0 +1,69 @@
+"""The text of an answer says what the result says."""
+
+from collections.abc import Callable
+
+import pytest
+
+import serendipity
+from serendipity.cli.text import number
+from tests.cli.conftest import Run
+
+
+def rows(text: str) -> dict[str, list[str]]:
+    """Rows of the plan's table by epoch, cells split at the gaps between columns."""
+    lines = text.splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("epoch"))
+    table: dict[str, list[str]] = {}
+    for line in lines[first:]:
+        if not line:
+            break
+        cells = [cell.strip() for cell in line.replace("* ", "").strip().split("   ") if cell.strip()]
+        table[cells[0]] = cells[1:]
+    return table
+
+
+def test_the_demo_shows_both_plans_in_parallel(run: Callable[[str], Run]) -> None:
+    text = run("plan --example room2 --discount 0.6").out
+    result = serendipity.plan(serendipity.example("room2"), discount=0.6)
+    table = rows(text)
+    assert result.human_plan is not None
+    assert result.plan is not None
+    assert len(result.human_plan) == 13
+    for epoch, action in enumerate(result.human_plan, start=1):
+        assert table[str(epoch)][-1] == action
+    for step in result.plan:
+        assert table[str(step.epoch)].count(step.action) >= len(step.agents)
+    assert table["6"][:2] == ["hand_over robot commx mk2 hall4"] * 2
+    assert [line for line in text.splitlines() if line.lstrip().startswith("* ")] == [
+        line for line in text.splitlines() if line.lstrip().startswith("* 6 ")
+    ]
+    assert "cost 13 -> 12.6, saving 0.4" in text
+    assert "checker: holds" in text
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("--example room7 --discount 0.6", ["no opportunity (proved)", "cost 13 -> 13"]),
+        ("--example room7 --discount 0.6 --mode communication", ["an opportunity", "cost 13 -> 12.6"]),
+        ("--example room2 --mode individual", ["individual: a plan, proved to be the best"]),
+        ("--example room2 --max-window 2", ["max_window 2"]),
+    ],
+)
+def test_headlines(command: str, words: list[str], run: Callable[[str], Run]) -> None:
+    text = run(f"plan {command}").out
+    for word in words:
+        assert word in text
+
+
+def test_a_plan_that_is_only_the_humans_is_not_shown_twice(run: Callable[[str], Run]) -> None:
+    text = run("plan --example room7 --discount 0.6").out
+    assert "former plan" not in text
+    assert text.count("conduct_triage commx room1") == 1
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(13.0, "13"), (12.6, "12.6"), (0.1 + 0.2, "0.3"), (1012.6, "1012.6")]
+)
+def test_numbers_read_as_people_write_them(value: float, text: str) -> None:
+    assert number(value) == text
