@@ -11,7 +11,7 @@ from serendipity.pddl.assemble import Blueprint, Source, assemble
 from serendipity.pddl.files import read_unit
 from serendipity.pddl.lifted import And, Unit
 from serendipity.pddl.participants import by_arguments, by_name_parts, by_owner
-from serendipity.pddl.shared import check_objects, missing_facts
+from serendipity.pddl.shared import check_objects, missing_facts, other_domains
 
 PathArgument = str | PathLike[str]
 Pair = tuple[PathArgument, PathArgument]
@@ -85,7 +85,7 @@ def load_agents(
         sources=sources,
         goals=units[human_name],
         robot_goals=[unit for unit in everyone if unit.owner != human_name],
-        warnings=missing_facts(everyone),
+        warnings=[*other_domains(everyone), *missing_facts(everyone)],
     )
     return assemble(blueprint)
 
@@ -122,7 +122,8 @@ def load_pddl(
         if agent not in unit.problem.objects:
             raise UsageError(f"agent '{agent}' is not an object of {unit.problem_file}")
     source = Source(unit, unit.domain.schemas, by_arguments(names))
-    return assemble(Blueprint(name or unit.problem.name, tuple(names), 0, [source], unit))
+    warnings = other_domains([unit])
+    return assemble(Blueprint(name or unit.problem.name, tuple(names), 0, [source], unit, warnings=warnings))
 
 
 def _unique_names(names: Iterable[str]) -> list[str]:

@@ -33,26 +33,11 @@ def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
     Raises:
         InputError: when called, if no agent occurs in an action's name.
     """
-    patterns = sorted(((tuple(_parts(name)), i) for i, name in enumerate(agents)), key=lambda p: -len(p[0]))
-
-    @cache
-    def named(word: str) -> frozenset[int]:
-        parts = _parts(word)
-        found: set[int] = set()
-        start = 0
-        while start < len(parts):
-            length = 1
-            for pattern, agent in patterns:
-                if tuple(parts[start : start + len(pattern)]) == pattern:
-                    found.add(agent)
-                    length = len(pattern)
-                    break
-            start += length
-        return frozenset(found)
+    finder = _NameFinder(agents)
 
     def participants(keys: Sequence[Key]) -> Iterable[tuple[int, ...]]:
         for key in keys:
-            found = tuple(sorted(frozenset().union(*map(named, key))))
+            found = finder.named(key)
             if not found:
                 line = next(s.line for s in unit.domain.schemas if s.name == key[0])
                 message = f"no agent's name ({', '.join(agents)}) occurs in its name"
@@ -60,6 +45,40 @@ def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
             yield found
 
     return participants
+
+
+def agents_named(agents: Sequence[str], name: str) -> tuple[int, ...]:
+    """The ids of the agents whose names occur in an action's name."""
+    return _NameFinder(agents).named(name.split())
+
+
+class _NameFinder:
+    def __init__(self, agents: Sequence[str]) -> None:
+        patterns = ((_parts(name), agent) for agent, name in enumerate(agents))
+        self._patterns = sorted(patterns, key=lambda pattern: -len(pattern[0]))
+        self._words: dict[str, frozenset[int]] = {}
+
+    def named(self, words: Iterable[str]) -> tuple[int, ...]:
+        """The agents that occur in some words, ascending."""
+        found: frozenset[int] = frozenset()
+        for word in words:
+            if word not in self._words:
+                self._words[word] = self._scan(_parts(word))
+            found |= self._words[word]
+        return tuple(sorted(found))
+
+    def _scan(self, parts: list[str]) -> frozenset[int]:
+        found = set()
+        start = 0
+        while start < len(parts):
+            length = 1
+            for pattern, agent in self._patterns:
+                if parts[start : start + len(pattern)] == pattern:
+                    found.add(agent)
+                    length = len(pattern)
+                    break
+            start += length
+        return frozenset(found)
 
 
 def _parts(word: str) -> list[str]:

@@ -31,6 +31,16 @@ def check_objects(units: Sequence[Unit]) -> None:
                 raise InputError(message, unit.domain_file)
 
 
+def other_domains(units: Iterable[Unit]) -> list[str]:
+    """Warnings for problems that say they belong to another domain than they came with."""
+    return [
+        f"{unit.problem_file} is for domain '{unit.problem.domain_name}', "
+        f"but {unit.domain_file} defines '{unit.domain.name}'"
+        for unit in units
+        if unit.problem.domain_name not in (None, unit.domain.name)
+    ]
+
+
 def _fits(types: Types, a: str, b: str) -> bool:
     if a == b or OBJECT in (a, b):
         return True

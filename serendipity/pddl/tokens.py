@@ -15,7 +15,7 @@ from serendipity.model import InputError
 _WORD: Final = re.compile(r"[()]|\?[^\s();?]*|[^\s();?]+")
 _NUMBER: Final = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?")
 
-_HEADS: Final = {
+HEADS: Final = {
     "and": Category.AND,
     "not": Category.NOT,
     "or": Category.OR,
@@ -94,7 +94,7 @@ def _category(word: str, previous: str) -> Category:
     if word[0] == "?":
         return Category.VARIABLE
     if previous == "(":
-        return _HEADS.get(word, Category.NAME)
+        return HEADS.get(word, Category.NAME)
     if word in _SECTIONS:
         return _SECTIONS[word]
     if previous == ":metric" and word in _AFTER_METRIC:

@@ -1,0 +1,149 @@
+"""Tasks to grounded PDDL: a folder per agent and ``superagent/``, as :func:`load` reads it.
+
+Blanks in names become ``_`` (``move robot a b`` is written ``move_robot_a_b``), and
+names that clash or that PDDL can't hold get a suffix or prefix.  So the task that is
+read back is the same up to ids and names; facts that no executable action touches and
+no goal needs are not in it.
+"""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+from serendipity.model import GroundAction, Task
+from serendipity.pddl.participants import agents_named
+from serendipity.pddl.tokens import HEADS
+
+TEAM: Final = "superagent"
+_ILLEGAL: Final = re.compile(r"[^a-z0-9_-]")
+
+
+def write_pddl(task: Task, directory: str | Path) -> None:
+    """Write a task as a directory that ``load(directory, human=...)`` reads back.
+
+    Args:
+        task: the task; its agents' names must do as names of folders.
+        directory: is made if it does not exist.
+
+    Raises:
+        OSError: it can't be written.
+    """
+    for folder, (domain, problem) in task_files(task).items():
+        place = Path(directory, folder)
+        place.mkdir(parents=True, exist_ok=True)
+        (place / "domain.pddl").write_text(domain, encoding="utf-8")
+        (place / "problem.pddl").write_text(problem, encoding="utf-8")
+
+
+def task_files(task: Task) -> dict[str, tuple[str, str]]:
+    """The texts ``(domain, problem)`` of each agent's folder and of the team's."""
+    facts = _fact_names(task)
+    names = _action_names(task)
+    files = {}
+    for agent, name in enumerate(task.agents):
+        own = {names[i]: a for i, a in enumerate(task.actions) if a.participants == (agent,)}
+        goal = _goal(task.goal.positive, task.goal.negative, facts) if agent == task.human else []
+        mentioned = _mentioned(own.values())
+        if agent == task.human:
+            mentioned |= {*task.goal.positive, *task.goal.negative}
+        files[name] = (_domain(own, facts, mentioned), _problem(task, facts, mentioned, goal))
+    joint = {names[i]: a for i, a in enumerate(task.actions) if a.joint}
+    goal = _goal(task.robot_goal.positive, task.robot_goal.negative, facts)
+    everything = set(range(len(facts)))
+    files[TEAM] = (_domain(joint, facts, everything), _problem(task, facts, everything, goal))
+    return files
+
+
+def _mentioned(actions: Iterable[GroundAction]) -> set[int]:
+    return {fact for a in actions for fact in (*a.pre, *a.neg, *a.add, *a.delete)}
+
+
+def _domain(actions: Mapping[str, GroundAction], facts: Sequence[str], mentioned: set[int]) -> str:
+    lines = ["(define (domain grounded)", "  (:requirements :strips :negative-preconditions :action-costs)"]
+    lines += ["  (:predicates", *(f"    ({facts[fact]})" for fact in sorted(mentioned)), "  )"]
+    lines.append("  (:functions (total-cost))")
+    for name, action in actions.items():
+        condition = _literals(action.pre, action.neg, facts)
+        effect = [f"(increase (total-cost) {_number(action.cost)})"]
+        effect += _literals(action.add, action.delete, facts)
+        lines += [
+            f"  (:action {name}",
+            "    :parameters ()",
+            f"    :precondition (and {' '.join(condition)})",
+            f"    :effect (and {' '.join(effect)}))",
+        ]
+    return "\n".join([*lines, ")", ""])
+
+
+def _problem(task: Task, facts: Sequence[str], mentioned: set[int], goal: Iterable[str]) -> str:
+    init = [f"    ({facts[fact]})" for fact in sorted(task.init & mentioned)]
+    lines = [
+        f"(define (problem {_legal(task.name.lower())})",
+        "  (:domain grounded)",
+        "  (:init",
+        "    (= (total-cost) 0)",
+        *init,
+        "  )",
+        f"  (:goal (and {' '.join(goal)}))",
+        "  (:metric minimize (total-cost))",
+        ")",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _goal(positive: Iterable[int], negative: Iterable[int], facts: Sequence[str]) -> list[str]:
+    return _literals(positive, negative, facts)
+
+
+def _literals(positive: Iterable[int], negative: Iterable[int], facts: Sequence[str]) -> list[str]:
+    return [*(f"({facts[f]})" for f in positive), *(f"(not ({facts[f]}))" for f in negative)]
+
+
+def _number(cost: Fraction) -> str:
+    return str(cost) if cost.denominator == 1 else f"(/ {cost.numerator} {cost.denominator})"
+
+
+def _fact_names(task: Task) -> list[str]:
+    used: set[str] = set()
+    return [_unique(_legal(name), used) for name in task.facts]
+
+
+def _action_names(task: Task) -> list[str]:
+    """Names that differ where they meet in a file; a joint action's tells its participants."""
+    used: dict[int, set[str]] = {agent: set() for agent in range(len(task.agents))}
+    names: dict[int, str] = {}
+    for i, action in enumerate(task.actions):
+        if not action.joint:
+            names[i] = _unique(_legal(action.name), used[action.participants[0]])
+    taken: set[str] = set().union(*used.values())
+    for i, action in enumerate(task.actions):
+        if action.joint:
+            names[i] = _unique(_joint_name(action, task.agents, f"joint{i}"), taken)
+    return [names[i] for i in range(len(task.actions))]
+
+
+def _joint_name(action: GroundAction, agents: Sequence[str], fallback: str) -> str:
+    who = "_".join(agents[agent].replace(" ", "_") for agent in action.participants)
+    name = _legal(action.name)
+    for candidate in (name, f"{name}_{who}"):
+        if agents_named(agents, candidate) == action.participants:
+            return candidate
+    return f"{fallback}_{who}"
+
+
+def _legal(name: str) -> str:
+    """The name as a single word that is no keyword and no number."""
+    word = _ILLEGAL.sub("_", name.lower())
+    return word if word[:1].isalpha() and word not in HEADS else f"x_{word}"
+
+
+def _unique(name: str, used: set[str]) -> str:
+    candidate, number = name, 1
+    while candidate in used:
+        number += 1
+        candidate = f"{name}_v{number}"
+    used.add(candidate)
+    return candidate
