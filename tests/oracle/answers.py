@@ -164,7 +164,16 @@ class Solver:
             return Optimum("infeasible", reason="no-human-plan")
         cost, length = worth
         human_cost = self.task.cost_of(self.human_plan or ())
-        return Optimum("optimal", cost, cost, None, length, human_cost=human_cost, saving=human_cost - cost)
+        return Optimum(
+            "optimal",
+            cost,
+            cost,
+            None,
+            length,
+            human_cost=human_cost,
+            saving=human_cost - cost,
+            saving_alone=Fraction(0),
+        )
 
     def _answer(self, found: Candidate | None, baseline: Label | None, idle: int | None) -> Optimum:
         human_cost = None if self.human_plan is None else self.task.cost_of(self.human_plan)
@@ -280,7 +289,7 @@ class Solver:
 
     def _horizon(self) -> int | str | None:
         options, plan = self.options, self.human_plan
-        if options.mode == "individual" or (plan is None and options.mode == "serendipity"):
+        if options.mode == "individual" or (plan is None and options.windowed):
             return None
         if options.horizon is None:
             if self.robots_goal and plan == ():

@@ -1,0 +1,23 @@
+"""Rules on the lower bound (INTERFACE of results: status, ``lower_bound``)."""
+
+from verify.rules.case import Case, Found
+
+
+def bound_and_objective(case: Case) -> Found | None:
+    """No lower bound exceeds the objective of a plan."""
+    bound, objective = case.result.lower_bound, case.result.objective
+    if bound is None or objective is None or bound <= objective:
+        return None
+    return Found(f"lower_bound {bound:.12g} exceeds the objective {objective:.12g}")
+
+
+def bound_and_status(case: Case) -> Found | None:
+    """An optimal answer is one whose lower bound meets its objective; ``infeasible`` has none."""
+    result = case.result
+    if result.status == "optimal" and result.lower_bound != result.objective:
+        return Found(f"optimal, but lower_bound is {result.lower_bound} and the objective {result.objective}")
+    if result.status == "feasible" and result.lower_bound is None:
+        return Found("a feasible answer reports a lower bound")
+    if result.status == "infeasible" and result.lower_bound is not None:
+        return Found("infeasible, but with a lower bound")
+    return None

@@ -1,0 +1,111 @@
+"""One result under examination: what several rules look at, worked out once."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import NamedTuple
+
+from serendipity.model import PlanError, Result, Task
+from verify.rules.alone import Alone
+from verify.rules.replay import Replay, replay, replay_human
+
+
+class Found(NamedTuple):
+    """What a rule found wrong; the registry adds the rule's name, claim and section."""
+
+    message: str
+    epoch: int | None = None
+    action: str | None = None
+
+
+@dataclass(frozen=True)
+class Case:
+    """A task, a result, and tables of the human alone.
+
+    Properties that need a valid ``pi_H`` or an executable plan are only looked at by
+    rules that come after those that check these.
+    """
+
+    task: Task
+    result: Result
+    alone: Alone
+
+    @cached_property
+    def human_plan(self) -> tuple[int, ...] | PlanError | None:
+        """``pi_H`` by ids; an error if it is no plan of his; None where none is reported."""
+        if self.result.human_plan is None:
+            return None
+        try:
+            return replay_human(self.task, self.result.human_plan)
+        except PlanError as error:
+            return error
+
+    @property
+    def pi_h(self) -> tuple[int, ...]:
+        """``pi_H``, empty where there is none."""
+        plan = self.human_plan
+        return plan if isinstance(plan, tuple) else ()
+
+    @cached_property
+    def human_cost(self) -> Fraction | None:
+        """cost(pi_H)."""
+        if not isinstance(self.human_plan, tuple):
+            return None
+        return sum((self.task.actions[i].cost for i in self.human_plan), Fraction(0))
+
+    @cached_property
+    def replay(self) -> Replay:
+        """The reported plan, executed."""
+        return replay(self.task, self.result.plan or (), strict=self.result.options.strict)
+
+    @property
+    def epochs(self) -> int | None:
+        """``T``, or None where it is infinite or absent."""
+        return self.result.horizon if isinstance(self.result.horizon, int) else None
+
+    @property
+    def robots_goal(self) -> bool:
+        """Whether robots have goals of their own in this mode."""
+        return bool(self.task.robot_goal) and self.result.mode != "individual"
+
+    @cached_property
+    def cost(self) -> Fraction:
+        """What the replayed plan costs the team."""
+        return sum((self.price(i) for _, i in self.steps()), Fraction(0))
+
+    @cached_property
+    def talk(self) -> Fraction:
+        """Communication cost (Def. 3.2), the weight included."""
+        if self.result.mode != "communication":
+            return Fraction(0)
+        planned = set(self.pi_h)
+        off_plan = (self.task.actions[i].cost for _, i in self.steps() if self.his(i) and i not in planned)
+        return self.result.options.communication_weight * sum(off_plan, Fraction(0))
+
+    def steps(self) -> Iterator[tuple[int, int]]:
+        """(epoch, action id) of the replayed plan, in order."""
+        for epoch, chosen in self.replay.sets.items():
+            for i in chosen:
+                yield epoch, i
+
+    def price(self, action: int) -> Fraction:
+        """Cost to the team: undiscounted if the human takes part (SPEC 1)."""
+        cost = self.task.actions[action].cost
+        return cost if self.his(action) else cost * (1 - self.result.options.discount)
+
+    def his(self, action: int) -> bool:
+        """Whether the human takes part."""
+        return self.task.human in self.task.actions[action].participants
+
+    def own(self, action: int) -> bool:
+        """Whether it is the human's alone."""
+        return self.task.actions[action].participants == (self.task.human,)
+
+    def name(self, action: int) -> str:
+        """An action's name."""
+        return self.task.actions[action].name
+
+    def human_does(self) -> dict[int, int]:
+        """What the human does, by epoch; epochs in which he waits are absent."""
+        return {epoch: i for epoch, i in self.steps() if self.his(i)}

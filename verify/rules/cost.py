@@ -1,0 +1,172 @@
+"""Rules on figures: costs, objective, savings, and what follows from them (SPEC 1, 3)."""
+
+from fractions import Fraction
+
+from verify.rules.alone import TooManyStatesError
+from verify.rules.case import Case, Found
+
+
+def human_cost(case: Case) -> Found | None:
+    """The reported cost of ``pi_H`` is the sum of its actions' costs."""
+    return _differs("human_cost", case.result.human_cost, case.human_cost)
+
+
+def step_cost(case: Case) -> Found | None:
+    """Each step costs what its action costs the team: discounted without the human."""
+    steps = sorted(case.result.plan or (), key=lambda step: step.epoch)
+    for step, (_, i) in zip(steps, case.steps(), strict=True):
+        if step.cost != float(case.price(i)):
+            message = f"costs {float(case.price(i)):g}, the result says {step.cost:g}"
+            return Found(message, step.epoch, step.action)
+    return None
+
+
+def total_cost(case: Case) -> Found | None:
+    """The cost is the sum of the actions' costs; a joint action counts once."""
+    return None if case.result.plan is None else _differs("cost", case.result.cost, case.cost)
+
+
+def agent_costs(case: Case) -> Found | None:
+    """A joint action's cost is shared equally among its participants."""
+    if case.result.plan is None:
+        return None
+    shares = dict.fromkeys(case.task.agents, Fraction(0))
+    for _, i in case.steps():
+        participants = case.task.actions[i].participants
+        for agent in participants:
+            shares[case.task.agents[agent]] += case.price(i) / len(participants)
+    for name in case.result.agent_costs:
+        if name not in shares:
+            return Found(f"agent_costs: there is no agent {name}")
+    for name, share in shares.items():
+        found = _differs(f"agent_costs of {name}", case.result.agent_costs.get(name, 0.0), share)
+        if found is not None:
+            return found
+    return None
+
+
+def objective(case: Case) -> Found | None:
+    """Cost plus ``K`` for each epoch of the window plus communication."""
+    if case.result.plan is None:
+        return None
+    window = case.result.window
+    expected = case.cost + case.talk
+    if window is not None:
+        expected += case.result.options.window_weight * len(window)
+    return _differs("objective", case.result.objective, expected)
+
+
+def most_cost(case: Case) -> Found | None:
+    """No plan but ``pi_H`` costs more than ``max_cost`` (eq. 11)."""
+    limit = case.result.options.max_cost
+    if (
+        case.result.plan is None
+        or limit is None
+        or (case.human_plan is not None and not case.result.opportunity)
+    ):
+        return None
+    if limit == "human":
+        limit = _baseline(case)
+    if limit is None or case.cost <= Fraction(limit):
+        return None
+    return Found(f"the plan costs {float(case.cost):g}, max_cost is {float(limit):g}")
+
+
+def saving(case: Case) -> Found | None:
+    """What the answer costs less than doing nothing; none without ``pi_H``."""
+    result = case.result
+    if case.human_plan is None:
+        return None if result.saving is None else Found("a saving without pi_H")
+    if result.plan is None:
+        return None
+    if not result.opportunity:
+        return _differs("saving", result.saving, Fraction(0))
+    if case.robots_goal:
+        return _saving_with_robots_goal(case)
+    return _differs("saving", result.saving, _sure(case.human_cost) - case.cost)
+
+
+def saving_alone(case: Case) -> Found | None:
+    """What the human gains without robots: nothing if ``pi_H`` is optimal, never more than it is off."""
+    said = case.result.saving_alone
+    if case.human_plan is None or said is None or case.robots_goal:
+        return None if not said else Found("a saving alone, though there is nothing to compare it with")
+    try:
+        optimum = case.alone.optimum(case.task.init)
+    except TooManyStatesError:
+        return None  # left to the integer program
+    most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
+    if 0 <= said <= float(most):
+        return None
+    return Found(f"saving_alone is {said:g}, pi_H costs only {float(most):g} more than an optimal plan")
+
+
+def opportunity(case: Case) -> Found | None:
+    """An opportunity is a plan with a robot in it that costs less than doing without robots."""
+    result = case.result
+    if result.plan is None:
+        return None
+    if case.human_plan is None:
+        return Found("an opportunity, though there is no pi_H to improve") if result.opportunity else None
+    baseline = _baseline(case)
+    without = None if baseline is None else baseline - Fraction(str(result.saving_alone or 0))
+    helped = any(not case.own(i) for _, i in case.steps())
+    if result.opportunity:
+        if not helped:
+            return Found("an opportunity in which no robot acts")
+        if without is not None and case.cost >= without:
+            return Found(f"an opportunity that costs {float(case.cost):g}; without robots {float(without):g}")
+    elif without is not None and case.cost < without:
+        return Found(
+            f"the answer costs {float(case.cost):g}, without robots {float(without):g}: an opportunity"
+        )
+    return None
+
+
+def ties_mean(case: Case) -> Found | None:
+    """``expected``: the cost is the mean of the answers over all optimal ``pi_H``."""
+    result = case.result
+    if result.options.ties != "expected" or result.plan is not None or result.cost is None:
+        return None
+    answers = result.statistics.get("ties")
+    try:
+        costs = [Fraction(str(answer["cost"])) for answer in answers or ()]
+        opportunities = [bool(answer["opportunity"]) for answer in answers or ()]
+    except (KeyError, TypeError, ValueError):
+        costs = []
+    if not costs:
+        return Found("a mean without the answers that it is the mean of (statistics.ties)")
+    if result.opportunity != any(opportunities):
+        return Found("there is an opportunity if there is one for some pi_H")
+    return _differs("cost", result.cost, sum(costs, Fraction(0)) / len(costs))
+
+
+def _saving_with_robots_goal(case: Case) -> Found | None:
+    """The baseline is unknown here, but it costs no less than ``pi_H``; None: there is none."""
+    said = case.result.saving
+    if said is None:
+        return None
+    if said <= 0 or said < float(_sure(case.human_cost) - case.cost):
+        return Found(
+            f"saving is {said:g}, but doing nothing costs at least {float(_sure(case.human_cost)):g}"
+        )
+    return None
+
+
+def _baseline(case: Case) -> Fraction | None:
+    """What doing nothing costs; with a robots' goal, as the result's own saving implies."""
+    if not case.robots_goal:
+        return case.human_cost
+    return None if case.result.saving is None else case.cost + Fraction(str(case.result.saving))
+
+
+def _sure(cost: Fraction | None) -> Fraction:
+    assert cost is not None, "rules on pi_H come first"
+    return cost
+
+
+def _differs(name: str, said: float | None, expected: Fraction | None) -> Found | None:
+    if said == (None if expected is None else float(expected)):
+        return None
+    right = "absent" if expected is None else f"{float(expected):.12g}"
+    return Found(f"{name} is {right}, the result says {'nothing' if said is None else f'{said:.12g}'}")

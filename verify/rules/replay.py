@@ -1,0 +1,145 @@
+"""Replays a reported plan with sets, epoch by epoch (SPEC 2)."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from serendipity.model import GroundAction, PlanError, PlanStep, Task
+
+State = frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is wrong with a step: the rule that it breaks, and why."""
+
+    rule: str
+    message: str
+    epoch: int
+    action: str
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """A plan as it unfolds.
+
+    Attributes:
+        sets: the actions of each epoch that has any, by epoch.
+        states: state after each epoch in which something happens, by epoch; ``s_0`` under 0.
+        fault: the first step that can't be executed as reported, or None.
+    """
+
+    sets: Mapping[int, tuple[int, ...]]
+    states: Mapping[int, State]
+    fault: Fault | None
+
+    def state_after(self, epoch: int) -> State:
+        """``s_epoch``."""
+        return self.states[max(t for t in self.states if t <= epoch)]
+
+    @property
+    def last(self) -> State:
+        """The state after the last action."""
+        return self.states[max(self.states)]
+
+
+def replay(task: Task, steps: Sequence[PlanStep], *, strict: bool) -> Replay:
+    """Execute the steps from ``I`` until the first fault."""
+    by_epoch: dict[int, list[PlanStep]] = {}
+    for step in steps:
+        by_epoch.setdefault(step.epoch, []).append(step)
+    sets: dict[int, tuple[int, ...]] = {}
+    states: dict[int, State] = {0: task.init}
+    state = task.init
+    for epoch in sorted(by_epoch):
+        chosen: list[int] = []
+        for step in by_epoch[epoch]:
+            action, fault = _resolve(task, step, state)
+            if fault is None:
+                fault = _conflict(task, chosen, action, step, strict=strict)
+            if fault is not None:
+                return Replay(sets, states, fault)
+            chosen.append(action)
+        state = _after(state, [task.actions[i] for i in chosen])
+        sets[epoch], states[epoch] = tuple(chosen), state
+    return Replay(sets, states, None)
+
+
+def replay_human(task: Task, names: Iterable[str]) -> tuple[int, ...]:
+    """``pi_H`` from its names.
+
+    Raises:
+        PlanError: it is not a plan of the human alone.
+    """
+    state = task.init
+    plan: list[int] = []
+    for number, name in enumerate(names, start=1):
+        own = [i for i in task.named.get(name, ()) if task.actions[i].participants == (task.human,)]
+        if not own:
+            raise PlanError(f"step {number}, '{name}', is not an action that he does alone")
+        chosen = next((i for i in own if task.actions[i].applicable(state)), None)
+        if chosen is None:
+            raise PlanError(f"step {number}, '{name}', is not applicable: {_unmet(task, own[0], state)}")
+        plan.append(chosen)
+        state = _after(state, [task.actions[chosen]])
+    if not task.goal.holds(state):
+        raise PlanError("his goal does not hold at its end")
+    return tuple(plan)
+
+
+def _resolve(task: Task, step: PlanStep, state: State) -> tuple[int, Fault | None]:
+    """The action that a step names; several may share the name."""
+    ids = task.named.get(step.action, ())
+    if not ids:
+        return -1, Fault("unknown-action", "the task has no such action", step.epoch, step.action)
+    listed = {i for i in ids if _agents(task, i) == sorted(step.agents)}
+    if not listed:
+        expected = ", ".join(_agents(task, ids[0]))
+        message = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
+        return -1, Fault("wrong-agents", message, step.epoch, step.action)
+    for i in sorted(listed):
+        if task.actions[i].applicable(state):
+            return i, None
+    message = f"precondition: {_unmet(task, min(listed), state)}"
+    return -1, Fault("precondition", message, step.epoch, step.action)
+
+
+def _agents(task: Task, action: int) -> list[str]:
+    return sorted(task.agents[i] for i in task.actions[action].participants)
+
+
+def _conflict(task: Task, chosen: list[int], action: int, step: PlanStep, *, strict: bool) -> Fault | None:
+    """Whether an action can't join those of its epoch (eq. 5, 6, 10)."""
+    new = task.actions[action]
+    for other in (task.actions[i] for i in chosen):
+        busy = set(new.participants) & set(other.participants)
+        if busy:
+            who = ", ".join(task.agents[i] for i in sorted(busy))
+            return Fault("agent-busy-twice", f"{who} also does '{other.name}'", step.epoch, step.action)
+        clash = _clash(new, other, strict=strict)
+        if clash is not None:
+            message = f"conflicts with '{other.name}' over '{task.facts[clash]}'"
+            return Fault("conflict", message, step.epoch, step.action)
+    return None
+
+
+def _clash(a: GroundAction, b: GroundAction, *, strict: bool) -> int | None:
+    """A fact over which two actions conflict, or None."""
+    clashes = set(a.delete) & set(b.delete) | set(a.delete) & set(b.add) | set(a.add) & set(b.delete)
+    if strict:
+        clashes |= set(a.delete) & set(b.pre) | set(a.add) & set(b.neg)
+        clashes |= set(b.delete) & set(a.pre) | set(b.add) & set(a.neg)
+    return min(clashes, default=None)
+
+
+def _after(state: State, actions: Iterable[GroundAction]) -> State:
+    actions = list(actions)
+    deleted = state.difference(*(action.delete for action in actions))
+    return deleted.union(*(action.add for action in actions))
+
+
+def _unmet(task: Task, action: int, state: State) -> str:
+    ground = task.actions[action]
+    missing = next((f for f in ground.pre if f not in state), None)
+    if missing is not None:
+        return f"'{task.facts[missing]}' is false"
+    return f"'{task.facts[next(f for f in ground.neg if f in state)]}' is true"

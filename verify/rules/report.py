@@ -1,0 +1,63 @@
+"""What the rule checker reports."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final
+
+CLAIMS: Final = ("replay", "cost", "window", "lower_bound")
+"""The claims of a certificate that need no solver, in the order in which they are checked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """A rule that a result breaks.
+
+    Attributes:
+        rule: name of the rule in the registry.
+        claim: the claim that it refutes, one of ``CLAIMS``.
+        section: where the rule stands in ``docs/semantics.md``.
+        message: one line: what was found and what was expected.
+        epoch: the epoch at fault, or None.
+        action: the action at fault, or None.
+    """
+
+    rule: str
+    claim: str
+    section: str
+    message: str
+    epoch: int | None = None
+    action: str | None = None
+
+    def __str__(self) -> str:
+        place = "" if self.epoch is None else f"epoch {self.epoch}: "
+        what = "" if self.action is None else f"'{self.action}': "
+        return f"{self.rule} (SPEC {self.section}): {place}{what}{self.message}"
+
+
+@dataclass(frozen=True, slots=True)
+class RuleReport:
+    """The verdict of all rules on one result.
+
+    Attributes:
+        violations: the first broken rule of each refuted claim, in order.
+        unchecked: why a claim could not be checked, by claim.
+        seconds: time that the check took.
+    """
+
+    violations: tuple[Violation, ...]
+    unchecked: Mapping[str, str]
+    seconds: float
+
+    @property
+    def ok(self) -> bool:
+        """Whether no rule is broken."""
+        return not self.violations
+
+    @property
+    def first(self) -> Violation | None:
+        """The first rule broken, or None."""
+        return self.violations[0] if self.violations else None
+
+    def of(self, claim: str) -> Violation | None:
+        """The violation that refutes a claim, or None."""
+        return next((found for found in self.violations if found.claim == claim), None)

@@ -1,0 +1,175 @@
+"""Rules on windows, prefix and suffix (SPEC 3.1, 3.3, 3.4)."""
+
+from collections.abc import Iterable
+
+from verify.rules.alone import TooManyStatesError
+from verify.rules.case import Case, Found
+
+
+def window_presence(case: Case) -> Found | None:
+    """Only windowed modes have windows; an opportunity there needs one, no opportunity has none."""
+    result = case.result
+    if not result.options.windowed:
+        return None if result.window is None else Found(f"mode {result.mode} has no windows")
+    if result.opportunity and result.window is None and result.plan is not None:
+        return Found("an opportunity without a window")
+    if not result.opportunity and result.window is not None:
+        return Found("a window without an opportunity")
+    return None
+
+
+def idle_answer(case: Case) -> Found | None:
+    """Without an opportunity the human executes ``pi_H``; robots idle, or pursue ``G_R`` without him.
+
+    Modes without windows answer with their optimum, whether it is an opportunity or not.
+    """
+    result = case.result
+    if result.opportunity or result.plan is None or not result.options.windowed:
+        return None
+    if not case.robots_goal:
+        for epoch, i in case.steps():
+            if not case.own(i):
+                return Found("robots idle where there is no opportunity", epoch, case.name(i))
+    return _follows(case, last=max((*case.replay.sets, len(case.pi_h))))
+
+
+def window_range(case: Case) -> Found | None:
+    """``1 <= xi1 <= |pi_H|`` and ``xi1 < xi2 <= T + 1``."""
+    window = case.result.window
+    if window is None:
+        return None
+    if window.start > len(case.pi_h):
+        return Found(f"the window starts at {window.start}, after pi_H with its {len(case.pi_h)} actions")
+    if case.epochs is not None and window.end > case.epochs + 1:
+        return Found(f"the window ends at {window.end}, later than T + 1 = {case.epochs + 1}")
+    return None
+
+
+def window_length(case: Case) -> Found | None:
+    """No window is longer than ``max_window``."""
+    window, most = case.result.window, case.result.options.max_window
+    if window is None or most is None or len(window) <= most:
+        return None
+    return Found(f"the window has {len(window)} epochs, max_window is {most}")
+
+
+def prefix(case: Case) -> Found | None:
+    """Before ``xi1`` the human follows ``pi_H`` (Def. 3.0), or does its actions (second 7b)."""
+    window = case.result.window
+    if window is None:
+        return None
+    if not case.result.options.keep_prefix:
+        return _follows(case, last=window.start - 1)
+    planned = set(case.pi_h)
+    for epoch, i in _between(case, 1, window.start):
+        if case.own(i) and i not in planned:
+            return Found("before the window the human does actions of pi_H only", epoch, case.name(i))
+    return None
+
+
+def joint_in_prefix(case: Case) -> Found | None:
+    """Before ``xi1`` there is no joint action with the human."""
+    window = case.result.window
+    if window is None:
+        return None
+    for epoch, i in _between(case, 1, window.start):
+        if case.his(i) and not case.own(i):
+            return Found(f"a joint action with the human before xi1 = {window.start}", epoch, case.name(i))
+    return None
+
+
+def robot_in_suffix(case: Case) -> Found | None:
+    """From ``xi2`` on no robot takes part in any action (eq. 8)."""
+    window = case.result.window
+    if window is None:
+        return None
+    for epoch, i in _between(case, window.end, None):
+        if not case.own(i):
+            return Found(f"a robot acts although the window ended at {window.end}", epoch, case.name(i))
+    return None
+
+
+def suffix_replan(case: Case) -> Found | None:
+    """Def. 2.0a: the human goes on with an optimal plan of his own, and waits only after its end."""
+    window, options = case.result.window, case.result.options
+    if window is None or options.suffix != "replan" or options.preservation != "kernel":
+        return None
+    rest = list(_between(case, window.end, None))
+    for expected, (epoch, i) in enumerate(rest, start=window.end):
+        if epoch != expected:
+            return Found(f"the human waits in epoch {expected} before he is done", epoch, case.name(i))
+    try:
+        optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
+    except TooManyStatesError:
+        return None  # left to the integer program
+    done = (sum(case.task.actions[i].cost for _, i in rest), len(rest))
+    if optimum is None or done <= optimum:
+        return None
+    return Found(
+        f"from epoch {window.end} the human spends {float(done[0]):g} in {done[1]} actions; "
+        f"alone he needs {float(optimum[0]):g} in {optimum[1]}",
+        window.end,
+    )
+
+
+def suffix_subplan(case: Case) -> Found | None:
+    """Def. 2.0, eq. 9: the suffix is a subsequence of ``pi_H``."""
+    window, options = case.result.window, case.result.options
+    if window is None or options.suffix != "subplan" or options.preservation != "kernel":
+        return None
+    planned = iter(case.pi_h)
+    for epoch, i in _between(case, window.end, None):
+        if i not in planned:  # consumes the iterator: order and repetition count
+            return Found("not a subsequence of pi_H", epoch, case.name(i))
+    return None
+
+
+def preserved_state(case: Case) -> Found | None:
+    """Def. 3.1 read literally: the state entails ``delta(I, pi_H[1..j])``, then ``pi_H[j+1..]``."""
+    window, options = case.result.window, case.result.options
+    if window is None or options.preservation != "state":
+        return None
+    rest = tuple(i for _, i in _between(case, window.end, None))
+    j = len(case.pi_h) - len(rest)
+    if j < window.start - 1 or case.pi_h[j:] != rest:
+        return Found(f"from epoch {window.end} the human does not do an end of pi_H", window.end)
+    mentioned = _own_facts(case)
+    state = case.replay.state_after(window.end - 1)
+    expected = case.task.init
+    for i in case.pi_h[:j]:
+        expected = expected.difference(case.task.actions[i].delete).union(case.task.actions[i].add)
+    missing = (expected & mentioned) - state
+    if not missing:
+        return None
+    fact = case.task.facts[min(missing)]
+    return Found(f"the state before epoch {window.end} lacks '{fact}', true after pi_H[1..{j}]", window.end)
+
+
+def _own_facts(case: Case) -> frozenset[int]:
+    """The facts that the human's own domain mentions."""
+    facts = {*case.task.goal.positive, *case.task.goal.negative}
+    for i in case.task.human_actions:
+        action = case.task.actions[i]
+        facts.update(action.pre, action.neg, action.add, action.delete)
+    return frozenset(facts)
+
+
+def _follows(case: Case, *, last: int) -> Found | None:
+    """Whether the human executes exactly ``pi_H[t]`` in each epoch up to ``last``."""
+    does = case.human_does()
+    for epoch in range(1, last + 1):
+        planned = case.pi_h[epoch - 1] if epoch <= len(case.pi_h) else None
+        done = does.get(epoch)
+        if done is not None and not case.own(done):
+            continue  # the rule on joint actions names it
+        if done != planned:
+            expected = "nothing" if planned is None else f"'{case.name(planned)}'"
+            return Found(
+                f"the human should do {expected}", epoch, "noop" if done is None else case.name(done)
+            )
+    return None
+
+
+def _between(case: Case, start: int, end: int | None) -> Iterable[tuple[int, int]]:
+    """(epoch, action) from ``start`` on, before ``end``."""
+    return ((t, i) for t, i in case.steps() if t >= start and (end is None or t < end))
