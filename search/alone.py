@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from heapq import heappop, heappush
 
 from search.clock import Clock
-from search.encoding import Encoding, Goal
+from search.encoding import Encoding, Goal, Op
 from search.keys import INFINITE_KEY
 from search.projection import Projection
 from search.successors import Lookup
@@ -81,7 +81,7 @@ class Alone:
     Args:
         encoding: the packed task.
         goal: what has to hold at the end.
-        weight: key increment of one of his own actions.
+        weight: key increment of one of his own ops.
         bound: admissible lower bound to ``goal``.
         clock: asked for time.
     """
@@ -90,24 +90,15 @@ class Alone:
         self,
         encoding: Encoding,
         goal: Goal,
-        weight: Callable[[int], int],
+        weight: Callable[[Op], int],
         bound: Projection,
         clock: Clock,
     ) -> None:
-        own = [i for i in encoding.useful if encoding.task.actions[i].participants == (encoding.task.human,)]
         self._goal = goal
-        self._lookup = Lookup(encoding, own, weight)
+        self._lookup = Lookup(encoding.own_index, weight)
         self._bound = bound
         self._clock = clock
-        mask = goal.need_mask | bound.mask
-        for m, _ in goal.forbidden:
-            mask |= m
-        for i in own:
-            op = encoding.op(i)
-            mask |= op.need_mask | (encoding.all_ones & ~op.keep)
-            for m, _ in op.forbidden:
-                mask |= m
-        self._mask = mask
+        self._mask = goal.mask | bound.mask | encoding.own_mask
         self._known: dict[int, int] = {}
         self._at_least: dict[int, int] = {}
 

@@ -8,12 +8,17 @@ Glossary: *field* - the bits of one variable; *op* - a packed ground action;
 *leader* - the agent under whom an op is looked up (the human if he takes part).
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, NamedTuple, TypeVar
 
 from serendipity.model.actions import Condition, GroundAction, conflicting
 from serendipity.model.task import Task
+
+
+T = TypeVar("T")
 
 
 class Op(NamedTuple):
@@ -28,6 +33,30 @@ class Op(NamedTuple):
     action: int
     agents: int
     """Bit set of its participants."""
+    cost: int
+    """Index of its undiscounted cost in ``Encoding.costs``."""
+
+
+class OpIndex:
+    """Ops of one leader by the value of one field: the one that most of them ask for."""
+
+    __slots__ = ("always", "by_value", "field")
+
+    def __init__(self, ops: Sequence[Op], fields: Sequence[int]) -> None:
+        masks = [op.need_mask for op in ops]
+        self.field = max(fields, key=lambda field: sum(mask & field != 0 for mask in masks), default=0)
+        self.by_value: dict[int, list[Op]] = {}
+        self.always: list[Op] = []
+        field = self.field
+        for op in ops:
+            if op.need_mask & field:
+                self.by_value.setdefault(op.need & field, []).append(op)
+            else:
+                self.always.append(op)
+
+    def candidates(self, state: int) -> list[Op]:
+        """Ops whose condition on the field holds in a packed state."""
+        return self.by_value.get(state & self.field, []) + self.always
 
 
 def applicable(op: Op, state: int) -> bool:
@@ -43,11 +72,19 @@ class Goal:
     need: int
     forbidden: tuple[tuple[int, int], ...]
 
+    @property
+    def mask(self) -> int:
+        """The fields that the condition looks at."""
+        mask = self.need_mask
+        for field, _ in self.forbidden:
+            mask |= field
+        return mask
+
     def holds(self, state: int) -> bool:
         """Whether the packed state satisfies the condition."""
         if state & self.need_mask != self.need:
             return False
-        return all(state & mask != value for mask, value in self.forbidden)
+        return not self.forbidden or all(state & mask != value for mask, value in self.forbidden)
 
 
 class Encoding:
@@ -60,6 +97,8 @@ class Encoding:
     Attributes:
         useful: ids of the actions that can contribute to a goal or an ``extra`` fact.
         fact_bits: per fact id its field's mask and value, or None where it is not packed.
+        fields: masks of the fields.
+        costs: the different undiscounted costs of the task's actions, ascending.
     """
 
     def __init__(self, task: Task, extra: frozenset[int] = frozenset()) -> None:
@@ -67,7 +106,6 @@ class Encoding:
         relevant, useful = _relevant(task, extra)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
-        self.field_of: list[int] = [-1] * len(task.facts)
         self.fields: list[int] = []
         shift = 0
         for variable in task.variables:
@@ -78,7 +116,6 @@ class Encoding:
             for code, fact in enumerate(variable.facts):
                 value = 1 if variable.boolean else code
                 self.fact_bits[fact] = (mask, value << shift)
-                self.field_of[fact] = len(self.fields)
             self.fields.append(mask)
             shift += width
         self.boolean = {f for v in task.variables if v.boolean for f in v.facts}
@@ -86,8 +123,73 @@ class Encoding:
         self.init = self.pack(task.init)
         self.goal = self.condition(task.goal)
         self.robot_goal = self.condition(task.robot_goal)
+        self.costs = task.derived(_distinct_costs)
+        self._cost_index = {cost: i for i, cost in enumerate(self.costs)}
+        self._cost_by_identity: dict[int, int] = {}
         self._ops: dict[int, Op] = {}
         self._compatible: dict[tuple[int, int, bool], bool] = {}
+
+    @cached_property
+    def own(self) -> tuple[Op, ...]:
+        """Useful ops that the human does alone."""
+        return tuple(op for op in self._useful_ops if op.agents == self.human_bit)
+
+    @cached_property
+    def joint(self) -> tuple[Op, ...]:
+        """Useful ops in which the human and others take part."""
+        return tuple(op for op in self._useful_ops if op.agents & self.human_bit and op.agents != self.human_bit)
+
+    @cached_property
+    def others(self) -> tuple[Op, ...]:
+        """Useful ops without the human."""
+        return tuple(op for op in self._useful_ops if not op.agents & self.human_bit)
+
+    @cached_property
+    def _useful_ops(self) -> list[Op]:
+        return [self.op(i) for i in self.useful]
+
+    @cached_property
+    def own_mask(self) -> int:
+        """The fields that what the human does alone asks for or sets."""
+        mask = self.changed_by(self.own)
+        for op in self.own:
+            mask |= op.need_mask
+            for field, _ in op.forbidden:
+                mask |= field
+        return mask
+
+    @cached_property
+    def own_index(self) -> OpIndex:
+        """What the human does alone, by his busiest field."""
+        return OpIndex(self.own, self.fields)
+
+    @cached_property
+    def joint_index(self) -> OpIndex:
+        """Joint actions with the human, by their busiest field."""
+        return OpIndex(self.joint, self.fields)
+
+    @cached_property
+    def robot_indices(self) -> tuple[OpIndex, ...]:
+        """What robots do, an index for each first participant."""
+        led: dict[int, list[Op]] = {}
+        for op in self.others:
+            led.setdefault(op.agents & -op.agents, []).append(op)
+        return tuple(OpIndex(ops, self.fields) for _, ops in sorted(led.items()))
+
+    @cached_property
+    def _derived(self) -> dict[Any, Any]:
+        return {}
+
+    def derived(self, build: "Callable[[Encoding], T]") -> T:
+        """``build(self)``, computed once: tables that depend on nothing but the packed task."""
+        if build not in self._derived:
+            self._derived[build] = build(self)
+        return self._derived[build]  # type: ignore[no-any-return]
+
+    @property
+    def human_bit(self) -> int:
+        """The human in a bit set of agents."""
+        return 1 << self.task.human
 
     def pack(self, state: Iterable[int]) -> int:
         """The packed form of a set of true facts."""
@@ -166,7 +268,14 @@ class Encoding:
                 clear |= bits[0]
                 put |= bits[1]
         agents = sum(1 << agent for agent in action.participants)
-        return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents)
+        cost = self._cost_class(action.cost)
+        return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
+
+    def _cost_class(self, cost: Fraction) -> int:
+        known = self._cost_by_identity.get(id(cost))
+        if known is None:  # the task keeps its costs alive, so identities don't recur
+            known = self._cost_by_identity[id(cost)] = self._cost_index[cost]
+        return known
 
 
 def encoding(task: Task) -> Encoding:
@@ -215,3 +324,8 @@ def _relevant(task: Task, extra: frozenset[int]) -> tuple[set[int], tuple[int, .
                     relevant.add(fact)
                     pending.append(fact)
     return relevant, tuple(sorted(useful))
+
+
+def _distinct_costs(task: Task) -> tuple[Fraction, ...]:
+    by_identity = {id(action.cost): action.cost for action in task.actions}
+    return tuple(sorted(set(by_identity.values())))

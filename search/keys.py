@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 
-from serendipity.model.actions import GroundAction
+from search.encoding import Encoding, Op
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task import HumanPlan
 
 _ACTIONS_BITS = 24
 _EPOCH_BITS = 20
@@ -95,10 +95,6 @@ class Keys:
         """Key increment of one action with the given team cost."""
         return self.of_cost(cost) + (1 << self.action_shift)
 
-    def of_announcement(self, cost: Fraction) -> int:
-        """Objective increment of communication."""
-        return int(cost * self.scale) << self.objective_shift
-
     def of_start(self, start: int, horizon: int) -> int:
         """Key increment of opening a window at epoch ``start`` of ``horizon``."""
         return (horizon + 1 - start) << self.start_shift
@@ -110,64 +106,51 @@ class Keys:
 
 
 class Weights:
-    """Key increments of a task's actions.
+    """Key increments of ops.
+
+    Attributes:
+        keys: layout of the keys.
+        announces: whether off-plan actions cost communication.
+        human: increment of an action of the human by the index of its cost,
+            communication left out.
 
     Args:
-        task: the task.
+        packed: the packed task.
         options: discount, window weight and communication weight.
         plan: ``pi_H``, or None to leave communication costs out.
     """
 
-    def __init__(self, task: Task, options: Options, plan: HumanPlan | None) -> None:
-        self.task = task
-        self.discount = options.discount
-        self.human = task.human
+    def __init__(self, packed: Encoding, options: Options, plan: HumanPlan | None) -> None:
         announces = options.mode == "communication" and plan is not None
-        self.announced = options.communication_weight if announces else Fraction(0)
-        self.planned = frozenset(plan or ())
-        costs = task.derived(_distinct_costs)
-        factors = (Fraction(1), 1 - options.discount, self.announced)
-        weight = options.window_weight
-        scale = lcm(weight.denominator, *((c * f).denominator for c in costs for f in factors))
+        announced = options.communication_weight if announces else Fraction(0)
+        costs = packed.costs
+        factors = (Fraction(1), 1 - options.discount, announced)
+        window = options.window_weight
+        scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
         dearest = int(max(costs, default=Fraction(0)) * scale)
-        cost_bits = dearest.bit_length() + _ACTIONS_BITS
-        announced_bits = int(dearest * self.announced).bit_length() + _ACTIONS_BITS if self.announced else 0
-        layout = Keys(scale, announced_bits, cost_bits, 0)
-        epoch = (int(weight * scale) << layout.objective_shift) + (1 << layout.length_shift)
+        announced_bits = int(dearest * announced).bit_length() + _ACTIONS_BITS if announced else 0
+        layout = Keys(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
+        epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
         self.keys = replace(layout, epoch_weight=epoch)
-        self._cache: dict[tuple[Fraction, bool, bool], int] = {}
+        self.announces = bool(announced)
+        self._human_bit = packed.human_bit
+        self._planned = frozenset(plan or ())
+        self.human = [self.keys.of_action(cost) for cost in costs]
+        self._without = [self.keys.of_action(cost * (1 - options.discount)) for cost in costs]
+        self._announced = [int(cost * announced * scale) for cost in costs]
 
-    def team(self, action_id: int) -> int:
-        """Increment of an action inside a composite plan, communication included."""
-        action = self.task.actions[action_id]
-        with_human = self.human in action.participants
-        off_plan = bool(self.announced) and with_human and action_id not in self.planned
-        return self._weight(action, with_human, off_plan)
-
-    def bound(self, action_id: int) -> int:
-        """Increment of one of the human's actions, communication left out: never too much."""
-        return self._weight(self.task.actions[action_id], True, False)
-
-    def alone(self, action_id: int) -> int:
-        """Increment of an action for the human's own preferences; communication ranks last."""
-        action = self.task.actions[action_id]
-        weight = self.bound(action_id)
-        if self.announced and action_id not in self.planned:
-            weight += int(action.cost * self.announced * self.keys.scale)
+    def team(self, op: Op) -> int:
+        """Increment of an op inside a composite plan, communication included."""
+        if not op.agents & self._human_bit:
+            return self._without[op.cost]
+        weight = self.human[op.cost]
+        if self.announces and op.action not in self._planned:
+            weight += self._announced[op.cost] << self.keys.objective_shift
         return weight
 
-    def _weight(self, action: GroundAction, with_human: bool, off_plan: bool) -> int:
-        key = (action.cost, with_human, off_plan)
-        weight = self._cache.get(key)
-        if weight is None:
-            cost = action.cost if with_human else action.cost * (1 - self.discount)
-            weight = self.keys.of_action(cost)
-            if off_plan:
-                weight += self.keys.of_announcement(action.cost * self.announced)
-            self._cache[key] = weight
+    def alone(self, op: Op) -> int:
+        """Increment of an op for the human's own preferences; communication ranks last."""
+        weight = self.human[op.cost]
+        if self.announces and op.action not in self._planned:
+            weight += self._announced[op.cost]
         return weight
-
-
-def _distinct_costs(task: Task) -> frozenset[Fraction]:
-    by_identity = {id(action.cost): action.cost for action in task.actions}
-    return frozenset(by_identity.values())

@@ -136,7 +136,7 @@ class _Call:
         plan, epochs = self.plan, self.epochs
         if plan is not None and (epochs is None or len(plan) <= epochs):
             if not self.task.robot_goal:
-                self.baseline.key = sum(self.tables.weights.team(i) for i in plan)
+                self.baseline.key = sum(option.weight for _, option in self.tables.followed(plan))
             else:
                 self._pursue_robot_goal(plan)
         if self.baseline.key < INFINITE_KEY:

@@ -5,10 +5,12 @@ onto them, with every other condition dropped, each of his actions (joint ones
 included) is a weighted transition; exact distances to the projected goal bound
 his share of any plan from below, in every mode, since robots' costs are only
 left out.  This is a pattern database (Culberson and Schaeffer 1998) on one
-agent's variables.
+agent's variables.  The projected graph depends on the task alone and is kept
+with it; distances are computed for each call, in its keys.
 """
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
 from search.clock import Clock
@@ -17,6 +19,9 @@ from search.keys import INFINITE_KEY
 
 _MAX_STATES = 50_000
 _CHECK_EVERY = 1024
+
+Predecessors = dict[int, list[tuple[int, int]]]
+"""Per projected state the states before it, each with the index of the cheapest cost."""
 
 
 class Projection:
@@ -39,116 +44,101 @@ class Projection:
         return self.distances.get(state & self.mask, INFINITE_KEY)
 
 
-def human_projection(
-    encoding: Encoding, goal: Goal, weight: Callable[[int], int], clock: Clock
-) -> Projection:
+@dataclass(frozen=True, slots=True)
+class _Graph:
+    mask: int
+    predecessors: Predecessors
+
+
+def human_projection(encoding: Encoding, goal: Goal, weights: Sequence[int], clock: Clock) -> Projection:
     """The projection onto the human's private variables, or onto as many as stay tractable.
 
     Args:
         encoding: the packed task.
         goal: what he wants.
-        weight: key increment of an action.
+        weights: key increment of an action of his by the index of its cost.
         clock: asked for time while the table is built.
     """
-    task = encoding.task
-    human_bit = 1 << task.human
-    ops = [encoding.op(i) for i in encoding.useful]
-    own = [op for op in ops if op.agents & human_bit]
-    others = [op for op in ops if not op.agents & human_bit]
-    changed, shared = encoding.changed_by(own), encoding.changed_by(others)
-    private = [mask for mask in encoding.fields if mask & changed and not mask & shared]
-    for fields in _patterns(private, goal):
-        distances = _distances(encoding.init, fields, own, goal, weight, clock)
-        if distances is not None:
-            return Projection(sum(fields), distances)
-    return Projection(0, {0: 0})
+    graph = encoding.derived(_human_graph)
+    clock.check()
+    return Projection(graph.mask, _distances(graph, goal, weights))
 
 
-def _patterns(private: list[int], goal: Goal) -> list[list[int]]:
-    """All private fields, then fewer and fewer, those of the goal kept to the last."""
-    asked = goal.need_mask
-    for mask, _ in goal.forbidden:
-        asked |= mask
-    ranked = sorted(private, key=lambda mask: (not mask & asked, mask))
-    return [ranked[:n] for n in range(len(ranked), 0, -1)]
+def _human_graph(encoding: Encoding) -> _Graph:
+    own = (*encoding.own, *encoding.joint)
+    changed, shared = encoding.changed_by(own), encoding.changed_by(encoding.others)
+    private = [field for field in encoding.fields if field & changed and not field & shared]
+    goal_first = sorted(private, key=lambda field: (not field & encoding.goal.mask, field))
+    for count in range(len(private), 0, -1):
+        fields = goal_first[:count]
+        mask = sum(fields)
+        predecessors = _explore(encoding.init & mask, _Moves(fields, own))
+        if predecessors is not None:
+            return _Graph(mask, predecessors)
+    return _Graph(0, {0: []})
 
 
-def _distances(
-    start: int, fields: list[int], ops: list[Op], goal: Goal, weight: Callable[[int], int], clock: Clock
-) -> dict[int, int] | None:
-    """Backward Dijkstra over the states that are reachable forward; None if they are too many."""
-    mask = sum(fields)
-    predecessors = _explore(start & mask, _Moves(fields, ops, weight), clock)
-    if predecessors is None:
-        return None
+def _distances(graph: _Graph, goal: Goal, weights: Sequence[int]) -> dict[int, int]:
+    """Backward Dijkstra over the projected states that are reachable forward."""
     distances: dict[int, int] = {}
-    queue = [(0, state) for state in predecessors if _satisfies(state, mask, goal)]
+    queue = [(0, state) for state in graph.predecessors if _satisfies(state, graph.mask, goal)]
     heapify(queue)
     while queue:
         distance, state = heappop(queue)
         if state in distances:
             continue
         distances[state] = distance
-        for before, step in predecessors[state]:
+        for before, cost in graph.predecessors[state]:
             if before not in distances:
-                heappush(queue, (distance + step, before))
+                heappush(queue, (distance + weights[cost], before))
     return distances
 
 
 def _satisfies(state: int, mask: int, goal: Goal) -> bool:
-    if state & goal.need_mask != goal.need & mask:
+    if goal.need < 0 or state & goal.need_mask != goal.need & mask:
         return False
     return all(not m & mask or state & m != value for m, value in goal.forbidden)
 
 
-def _explore(
-    start: int, moves: "_Moves", clock: Clock
-) -> dict[int, list[tuple[int, int]]] | None:
-    """Predecessors, with weights, of every projected state reachable from ``start``."""
-    predecessors: dict[int, list[tuple[int, int]]] = {start: []}
+def _explore(start: int, moves: "_Moves") -> Predecessors | None:
+    """Predecessors of every projected state reachable from ``start``; None if too many."""
+    predecessors: Predecessors = {start: []}
     pending = [start]
-    count = 0
     while pending:
         state = pending.pop()
-        count += 1
-        if not count % _CHECK_EVERY:
-            clock.check()
-        for after, step in moves(state):
+        for after, cost in moves(state):
             known = predecessors.get(after)
-            if known is None:
-                if len(predecessors) >= _MAX_STATES:
-                    return None
-                predecessors[after] = [(state, step)]
-                pending.append(after)
+            if known is not None:
+                known.append((state, cost))
+            elif len(predecessors) >= _MAX_STATES:
+                return None
             else:
-                known.append((state, step))
+                predecessors[after] = [(state, cost)]
+                pending.append(after)
     return predecessors
 
 
 Transition = tuple[int, int, int, int, tuple[tuple[int, int], ...], int]
-"""``need_mask, need, keep, put, forbidden, weight`` of an op seen through the projection."""
+"""``need_mask, need, keep, put, forbidden, cost`` of an op seen through the projection."""
 
 
 class _Moves:
     """Successors in the projection; ops that look alike there are merged, the cheapest kept."""
 
-    def __init__(self, fields: list[int], ops: list[Op], weight: Callable[[int], int]) -> None:
+    def __init__(self, fields: Sequence[int], ops: Sequence[Op]) -> None:
         mask = sum(fields)
         merged: dict[tuple[int, int, int, int, tuple[tuple[int, int], ...]], int] = {}
         for op in ops:
-            clear = mask & ~op.keep
-            if not clear:
+            if op.keep & mask == mask or op.need < 0:
                 continue
-            forbidden = tuple((m, v) for m, v in op.forbidden if m & mask)
-            need = -1 if op.need < 0 else op.need & mask
-            form = (op.need_mask & mask, need, clear, op.put & mask, forbidden)
-            step = weight(op.action)
-            merged[form] = min(step, merged.get(form, step))
-        self.index = max(fields, key=lambda field: sum(bool(form[0] & field) for form in merged))
+            forbidden = tuple((m, v) for m, v in op.forbidden if m & mask) if op.forbidden else ()
+            form = (op.need_mask & mask, op.need & mask, op.keep & mask, op.put & mask, forbidden)
+            merged[form] = min(op.cost, merged.get(form, op.cost))
+        self.index = max(fields, key=lambda field: sum(form[0] & field != 0 for form in merged))
         self.by_value: dict[int, list[Transition]] = {}
         self.always: list[Transition] = []
-        for (need_mask, need, clear, put, forbidden), step in merged.items():
-            entry = (need_mask, need, ~clear, put, forbidden, step)
+        for (need_mask, need, keep, put, forbidden), cost in merged.items():
+            entry = (need_mask, need, keep, put, forbidden, cost)
             if need_mask & self.index:
                 self.by_value.setdefault(need & self.index, []).append(entry)
             else:
@@ -157,9 +147,9 @@ class _Moves:
     def __call__(self, state: int) -> list[tuple[int, int]]:
         found = []
         for entries in (self.by_value.get(state & self.index, ()), self.always):
-            for need_mask, need, keep, put, forbidden, step in entries:
+            for need_mask, need, keep, put, forbidden, cost in entries:
                 if state & need_mask == need:
                     after = state & keep | put
                     if after != state and all(state & m != value for m, value in forbidden):
-                        found.append((after, step))
+                        found.append((after, cost))
         return found

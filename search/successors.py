@@ -4,10 +4,10 @@ Ops are looked up under their leader by the value of one field, the one that mos
 of the leader's actions ask for (a position, as a rule).
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from search.encoding import Encoding, Op
+from search.encoding import Encoding, Op, OpIndex, applicable
 from serendipity.model.actions import disables
 
 
@@ -27,47 +27,35 @@ NOTHING = Option(0, -1, 0, (), 0)
 
 
 class Lookup:
-    """Weighted ops of one leader, found by the value of one field."""
+    """Weighted ops of one leader; what a value of the index allows is put together once."""
 
-    def __init__(self, encoding: Encoding, actions: Iterable[int], weight: Callable[[int], int]) -> None:
-        ops = [encoding.op(i) for i in actions]
-        counts = {field: 0 for field in encoding.fields}
-        for op in ops:
-            for field in encoding.fields:
-                if op.need_mask & field:
-                    counts[field] += 1
-        self.field = max(counts, key=lambda field: counts[field], default=0)
+    def __init__(self, index: OpIndex, weight: Callable[[Op], int]) -> None:
+        self._index = index
+        self._field = index.field
         self._weight = weight
-        self._by_value: dict[int, list[Op]] = {}
-        self._always: list[Op] = []
-        for op in ops:
-            if op.need_mask & self.field:
-                self._by_value.setdefault(op.need & self.field, []).append(op)
-            else:
-                self._always.append(op)
         self._weighted: dict[int, list[tuple[Op, Option]]] = {}
-
-    def _candidates(self, state: int) -> list[tuple[Op, Option]]:
-        """Ops whose condition on the field holds, each with what it would do."""
-        value = state & self.field
-        found = self._weighted.get(value)
-        if found is None:
-            ops = [*self._by_value.get(value, ()), *self._always]
-            found = [
-                (op, Option(self._weight(op.action), op.keep, op.put, (op.action,), op.agents)) for op in ops
-            ]
-            found.sort(key=lambda pair: (pair[1].weight, pair[0].action))
-            self._weighted[value] = found
-        return found
 
     def options(self, state: int) -> list[Option]:
         """What is applicable in a packed state, cheapest first."""
+        candidates = self._weighted.get(state & self._field)
+        if candidates is None:
+            candidates = self._prepare(state)
         return [
             option
-            for op, option in self._candidates(state)
-            if state & op.need_mask == op.need
-            and (not op.forbidden or all(state & m != value for m, value in op.forbidden))
+            for op, option in candidates
+            if state & op.need_mask == op.need and (not op.forbidden or applicable(op, state))
         ]
+
+    def _prepare(self, state: int) -> list[tuple[Op, Option]]:
+        found = [(op, as_option(op, self._weight(op))) for op in self._index.candidates(state)]
+        found.sort(key=lambda pair: (pair[1].weight, pair[0].action))
+        self._weighted[state & self._field] = found
+        return found
+
+
+def as_option(op: Op, weight: int) -> Option:
+    """One op as what an agent may do."""
+    return Option(weight, op.keep, op.put, (op.action,), op.agents)
 
 
 class Successors:
@@ -75,34 +63,19 @@ class Successors:
 
     Args:
         encoding: the packed task.
-        weight: key increment of an action.
+        weight: key increment of an op.
         strict: strict interference (SPEC 2).
         idle: robots do nothing.
     """
 
     def __init__(
-        self, encoding: Encoding, weight: Callable[[int], int], *, strict: bool, idle: bool = False
+        self, encoding: Encoding, weight: Callable[[Op], int], *, strict: bool, idle: bool = False
     ) -> None:
-        task = encoding.task
         self._encoding = encoding
         self._strict = strict
-        self._human_bit = 1 << task.human
-        own: list[int] = []
-        shared: list[int] = []
-        led: dict[int, list[int]] = {robot: [] for robot in task.robots}
-        for i in encoding.useful:
-            participants = task.actions[i].participants
-            if participants == (task.human,):
-                own.append(i)
-            elif idle:
-                continue
-            elif task.human in participants:
-                shared.append(i)
-            else:
-                led[participants[0]].append(i)
-        self._own = Lookup(encoding, own, weight)
-        self._shared = Lookup(encoding, shared, weight) if shared else None
-        self._led = [(1 << robot, Lookup(encoding, ids, weight)) for robot, ids in led.items() if ids]
+        self._own = Lookup(encoding.own_index, weight)
+        self._joint = Lookup(encoding.joint_index, weight) if encoding.joint and not idle else None
+        self._led = [] if idle else [Lookup(index, weight) for index in encoding.robot_indices]
         self._busy: dict[int, list[Option]] = {}
 
     def human(self, state: int) -> list[Option]:
@@ -111,14 +84,14 @@ class Successors:
 
     def joint(self, state: int) -> list[Option]:
         """Joint actions with the human that are applicable."""
-        return self._shared.options(state) if self._shared is not None else []
+        return self._joint.options(state) if self._joint is not None else []
 
     def robots(self, state: int) -> list[Option]:
         """Every applicable set of actions of the robots without the human, cheapest first."""
         found = self._busy.get(state)
         if found is None:
             found = [NOTHING]
-            for _, lookup in self._led:
+            for lookup in self._led:
                 found += list(self._extend(found, lookup.options(state)))
             found.sort(key=lambda option: option.weight)
             self._busy[state] = found

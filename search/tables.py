@@ -7,7 +7,7 @@ from search.clock import Clock
 from search.encoding import Encoding, Goal, Op, encoding, full_encoding, human_facts
 from search.keys import INFINITE_KEY, Weights
 from search.projection import Projection, human_projection
-from search.successors import Option, Successors
+from search.successors import Option, Successors, as_option
 from serendipity.model.actions import Condition
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan, Task
@@ -32,7 +32,7 @@ class Tables:
             needed = {f for i in plan for f in (*task.actions[i].pre, *task.actions[i].neg)}
             extra = human_facts(task) if options.preservation == "state" else frozenset()
             self.encoding = Encoding(task, extra | needed)
-        self.weights = Weights(task, options, plan)
+        self.weights = Weights(self.encoding, options, plan)
         self.keys = self.weights.keys
 
     def for_plan(self, plan: HumanPlan) -> "Tables":
@@ -51,7 +51,7 @@ class Tables:
     @cached_property
     def bound(self) -> Projection:
         """Lower bound on what the human still has to pay for ``G_H``."""
-        return human_projection(self.encoding, self.encoding.goal, self.weights.bound, self.clock)
+        return human_projection(self.encoding, self.encoding.goal, self.weights.human, self.clock)
 
     @cached_property
     def alone(self) -> Alone:
@@ -90,8 +90,7 @@ class Tables:
     def followed(self, plan: HumanPlan) -> list[tuple[Op, Option]]:
         """The packed actions of a human plan and what they do, in order."""
         ops = [self.encoding.op(i) for i in plan]
-        weight = self.weights.team
-        return [(op, Option(weight(op.action), op.keep, op.put, (op.action,), op.agents)) for op in ops]
+        return [(op, as_option(op, self.weights.team(op))) for op in ops]
 
 
 def _both(task: Task) -> Condition:

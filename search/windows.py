@@ -89,7 +89,7 @@ def _bounds_along(tables: Tables, plan: HumanPlan, horizon: int) -> list[int]:
 
 def _suffix(tables: Tables, plan: HumanPlan) -> Suffix:
     options, task, packed = tables.options, tables.task, tables.encoding
-    weights = [tables.weights.team(i) for i in plan]
+    weights = [option.weight for _, option in tables.followed(plan)]
     goals = list(tables.goals)
     if options.preservation == "state":
         own = human_facts(task)
