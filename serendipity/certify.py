@@ -4,8 +4,9 @@ from collections.abc import Iterator
 from time import perf_counter
 from typing import Final
 
-from serendipity.model import Certificate, Claim, Result, Task
-from verify.rules import RuleReport, check_rules
+from serendipity.model import Certificate, Claim, InputError, Result, Task
+from verify.rules import RuleReport
+from verify.rules import check as check_rules
 
 _REPLAYED: Final = {
     "replay": "every step follows the rules and the goals hold at the end",
@@ -27,8 +28,12 @@ def check(task: Task, result: Result) -> Certificate:
     Returns:
         A certificate that refutes what breaks a rule; what only an optimiser can prove
         is not in its scope.
+
+    Raises:
+        InputError: the result is for another task.
     """
     start = perf_counter()
+    _require_same_task(task, result)
     report = check_rules(task, result)
     claims = tuple(_claims(result, report))
     return Certificate(claims, perf_counter() - start)
@@ -48,6 +53,17 @@ def verify(task: Task, result: Result) -> Certificate:
         InputError: the result is for another task.
     """
     return check(task, result)
+
+
+def _require_same_task(task: Task, result: Result) -> None:
+    human = task.agents[task.human]
+    if result.human != human:
+        raise InputError(f"result: is for another task: its human is '{result.human}', not '{human}'")
+    stranger = next((name for name in result.human_plan or () if name not in task.named), None)
+    if stranger is not None:
+        raise InputError(
+            f"result: is for another task: this one has no action '{stranger}' of its human plan"
+        )
 
 
 def _claims(result: Result, report: RuleReport) -> Iterator[Claim]:

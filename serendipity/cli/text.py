@@ -1,22 +1,13 @@
 """Answers as text for people: the plan in parallel columns, a column per agent."""
 
-import io
 import math
-import shutil
-import sys
-from collections.abc import Iterable
+from collections.abc import Iterator
 from dataclasses import fields
 from fractions import Fraction
 from typing import Final
 
-from rich.console import Console, RenderableType
-from rich.table import Table
-from rich.text import Text
-
+from serendipity.cli.render import Grid, Line, rendered
 from serendipity.model import Certificate, Options, Result, Task
-
-_WIDE: Final = 1000
-"""Columns where the output is not a terminal: nothing is folded."""
 
 _REASONS: Final = {
     "no-human-plan": "the human can't reach his goal alone, so there is no plan to preserve",
@@ -34,17 +25,17 @@ def plan_report(task: Task, result: Result, certificate: Certificate, *, claims:
         certificate: what the checker says of it.
         claims: show each claim of the certificate, not the verdict only.
     """
-    parts: list[RenderableType] = [Text(line) for line in _headlines(task, result)]
+    parts: list[Line | Grid] = [Line(text) for text in _headlines(task, result)]
     if result.plan is not None and (result.plan or result.human_plan):
-        parts += ["", _columns(task, result), ""]
-    parts += [Text(line) for line in _closing(result)]
+        parts += [Line(), _columns(task, result), Line()]
+    parts += [Line(text) for text in _closing(result)]
     parts += [_claims(certificate)] if claims else [_verdict(certificate)]
-    return _rendered(parts)
+    return rendered(parts)
 
 
 def certificate_report(certificate: Certificate) -> str:
     """The answer of ``verify``."""
-    return _rendered([_claims(certificate), "", _verdict(certificate)])
+    return rendered([_claims(certificate), Line(), _verdict(certificate)])
 
 
 def number(value: float) -> str:
@@ -52,7 +43,7 @@ def number(value: float) -> str:
     return f"{value:.10g}"
 
 
-def _headlines(task: Task, result: Result) -> Iterable[str]:
+def _headlines(task: Task, result: Result) -> Iterator[str]:
     robots = ", ".join(task.agents[i] for i in task.robots)
     yield f"{task.name}: human {result.human}, robots {robots or 'none'}"
     yield f"{', '.join(_options(result.options))}: {_summary(result)}"
@@ -67,7 +58,7 @@ def _headlines(task: Task, result: Result) -> Iterable[str]:
         yield f"window: {epochs} (marked *); before it he follows his former plan, after it he goes on alone"
 
 
-def _options(options: Options) -> Iterable[str]:
+def _options(options: Options) -> Iterator[str]:
     """The mode, and every option that is not the default."""
     usual = Options()
     yield options.mode
@@ -96,33 +87,28 @@ def _gap(result: Result) -> str:
     return f"the limit came before the proof{bound}"
 
 
-def _columns(task: Task, result: Result) -> Table:
+def _columns(task: Task, result: Result) -> Grid:
     """Epochs down, agents across; a joint action stands in each participant's column."""
     agents = [result.human, *(task.agents[i] for i in task.robots)]
     former = result.human_plan or ()
     steps = {(step.epoch, agent): step.action for step in result.plan or () for agent in step.agents}
     changed = tuple(step.action for step in result.plan or () if result.human in step.agents) != former
-    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
-    table.add_column("epoch", justify="right")
-    for heading in agents:
-        table.add_column(heading)
-    if changed:
-        table.add_column(f"{result.human}'s former plan", style="dim")
-    last = max([epoch for epoch, _ in steps] + [len(former)])
-    for epoch in range(1, last + 1):
-        inside = result.window is not None and result.window.start <= epoch < result.window.end
-        row = [f"{'* ' if inside else ''}{epoch}", *(steps.get((epoch, agent), "") for agent in agents)]
+    inside = range(0) if result.window is None else range(result.window.start, result.window.end)
+    epochs = range(1, max([epoch for epoch, _ in steps] + [len(former)]) + 1)
+    rows = []
+    for epoch in epochs:
+        row = [f"{'* ' if epoch in inside else ''}{epoch}", *(steps.get((epoch, a), "") for a in agents)]
         if changed:
-            row.append(former[epoch - 1] if epoch <= len(former) else "")
-        table.add_row(*(Text(cell) for cell in row), style="bold" if inside else None)
-    costs = [number(result.agent_costs[agent]) if agent in result.agent_costs else "" for agent in agents]
+            row += former[epoch - 1 : epoch]
+        rows.append(row)
+    costs = ["cost", *(number(result.agent_costs[a]) if a in result.agent_costs else "" for a in agents)]
     if changed and result.human_cost is not None:
         costs.append(number(result.human_cost))
-    table.add_row("cost", *costs)
-    return table
+    header = ["epoch", *agents, *([f"{result.human}'s former plan"] if changed else [])]
+    return Grid(header, [*rows, costs], frozenset(epoch - 1 for epoch in inside), numbered=True)
 
 
-def _closing(result: Result) -> Iterable[str]:
+def _closing(result: Result) -> Iterator[str]:
     if result.saving_alone:
         yield f"he could save {number(result.saving_alone)} alone: the given human plan is not his best"
     ties = result.statistics.get("ties")
@@ -137,37 +123,25 @@ def _closing(result: Result) -> Iterable[str]:
         yield f"planned in {_seconds(elapsed)}" + (f", {expanded} nodes expanded" if expanded else "")
 
 
-def _verdict(certificate: Certificate) -> Text:
+def _verdict(certificate: Certificate) -> Line:
     wrong = certificate.refuted
     if wrong is not None:
         line, style = f"refuted, {wrong.claim}: {wrong.reason}", "bold red"
     elif certificate.verdict == "undecided":
         line, style = "undecided within the limit", "yellow"
     else:
-        line, style = "holds", "green"
-    return Text(f"checker: {line} ({_seconds(certificate.elapsed_seconds)})", style=style)
+        proved = [claim.claim for claim in certificate.claims if claim.verdict == "proved"]
+        line, style = f"proves {', '.join(proved)}" if proved else "finds nothing wrong", "green"
+    return Line(f"checker: {line} ({_seconds(certificate.elapsed_seconds)})", style)
 
 
-def _claims(certificate: Certificate) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
-    for heading in ("claim", "verdict", "time", "reason"):
-        table.add_column(heading)
-    for claim in certificate.claims:
-        cells = (claim.claim, claim.verdict.replace("_", " "), _seconds(claim.seconds), claim.reason)
-        table.add_row(*(Text(cell) for cell in cells))
-    return table
+def _claims(certificate: Certificate) -> Grid:
+    rows = [
+        (claim.claim, claim.verdict.replace("_", " "), _seconds(claim.seconds), claim.reason)
+        for claim in certificate.claims
+    ]
+    return Grid(("claim", "verdict", "time", "reason"), rows)
 
 
 def _seconds(seconds: float) -> str:
     return f"{seconds:.2f} s" if seconds >= 1 else f"{seconds * 1000:.1f} ms"
-
-
-def _rendered(parts: Iterable[RenderableType]) -> str:
-    terminal = sys.stdout.isatty()
-    width = shutil.get_terminal_size().columns if terminal else _WIDE
-    console = Console(file=io.StringIO(), width=width, force_terminal=terminal, highlight=False)
-    with console.capture() as captured:
-        for part in parts:
-            console.print(part)
-    lines = captured.get().splitlines()
-    return "\n".join(line.rstrip() for line in lines) + "\n"

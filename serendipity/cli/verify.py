@@ -9,7 +9,7 @@ import serendipity
 from serendipity.cli import naming, output
 from serendipity.cli.exit_codes import OF_VERDICT
 from serendipity.cli.reading import read_json
-from serendipity.model import Result, UsageError
+from serendipity.model import InputError, Result, UsageError
 
 
 def verify(
@@ -44,7 +44,10 @@ def verify(
     )
     task = name.load()
     output.warn(task.warnings, quiet=quiet)
-    certificate = serendipity.verify(task, result)
+    try:
+        certificate = serendipity.verify(task, result)
+    except InputError as error:
+        raise InputError(error.message, answer) from None
     if form == "json":
         output.write_answer(output.as_json(certificate.to_dict()), output_file)
     else:

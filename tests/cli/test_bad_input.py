@@ -124,7 +124,7 @@ def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
         ("verify --example room2 .", ["RESULT.json"]),
         ("generate usar", ["-o"]),
         ("generate usar -o out --rooms 1", ["rooms"]),
-        ("generate usar -o out --rooms many", ["--rooms", "integer"]),
+        ("generate usar -o out --rooms many", ["--rooms", "many"]),
         ("generate usar -o out --preset room3", ["preset", "room3"]),
         ("dance", ["dance"]),
     ],
@@ -156,6 +156,14 @@ def test_spoilt_results(
 ) -> None:
     Path("answer.json").write_text(json.dumps(answer | changes))
     assert_one_line(run("verify --example room2 answer.json"), "answer.json", *words)
+
+
+def test_result_for_another_task(answer: dict[str, object], run: Callable[[str], Run]) -> None:
+    Path("answer.json").write_text(json.dumps(answer))
+    assert run("generate usar --rooms 4 -o other").code == 0
+    assert_one_line(run("verify other answer.json"), "answer.json", "another task")
+    Path("answer.json").write_text(json.dumps(answer | {"human": "somebody"}))
+    assert_one_line(run("verify --example room2 answer.json"), "another task", "somebody")
 
 
 def test_result_with_nan(answer: dict[str, object], run: Callable[[str], Run]) -> None:

@@ -1,10 +1,12 @@
 """The text of an answer says what the result says."""
 
+import re
 from collections.abc import Callable
 
 import pytest
 
 import serendipity
+from serendipity.cli.render import Grid, Line, rendered
 from serendipity.cli.text import number
 from tests.cli.conftest import Run
 
@@ -38,7 +40,7 @@ def test_the_demo_shows_both_plans_in_parallel(run: Callable[[str], Run]) -> Non
         line for line in text.splitlines() if line.lstrip().startswith("* 6 ")
     ]
     assert "cost 13 -> 12.6, saving 0.4" in text
-    assert "checker: holds" in text
+    assert "checker: proves replay, cost, window (" in text
 
 
 @pytest.mark.parametrize(
@@ -67,3 +69,15 @@ def test_a_plan_that_is_only_the_humans_is_not_shown_twice(run: Callable[[str], 
 )
 def test_numbers_read_as_people_write_them(value: float, text: str) -> None:
     assert number(value) == text
+
+
+def test_a_terminal_gets_the_same_words_in_colour() -> None:
+    parts = [
+        Line("cost [13]", "bold"),
+        Grid(("epoch", "r"), [("1", "move [x]"), ("* 2",)], frozenset({1}), True),
+    ]
+    plain, coloured = rendered(parts, terminal=False), rendered(parts, terminal=True)
+    assert plain == "cost [13]\nepoch   r\n    1   move [x]\n  * 2\n"
+    bare = re.sub(r"\x1b\[[0-9;]*m", "", coloured)
+    assert coloured != bare
+    assert bare.split() == plain.split()
