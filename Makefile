@@ -40,7 +40,7 @@ bench: $(READY)  ## measure parsing, search and the whole process on the 200 pro
 	@$(BIN)/python -m benchmarks.usar
 
 fuzz: $(READY)  ## thousands of random tasks, and the slow tests
-	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest --slow
+	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
 
 requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
