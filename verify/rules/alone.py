@@ -2,13 +2,15 @@
 
 import heapq
 from fractions import Fraction
+from functools import cached_property
 from itertools import count
+from typing import Final
 
 from serendipity.model import Task
-from verify.rules.operators import Operator, own_operators
+from verify.rules.operators import OwnActions
 from verify.rules.projection import Projection
 
-_MOST_EXPANSIONS = 200_000
+_MOST_EXPANSIONS: Final = 200_000
 
 
 class TooManyStatesError(Exception):
@@ -16,14 +18,19 @@ class TooManyStatesError(Exception):
 
 
 class Alone:
-    """Optimal (cost, length) of the human alone, from any state; built for one task."""
+    """Optimal (cost, length) of the human alone; tables are built when first needed."""
 
     def __init__(self, task: Task) -> None:
-        self._goal = task.goal
-        operators, self._facts, self._weights = own_operators(task)
-        self._projection = Projection(task, task.goal, operators)
-        self._watched = _watched(operators)
+        self._task = task
         self._known: dict[frozenset[int], tuple[Fraction, int] | None] = {}
+
+    @cached_property
+    def _own(self) -> OwnActions:
+        return OwnActions(self._task)
+
+    @cached_property
+    def _projection(self) -> Projection:
+        return Projection(self._task, self._own)
 
     def optimum(self, state: frozenset[int]) -> tuple[Fraction, int] | None:
         """Least (cost, number of actions) from ``state``; None if he can't reach ``G_H`` alone.
@@ -31,14 +38,16 @@ class Alone:
         Raises:
             TooManyStatesError: the limit on expansions came first.
         """
-        start = state & self._facts
+        if self._task.goal.holds(state):
+            return Fraction(0), 0
+        start = state & self._own.facts
         if start not in self._known:
             weight = self._search(start)
-            self._known[start] = None if weight is None else self._weights.split(weight)
+            self._known[start] = None if weight is None else self._own.split(weight)
         return self._known[start]
 
     def _search(self, start: frozenset[int]) -> int | None:
-        bound = self._projection.bound
+        bound, goal = self._projection.bound, self._task.goal
         estimate = bound(start)
         if estimate is None:
             return None
@@ -50,13 +59,13 @@ class Alone:
             _, negative, _, state = heapq.heappop(queue)
             if -negative > best[state]:
                 continue
-            if self._goal.holds(state):
+            if goal.holds(state):
                 return -negative
             expansions += 1
             if expansions > _MOST_EXPANSIONS:
                 raise TooManyStatesError
-            for operator in self._applicable(state):
-                successor = state.difference(operator.delete) | operator.add
+            for operator in self._own.applicable(state):
+                successor = (state - operator.delete) | operator.add
                 weight = operator.weight - negative
                 if weight < best.get(successor, weight + 1):
                     left = bound(successor)
@@ -64,24 +73,3 @@ class Alone:
                         best[successor] = weight
                         heapq.heappush(queue, (weight + left, -weight, next(ticket), successor))
         return None
-
-    def _applicable(self, state: frozenset[int]) -> list[Operator]:
-        found = []
-        for fact in (None, *state):
-            for operator in self._watched.get(fact, ()):
-                if operator.pre <= state and operator.neg.isdisjoint(state):
-                    found.append(operator)
-        return found
-
-
-def _watched(operators: tuple[Operator, ...]) -> dict[int | None, list[Operator]]:
-    """Each operator under the precondition that the fewest operators share."""
-    shared: dict[int, int] = {}
-    for operator in operators:
-        for fact in operator.pre:
-            shared[fact] = shared.get(fact, 0) + 1
-    watched: dict[int | None, list[Operator]] = {}
-    for operator in operators:
-        rarest = min(operator.pre, key=lambda f: (shared[f], f), default=None)
-        watched.setdefault(rarest, []).append(operator)
-    return watched

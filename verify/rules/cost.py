@@ -51,7 +51,7 @@ def objective(case: Case) -> Found | None:
         return None
     window = case.result.window
     expected = case.cost + case.talk
-    if window is not None:
+    if window is not None and case.result.options.windowed:
         expected += case.result.options.window_weight * len(window)
     return _differs("objective", case.result.objective, expected)
 
@@ -89,14 +89,16 @@ def saving(case: Case) -> Found | None:
 def saving_alone(case: Case) -> Found | None:
     """What the human gains without robots: nothing if ``pi_H`` is optimal, never more than it is off."""
     said = case.result.saving_alone
-    if case.human_plan is None or said is None or case.robots_goal:
-        return None if not said else Found("a saving alone, though there is nothing to compare it with")
+    if not said:
+        return None  # nothing is claimed; ``None`` and 0 are the same
+    if case.human_plan is None or case.robots_goal:
+        return Found("a saving alone, though there is nothing to compare it with")
     try:
         optimum = case.alone.optimum(case.task.init)
     except TooManyStatesError:
         return None  # left to the integer program
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
-    if 0 <= said <= float(most):
+    if 0 < said <= float(most):
         return None
     return Found(f"saving_alone is {said:g}, pi_H costs only {float(most):g} more than an optimal plan")
 

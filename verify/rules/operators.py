@@ -1,16 +1,22 @@
 """The human's own actions as the checker's own search sees them."""
 
+from collections import Counter
 from fractions import Fraction
+from itertools import chain
 from math import lcm
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
-from serendipity.model import Condition, GroundAction, Task
+from serendipity.model import Task
+
+_LONGEST: Final = 10**9
+"""More actions than any plan has that is ever compared."""
 
 
 class Operator(NamedTuple):
-    """An own action reduced to the facts that can matter for the goal.
+    """An own action reduced to the facts that can matter to the human.
 
-    ``weight`` orders plans by (cost, length): see :class:`Weights`.
+    ``weight`` orders plans by cost, then by length: a cost of 1 weighs as much as
+    ``_LONGEST`` actions.
     """
 
     pre: frozenset[int]
@@ -20,57 +26,68 @@ class Operator(NamedTuple):
     weight: int
 
 
-class Weights:
-    """Integers that order plans by cost, then by number of actions.
+class OwnActions:
+    """The human's own actions, turned into operators when a search first meets them.
 
-    A cost of 1 weighs ``unit`` and an action 1 more; ``unit`` exceeds the length of
-    any plan that is ever compared.
+    Attributes:
+        ids: the actions' ids.
+        facts: facts that an own action needs or that his goal names; no other matters to him.
     """
 
-    _LONGEST = 10**9
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self.ids = task.human_actions
+        own = [task.actions[i] for i in self.ids]
+        self.facts = frozenset(task.goal.positive).union(
+            task.goal.negative, *(action.pre for action in own), *(action.neg for action in own)
+        )
+        denominators = {action.cost.denominator for action in own}
+        self._unit = lcm(*denominators) * _LONGEST
+        self._weights: dict[tuple[int, int], int] = {}
+        self._operators: dict[int, Operator] = {}
+        self._watched = self._watch()
 
-    def __init__(self, actions: list[GroundAction]) -> None:
-        self.unit = lcm(*(action.cost.denominator for action in actions)) * self._LONGEST
-
-    def of(self, cost: Fraction, length: int) -> int:
-        """The weight of a plan."""
-        return int(cost * self.unit) + length
+    def weight(self, action: int) -> int:
+        """The weight of an action."""
+        cost = self._task.actions[action].cost
+        ratio = (cost.numerator, cost.denominator)
+        if ratio not in self._weights:
+            self._weights[ratio] = int(cost * self._unit) + 1
+        return self._weights[ratio]
 
     def split(self, weight: int) -> tuple[Fraction, int]:
-        """Cost and length of a plan of this weight."""
-        return Fraction(weight - weight % self._LONGEST, self.unit), weight % self._LONGEST
+        """Cost and length of a plan of a weight."""
+        length = weight % _LONGEST
+        return Fraction(weight - length, self._unit), length
 
+    def applicable(self, state: frozenset[int]) -> list[Operator]:
+        """The operators that are applicable in ``state``, which holds relevant facts only."""
+        found = []
+        for fact in (None, *state):
+            for action in self._watched.get(fact, ()):
+                operator = self._operator(action)
+                if operator.pre <= state and operator.neg.isdisjoint(state):
+                    found.append(operator)
+        return found
 
-def relevant_facts(goal: Condition, actions: list[GroundAction]) -> frozenset[int]:
-    """Facts that some chain of the human's own actions needs for his goal."""
-    makers: dict[tuple[int, bool], list[GroundAction]] = {}
-    for action in actions:
-        for fact in action.add:
-            makers.setdefault((fact, True), []).append(action)
-        for fact in action.delete:
-            makers.setdefault((fact, False), []).append(action)
-    pending = [(fact, True) for fact in goal.positive] + [(fact, False) for fact in goal.negative]
-    needed = set(pending)
-    while pending:
-        for action in makers.get(pending.pop(), ()):
-            for literal in (*((f, True) for f in action.pre), *((f, False) for f in action.neg)):
-                if literal not in needed:
-                    needed.add(literal)
-                    pending.append(literal)
-    return frozenset(fact for fact, _ in needed)
+    def _operator(self, action: int) -> Operator:
+        if action not in self._operators:
+            ground = self._task.actions[action]
+            self._operators[action] = Operator(
+                frozenset(ground.pre),
+                frozenset(ground.neg),
+                self.facts.intersection(ground.add),
+                self.facts.intersection(ground.delete),
+                self.weight(action),
+            )
+        return self._operators[action]
 
-
-def own_operators(task: Task) -> tuple[tuple[Operator, ...], frozenset[int], Weights]:
-    """The human's useful own actions, the relevant facts, and the weights."""
-    own = [task.actions[i] for i in task.human_actions]
-    weights = Weights(own)
-    facts = relevant_facts(task.goal, own)
-    cost_weights = {cost: weights.of(cost, 1) for cost in {action.cost for action in own}}
-    operators = []
-    for action in own:
-        add, delete = facts.intersection(action.add), facts.intersection(action.delete)
-        if add or delete:
-            pre, neg = frozenset(action.pre), frozenset(action.neg)
-            if pre <= facts and neg <= facts:
-                operators.append(Operator(pre, neg, add, delete, cost_weights[action.cost]))
-    return tuple(operators), facts, weights
+    def _watch(self) -> dict[int | None, list[int]]:
+        """Each action under the precondition that the fewest actions share."""
+        actions = self._task.actions
+        shared = Counter(chain.from_iterable(actions[i].pre for i in self.ids))
+        watched: dict[int | None, list[int]] = {}
+        for i in self.ids:
+            rarest = min(actions[i].pre, key=shared.__getitem__, default=None)
+            watched.setdefault(rarest, []).append(i)
+        return watched

@@ -1,95 +1,78 @@
 """A lower bound on the human's cost alone: exact distances in a projection.
 
-The projection keeps the variables that only the human's own and joint actions
-change (his position, what he holds), as long as it stays small.  Dropping the other
-facts only makes actions applicable more often, so the bound is admissible.
+The projection keeps the variables that robots alone never change (his position,
+whether he holds something), as long as it stays small.  Dropping the other facts only
+makes actions applicable more often, so the bound is admissible.
 """
 
 import heapq
 from collections.abc import Iterable
+from typing import Final
 
 from serendipity.model import Condition, Task
-from verify.rules.operators import Operator
+from verify.rules.operators import OwnActions
 
-_MOST_STATES = 20_000
+_MOST_STATES: Final = 20_000
 
 Projected = frozenset[int]
+_Move = tuple[Projected, Projected, Projected, Projected]
+"""Precondition, forbidden facts, adds, deletes."""
 
 
 class Projection:
-    """Distances to the goal in the projection, by one backward Dijkstra over reachable states.
+    """Weights of cheapest plans in the projection, for the states that are reached from those asked for."""
 
-    Args:
-        task: the task; only its variables are looked at.
-        goal: the human's goal.
-        operators: his own actions, relevant facts only.
-    """
-
-    def __init__(self, task: Task, goal: Condition, operators: Iterable[Operator]) -> None:
-        operators = tuple(operators)
-        self.kept = _private_facts(task, goal, operators)
-        self._goal = _restricted(goal, self.kept)
-        self._moves = {
-            _projected(operator, self.kept): operator.weight
-            for operator in sorted(operators, key=lambda o: -o.weight)
-        }
-        self._by_need: dict[int | None, list[tuple[Operator, int]]] = {}
-        for move, weight in self._moves.items():
-            if move.add or move.delete:
-                self._by_need.setdefault(min(move.pre, default=None), []).append((move, weight))
+    def __init__(self, task: Task, own: OwnActions) -> None:
+        self.kept = _private_facts(task, own)
+        self._goal = _restricted(task.goal, self.kept)
+        self._by_need: dict[int | None, list[tuple[_Move, int]]] = {}
+        for move, weight in _moves(task, own, self.kept).items():
+            self._by_need.setdefault(min(move[0], default=None), []).append((move, weight))
         self._distance: dict[Projected, int] = {}
         self._seen: set[Projected] = set()
 
     def bound(self, state: frozenset[int]) -> int | None:
         """Least weight of a plan from ``state`` in the projection; None: there is no plan at all."""
+        projected = state & self.kept
+        if projected not in self._seen and len(self._seen) <= _MOST_STATES:
+            self._explore(projected)
         if len(self._seen) > _MOST_STATES:
             return 0
-        projected = state & self.kept
-        if projected not in self._seen:
-            self._explore(projected)
-            if len(self._seen) > _MOST_STATES:
-                return 0
         return self._distance.get(projected)
 
     def _explore(self, start: Projected) -> None:
-        stack = [start]
+        """Everything reachable from ``start``, then one Dijkstra backward over what is new."""
+        new, stack = {start}, [start]
         edges: dict[Projected, list[tuple[Projected, int]]] = {}
-        self._seen.add(start)
-        new = {start}
-        queue: list[tuple[int, int, Projected]] = []
-        while stack and len(self._seen) <= _MOST_STATES:
+        while stack and len(self._seen) + len(new) <= _MOST_STATES:
             state = stack.pop()
             if self._goal.holds(state):
-                queue.append((0, len(queue), state))
+                continue  # no cheapest plan goes on from here
             for successor, weight in self._successors(state):
                 edges.setdefault(successor, []).append((state, weight))
-                if successor not in self._seen:
-                    self._seen.add(successor)
+                if successor not in self._seen and successor not in new:
                     new.add(successor)
                     stack.append(successor)
-        queue += [
-            (self._distance[state], len(queue) + n, state)
-            for n, state in enumerate(edges)
-            if state in self._distance
-        ]
-        self._settle(queue, edges, new)
+        known = [(self._distance[state], state) for state in edges if state in self._distance]
+        goals = [(0, state) for state in new if self._goal.holds(state)]
+        self._settle(known + goals, edges)
+        self._seen |= new
 
     def _settle(
         self,
-        queue: list[tuple[int, int, Projected]],
+        sources: Iterable[tuple[int, Projected]],
         edges: dict[Projected, list[tuple[Projected, int]]],
-        new: set[Projected],
     ) -> None:
+        queue = [(distance, ticket, state) for ticket, (distance, state) in enumerate(sources)]
         heapq.heapify(queue)
-        ticket = 2 * len(queue)
+        ticket = len(queue)
         settled: set[Projected] = set()
         while queue:
             distance, _, state = heapq.heappop(queue)
             if state in settled:
                 continue
             settled.add(state)
-            if state in new:
-                self._distance[state] = distance
+            self._distance.setdefault(state, distance)
             for before, weight in edges.get(state, ()):
                 if before not in settled:
                     ticket += 1
@@ -97,26 +80,19 @@ class Projection:
 
     def _successors(self, state: Projected) -> Iterable[tuple[Projected, int]]:
         for fact in (None, *state):
-            for move, weight in self._by_need.get(fact, ()):
-                if move.pre <= state and move.neg.isdisjoint(state):
-                    yield state.difference(move.delete) | move.add, weight
+            for (pre, neg, add, delete), weight in self._by_need.get(fact, ()):
+                if pre <= state and neg.isdisjoint(state):
+                    yield (state - delete) | add, weight
 
 
-def _private_facts(task: Task, goal: Condition, operators: tuple[Operator, ...]) -> frozenset[int]:
-    """Facts of the variables that robots alone never change, few enough to enumerate."""
-    relevant = {*goal.positive, *goal.negative}
-    for operator in operators:
-        relevant |= operator.pre | operator.neg
-    shared = {
-        fact
-        for action in task.actions
-        if task.human not in action.participants
-        for fact in (*action.add, *action.delete)
-    }
+def _private_facts(task: Task, own: OwnActions) -> frozenset[int]:
+    """Relevant facts of the variables that robots alone never change, few enough to enumerate."""
+    robots = [action for action in task.actions if task.human not in action.participants]
+    shared = set().union(*(action.add for action in robots), *(action.delete for action in robots))
     kept: set[int] = set()
     size = 1
     for variable in sorted(task.variables, key=lambda v: -len(v.facts)):
-        facts = relevant.intersection(variable.facts)
+        facts = own.facts.intersection(variable.facts)
         values = len(facts) + 1
         if facts and shared.isdisjoint(variable.facts) and size * values <= _MOST_STATES:
             kept |= facts
@@ -124,8 +100,17 @@ def _private_facts(task: Task, goal: Condition, operators: tuple[Operator, ...])
     return frozenset(kept)
 
 
-def _projected(operator: Operator, kept: frozenset[int]) -> Operator:
-    return Operator(operator.pre & kept, operator.neg & kept, operator.add & kept, operator.delete & kept, 0)
+def _moves(task: Task, own: OwnActions, kept: frozenset[int]) -> dict[_Move, int]:
+    """The distinct projected actions that change anything, each at its least weight."""
+    moves: dict[_Move, int] = {}
+    for i in own.ids:
+        action = task.actions[i]
+        add, delete = kept.intersection(action.add), kept.intersection(action.delete)
+        if add or delete:
+            move = (kept.intersection(action.pre), kept.intersection(action.neg), add, delete)
+            weight = own.weight(i)
+            moves[move] = min(weight, moves.get(move, weight))
+    return moves
 
 
 def _restricted(goal: Condition, kept: frozenset[int]) -> Condition:
