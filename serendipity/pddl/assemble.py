@@ -11,8 +11,8 @@ from operator import attrgetter
 from serendipity.model import Condition, GroundAction, InputError, Task
 from serendipity.pddl.instantiate import FactTable, Instantiator, Participants, Record
 from serendipity.pddl.join import Relations
-from serendipity.pddl.lifted import Key, Literal, Schema, Unit
-from serendipity.pddl.normal import goal_clauses, operators
+from serendipity.pddl.lifted import EQUALITY, Key, Literal, Schema, Unit
+from serendipity.pddl.normal import Decide, TooManyCasesError, clauses, operator
 from serendipity.pddl.prune import executable
 
 
@@ -83,8 +83,8 @@ def _assemble(blueprint: Blueprint) -> Task:
     records: list[Record] = []
     for source in blueprint.sources:
         for schema in source.schemas:
-            for operator in operators(schema, source.unit):
-                records += instantiator.records(operator, source.unit, source.participants)
+            ground = instantiator.records(operator(schema, source.unit), source.unit, source.participants)
+            records += ground
     records = _owned(records, blueprint.warnings)
     facts = instantiator.facts
     goal = _goal(blueprint.goals, relations)
@@ -121,18 +121,26 @@ def _values(units: Iterable[Unit]) -> dict[Key, Fraction]:
 
 
 def _goal(unit: Unit, relations: Relations) -> list[Literal]:
-    """The goal as literals, without equalities."""
-    possible: list[list[Literal]] = []
-    for clause in goal_clauses(unit.problem.goal, unit):
-        decided = [lit for lit in clause.literals if relations.filtered(lit)]
-        if all(relations.holds(lit, lit.key) for lit in decided):
-            literals = [lit for lit in dict.fromkeys(clause.literals) if not relations.filtered(lit)]
-            if literals not in possible:
-                possible.append(literals)
-    if len(possible) != 1:
-        what = "disjunctive goals are not supported" if possible else "the goal can never hold"
-        raise unit.problem_error(what, unit.problem.goal_line)
-    return possible[0]
+    """The goal as literals, without equalities.
+
+    Static facts stay in it, so that an impossible goal is one that can't be reached;
+    they decide only what would be a disjunction without them.
+    """
+
+    def equalities(literal: Literal) -> bool | None:
+        return relations.holds(literal, literal.key) if literal.key[0] == EQUALITY else None
+
+    attempts: tuple[Decide, ...] = (equalities, relations.decide)
+    found = []
+    for decide in attempts:
+        try:
+            found = clauses(unit.problem.goal, unit, decide)
+        except TooManyCasesError:
+            continue
+        if len(found) == 1:
+            return sorted(found[0])
+    what = "disjunctive goals are not supported" if found else "the goal can never hold"
+    raise unit.problem_error(what, unit.problem.goal_line)
 
 
 class _Numbering:

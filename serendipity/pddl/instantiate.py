@@ -9,9 +9,18 @@ from fractions import Fraction
 from itertools import chain, repeat
 from typing import Final, NamedTuple
 
+from serendipity.model import InputError
 from serendipity.pddl.join import Relations, Row, bindings, picker
-from serendipity.pddl.lifted import Expression, FunctionValue, Key, Literal, Operation, Unit
-from serendipity.pddl.normal import Operator
+from serendipity.pddl.lifted import Expression, Formula, FunctionValue, Key, Literal, Operation, Unit
+from serendipity.pddl.normal import (
+    MAX_CASES,
+    Clause,
+    Operator,
+    TooManyCasesError,
+    clauses,
+    conjunction,
+    substitute,
+)
 from serendipity.pddl.resolve import calculate
 
 ONE: Final = Fraction(1)
@@ -77,9 +86,9 @@ class Instantiator:
             columns.ids([lit.key for lit in operator.effects if not lit.positive]),
             self._costs(operator, unit, columns, keys),
         )
-        if not operator.conditional:
+        if not operator.conditional and not operator.choices:
             return records
-        return _Conditional(operator, unit, columns, self).expanded(records)
+        return _Cases(operator, unit, columns, self).expanded(records)
 
     def _costs(
         self, operator: Operator, unit: Unit, columns: "_Columns", keys: Sequence[Key]
@@ -129,6 +138,7 @@ class _Columns:
     def __init__(
         self, operator: Operator, position: dict[str, int], rows: list[Row], facts: FactTable
     ) -> None:
+        self.variables = position
         self.position = dict(position)
         self.facts = facts
         for key in _lifted_keys(operator):
@@ -141,6 +151,10 @@ class _Columns:
         """The ground atom of one row."""
         values = self.rows[row]
         return (lifted[0], *(values[self.position[term]] for term in lifted[1:]))
+
+    def values(self, row: int) -> dict[str, str]:
+        """The values of the variables in one row."""
+        return dict(zip(self.variables, self.rows[row], strict=False))
 
     def keys(self, lifted: Key) -> list[Key]:
         """The ground atoms of all rows."""
@@ -164,9 +178,8 @@ def _lifted_keys(operator: Operator) -> Iterator[Key]:
     yield schema_key(operator)
     for literal in chain(operator.precondition, operator.effects):
         yield literal.key
-    for when, then in operator.conditional:
-        for literal in chain(when, then):
-            yield literal.key
+    for _, literal in operator.conditional:
+        yield literal.key
     pending = list(operator.schema.increases)
     while pending:
         match pending.pop():
@@ -181,8 +194,12 @@ def schema_key(operator: Operator) -> Key:
     return (operator.schema.name, *(p.name for p in operator.schema.parameters))
 
 
-class _Conditional:
-    """Conditional effects: one record for each combination of truths of their conditions."""
+class _Cases:
+    """Ground actions with disjunctive conditions or conditional effects.
+
+    One record for each disjunct of the condition, and for each combination of truths
+    of the effects' conditions.
+    """
 
     def __init__(self, operator: Operator, unit: Unit, columns: _Columns, instantiator: Instantiator) -> None:
         self.operator = operator
@@ -192,57 +209,55 @@ class _Conditional:
         self.facts = instantiator.facts
 
     def expanded(self, records: Iterable[Record]) -> Iterator[Record]:
-        for i, record in enumerate(records):
-            yield from self._cases(record, i)
+        for row, record in enumerate(records):
+            try:
+                yield from self._cases(record, row)
+            except TooManyCasesError:
+                raise self._error(record, "conditions") from None
 
     def _cases(self, record: Record, row: int) -> list[Record]:
-        cases = [record]
-        for when, then in self.operator.conditional:
-            condition = self._undecided(when, row)
-            if condition is None:
-                continue
-            cases = [new for case in cases for new in self._split(case, condition, then, row)]
+        choices = conjunction(self._clauses(choice, row) for choice in self.operator.choices)
+        cases = [case for choice in choices if (case := self._with(record, choice)) is not None]
+        effects: dict[Clause, list[Literal]] = {}
+        for condition, literal in self.operator.conditional:
+            ground = Literal(self.columns.key(literal.key, row), literal.positive)
+            for clause in self._clauses(condition, row):
+                effects.setdefault(clause, []).append(ground)
+        for clause, literals in effects.items():
+            cases = [new for case in cases for new in self._split(case, clause, literals)]
             if len(cases) > MAX_CASES:
-                message = (
-                    f"action '{' '.join(record.key)}': more than {MAX_CASES} combinations of its "
-                    "conditional effects are not supported"
-                )
-                raise self.unit.domain_error(message, self.operator.schema.line)
+                raise self._error(record, "conditional effects")
         return cases
 
-    def _undecided(self, when: Iterable[Literal], row: int) -> list[tuple[int, bool]] | None:
-        """The literals that are not decided by the arguments; None if one of those is false."""
-        found = []
-        for literal in when:
-            key = self.columns.key(literal.key, row)
-            if self.relations.filtered(literal) or literal.key[0] not in self.relations.fluent:
-                if not self.relations.holds(literal, key):
-                    return None
-            else:
-                found.append((self.facts[key], literal.positive))
-        return found
+    def _clauses(self, formula: Formula, row: int) -> list[Clause]:
+        return clauses(substitute(formula, self.columns.values(row)), self.unit, self.relations.decide)
 
-    def _split(
-        self, case: Record, condition: list[tuple[int, bool]], then: Iterable[Literal], row: int
-    ) -> Iterator[Record]:
+    def _with(self, record: Record, clause: Clause) -> Record | None:
+        case: Record | None = record
+        for literal in sorted(clause):
+            case = None if case is None else _assume(case, self.facts[literal.key], literal.positive)
+        return case
+
+    def _split(self, case: Record, clause: Clause, then: Iterable[Literal]) -> Iterator[Record]:
         """The condition false at its first literal, at its second, ..., or true."""
-        known: Record | None = case
-        for fact, positive in condition:
-            assert known is not None
-            otherwise = _assume(known, fact, not positive)
+        for literal in sorted(clause):
+            fact = self.facts[literal.key]
+            otherwise = _assume(case, fact, not literal.positive)
             if otherwise is not None:
                 yield otherwise
-            known = _assume(known, fact, positive)
+            known = _assume(case, fact, literal.positive)
             if known is None:
                 return
-        assert known is not None
-        add = tuple([self.facts[self.columns.key(lit.key, row)] for lit in then if lit.positive])
-        delete = tuple([self.facts[self.columns.key(lit.key, row)] for lit in then if not lit.positive])
-        yield known._replace(add=known.add + add, delete=known.delete + delete)
+            case = known
+        add = tuple([self.facts[literal.key] for literal in then if literal.positive])
+        delete = tuple([self.facts[literal.key] for literal in then if not literal.positive])
+        yield case._replace(add=case.add + add, delete=case.delete + delete)
 
-
-MAX_CASES: Final = 256
-"""The most records that one ground action with conditional effects may become."""
+    def _error(self, record: Record, what: str) -> InputError:
+        message = (
+            f"action '{' '.join(record.key)}': more than {MAX_CASES} cases of its {what} are not supported"
+        )
+        return self.unit.domain_error(message, self.operator.schema.line)
 
 
 def _assume(record: Record, fact: int, truth: bool) -> Record | None:

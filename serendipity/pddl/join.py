@@ -60,6 +60,13 @@ class Relations:
         truth = key[1] == key[2] if key[0] == EQUALITY else key in self.init
         return truth == literal.positive
 
+    def decide(self, literal: Literal) -> bool | None:
+        """The truth of a ground literal if it is the same in every state, else None."""
+        predicate = literal.key[0]
+        if predicate in self.fluent:
+            return None
+        return self.holds(literal, literal.key)
+
 
 def bindings(operator: Operator, unit: Unit, relations: Relations) -> tuple[dict[str, int], list[Row]]:
     """All bindings under which the preconditions that can't change hold.

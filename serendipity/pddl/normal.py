@@ -1,16 +1,17 @@
-"""Schemas to operators: conjunctive preconditions, no quantifiers.
+"""Schemas to operators, and conditions to disjunctive normal form.
 
-A disjunction becomes several operators of one name, ``exists`` a parameter that the
-action's name does not show, ``forall`` a conjunction over the objects of the type.
+What every way to do an action needs becomes the operator's precondition: ``forall``
+is a conjunction over the objects of the type, ``exists`` a parameter that the action's
+name does not show.  Disjunctions stay formulas; they are expanded for each ground
+action, when static facts have decided most of them.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from itertools import count, product
-from typing import Final, TypeVar
+from typing import Final
 
 from serendipity.pddl.lifted import (
-    EQUALITY,
     And,
     Effect,
     Formula,
@@ -23,151 +24,188 @@ from serendipity.pddl.lifted import (
     Unit,
 )
 
-T = TypeVar("T")
+MAX_CASES: Final = 256
+"""The most cases that one ground action's conditions, or its effects, may have."""
 
-MAX_DISJUNCTS: Final = 256
-"""The most operators that one action may become."""
+Clause = frozenset[Literal]
+"""A conjunction of literals that contradict neither each other nor static facts."""
+
+Decide = Callable[[Literal], bool | None]
+"""The truth of a ground literal, or None where it depends on the state."""
 
 
 class TooManyCasesError(Exception):
-    """A condition has more than ``MAX_DISJUNCTS`` disjuncts."""
-
-
-@dataclass(frozen=True, slots=True)
-class Clause:
-    """A conjunction of literals over declared and hidden parameters."""
-
-    literals: tuple[Literal, ...]
-    hidden: tuple[Parameter, ...] = ()
+    """A condition has more than ``MAX_CASES`` disjuncts."""
 
 
 @dataclass(frozen=True, slots=True)
 class Operator:
-    """One conjunctive way to do an action.
+    """A schema whose conditions are sorted out.
 
     Attributes:
         schema: the action.
         parameters: declared ones, then hidden ones.
         precondition: literals, equalities among them.
+        choices: further conditions, disjunctive ones.
         effects: unconditional effects.
-        conditional: pairs of a conjunction and the effects that it has.
+        conditional: pairs of a condition and the effect that it has.
     """
 
     schema: Schema
     parameters: tuple[Parameter, ...]
     precondition: tuple[Literal, ...]
-    effects: tuple[Literal, ...]
-    conditional: tuple[tuple[tuple[Literal, ...], tuple[Literal, ...]], ...] = ()
+    choices: tuple[Formula, ...] = ()
+    effects: tuple[Literal, ...] = ()
+    conditional: tuple[tuple[Formula, Literal], ...] = ()
 
 
-def operators(schema: Schema, unit: Unit) -> list[Operator]:
-    """The operators of a schema over the objects of its own files.
-
-    Raises:
-        InputError: it has too many cases.
-    """
-    if type(schema.precondition) is And and all(type(p) is Literal for p in schema.precondition.parts):
-        clauses = [Clause(schema.precondition.parts)]  # type: ignore[arg-type]
-    else:
-        clauses = _guarded(schema, unit, lambda: Expander(unit).clauses(schema.precondition))
-    simple = tuple([e.literal for e in schema.effects if e.condition is None and not e.parameters])
-    conditional: tuple[tuple[tuple[Literal, ...], tuple[Literal, ...]], ...] = ()
-    if len(simple) < len(schema.effects):
-        simple, conditional = _guarded(schema, unit, lambda: _expand_effects(schema.effects, unit))
-    return [Operator(schema, schema.parameters + c.hidden, c.literals, simple, conditional) for c in clauses]
+def operator(schema: Schema, unit: Unit) -> Operator:
+    """The operator of a schema over the objects of its own files."""
+    needs = _Needs(unit)
+    needs.collect(schema.precondition)
+    simple, conditional = _expand_effects(schema.effects, unit)
+    return Operator(
+        schema,
+        (*schema.parameters, *needs.hidden),
+        tuple(needs.literals),
+        tuple(needs.choices),
+        simple,
+        conditional,
+    )
 
 
-def goal_clauses(goal: Formula, unit: Unit) -> list[Clause]:
-    """The disjuncts of a goal, without quantifiers.
+@dataclass(slots=True)
+class _Needs:
+    """What a condition needs in every case, and the choices that it leaves."""
 
-    Raises:
-        InputError: it has too many cases.
-    """
-    try:
-        return Expander(unit, hide=False).clauses(goal)
-    except TooManyCasesError:
-        raise unit.problem_error("the goal has too many cases", unit.problem.goal_line) from None
+    unit: Unit
+    literals: list[Literal] = field(default_factory=list)
+    choices: list[Formula] = field(default_factory=list)
+    hidden: list[Parameter] = field(default_factory=list)
+    fresh: Iterator[int] = field(default_factory=count)
 
-
-def _guarded(schema: Schema, unit: Unit, work: Callable[[], T]) -> T:
-    try:
-        return work()
-    except TooManyCasesError:
-        message = f"more than {MAX_DISJUNCTS} cases of its conditions are not supported"
-        raise unit.domain_error(f"action '{schema.name}': {message}", schema.line) from None
-
-
-class Expander:
-    """Disjunctive normal form over the objects of a unit."""
-
-    def __init__(self, unit: Unit, *, hide: bool = True) -> None:
-        self.unit = unit
-        self.hide = hide
-        self.fresh = count()
-
-    def clauses(self, formula: Formula) -> list[Clause]:
-        """The disjuncts of a formula; ``exists`` gives hidden parameters if ``hide``."""
+    def collect(self, formula: Formula) -> None:
         match formula:
             case Literal():
-                return [Clause((formula,))]
+                self.literals.append(formula)
             case And(parts):
-                return self._conjunction([self.clauses(part) for part in parts])
-            case Or(parts):
-                return _limited([clause for part in parts for clause in self.clauses(part)])
+                for part in parts:
+                    self.collect(part)
+            case Or((part,)):
+                self.collect(part)
+            case Or():
+                self.choices.append(formula)
             case Quantified(True, parameters, body):
-                return self._conjunction([self.clauses(b) for b in self.instances(parameters, body)])
-            case Quantified(_, parameters, body) if self.hide:
-                renaming = {p.name: f"{p.name} {next(self.fresh)}" for p in parameters}
-                hidden = tuple(Parameter(renaming[p.name], p.type) for p in parameters)
-                inner = self.clauses(substitute(body, renaming))
-                return [Clause(clause.literals, hidden + clause.hidden) for clause in inner]
+                for values in assignments(parameters, self.unit):
+                    self.collect(substitute(body, values))
             case Quantified(_, parameters, body):
-                instances = self.instances(parameters, body)
-                return _limited([clause for b in instances for clause in self.clauses(b)])
-
-    def instances(self, parameters: tuple[Parameter, ...], body: Formula) -> Iterator[Formula]:
-        """The body once for each value of the parameters."""
-        for values in self.values(parameters):
-            yield substitute(body, values)
-
-    def values(self, parameters: tuple[Parameter, ...]) -> Iterator[dict[str, str]]:
-        """Every assignment of objects to parameters."""
-        domains = [self.unit.objects_of(p.type) for p in parameters]
-        for objects in product(*domains):
-            yield dict(zip((p.name for p in parameters), objects, strict=True))
-
-    def _conjunction(self, parts: list[list[Clause]]) -> list[Clause]:
-        merged = [Clause(())]
-        for alternatives in parts:
-            merged = [
-                Clause(a.literals + b.literals, a.hidden + b.hidden)
-                for a in merged
-                for b in alternatives
-                if not _contradict(a.literals, b.literals)
-            ]
-            _limited(merged)
-        return merged
+                renaming = {p.name: f"{p.name} {next(self.fresh)}" for p in parameters}
+                self.hidden += [Parameter(renaming[p.name], p.type) for p in parameters]
+                self.collect(substitute(body, renaming))
 
 
-def _limited(clauses: list[Clause]) -> list[Clause]:
-    if len(clauses) > MAX_DISJUNCTS:
-        raise TooManyCasesError
-    return clauses
+def _expand_effects(
+    effects: tuple[Effect, ...], unit: Unit
+) -> tuple[tuple[Literal, ...], tuple[tuple[Formula, Literal], ...]]:
+    """The unconditional effects, and the others with their conditions, without ``forall``."""
+    simple: list[Literal] = []
+    conditional: list[tuple[Formula, Literal]] = []
+    for effect in effects:
+        if effect.condition is None and not effect.parameters:
+            simple.append(effect.literal)
+            continue
+        for values in assignments(effect.parameters, unit):
+            literal = Literal(_substituted(effect.literal.key, values), effect.literal.positive)
+            if effect.condition is None:
+                simple.append(literal)
+            else:
+                conditional.append((substitute(effect.condition, values), literal))
+    return tuple(simple), tuple(conditional)
 
 
-def _contradict(a: tuple[Literal, ...], b: tuple[Literal, ...]) -> bool:
-    return len(b) == 1 and Literal(b[0].key, not b[0].positive) in a
+def clauses(formula: Formula, unit: Unit, decide: Decide) -> list[Clause]:
+    """The disjuncts of a ground condition: none if it is false, an empty one if it is true.
+
+    Raises:
+        TooManyCasesError: there are more than ``MAX_CASES``.
+    """
+    match formula:
+        case Literal():
+            truth = decide(formula)
+            if truth is None:
+                return [frozenset((formula,))]
+            return [frozenset()] if truth else []
+        case And(parts):
+            return conjunction(clauses(part, unit, decide) for part in parts)
+        case Or(parts):
+            return _disjunction(clauses(part, unit, decide) for part in parts)
+        case Quantified(universal, parameters, body):
+            instances = (
+                clauses(substitute(body, values), unit, decide) for values in assignments(parameters, unit)
+            )
+            return conjunction(instances) if universal else _disjunction(instances)
+
+
+def conjunction(parts: Iterable[list[Clause]]) -> list[Clause]:
+    """The disjuncts of the conjunction of some disjunctions.
+
+    Raises:
+        TooManyCasesError: there are more than ``MAX_CASES``.
+    """
+    certain: set[Literal] = set()
+    choices: list[list[Clause]] = []
+    for part in parts:
+        if len(part) == 1:
+            certain |= part[0]
+        else:
+            choices.append(part)
+    merged = [frozenset(certain)] if consistent(certain) else []
+    for choice in choices:
+        both = (a | b for a in merged for b in choice)
+        merged = _minimal(clause for clause in both if consistent(clause))
+    return merged
+
+
+def consistent(literals: Iterable[Literal]) -> bool:
+    """Whether no literal's negation is among the others."""
+    literals = set(literals)
+    return not any(Literal(key, not positive) in literals for key, positive in literals)
+
+
+def _disjunction(parts: Iterable[list[Clause]]) -> list[Clause]:
+    return _minimal(clause for part in parts for clause in part)
+
+
+def _minimal(found: Iterable[Clause]) -> list[Clause]:
+    """The clauses that no other one is part of, in order of first occurrence."""
+    kept: list[Clause] = []
+    for clause in found:
+        if not any(other <= clause for other in kept):
+            kept = [other for other in kept if not clause <= other]
+            kept.append(clause)
+            if len(kept) > MAX_CASES:
+                raise TooManyCasesError
+    return kept
+
+
+def assignments(parameters: tuple[Parameter, ...], unit: Unit) -> Iterator[dict[str, str]]:
+    """Every assignment of objects to parameters."""
+    domains = [unit.objects_of(p.type) for p in parameters]
+    for objects in product(*domains):
+        yield dict(zip((p.name for p in parameters), objects, strict=True))
 
 
 def substitute(formula: Formula, values: dict[str, str]) -> Formula:
     """The formula with variables replaced; an inner quantifier shadows."""
+    if not values:
+        return formula
     match formula:
         case Literal(key, positive):
             return Literal(_substituted(key, values), positive)
         case And(parts):
-            return And(tuple(substitute(part, values) for part in parts))
+            return And(tuple([substitute(part, values) for part in parts]))
         case Or(parts):
-            return Or(tuple(substitute(part, values) for part in parts))
+            return Or(tuple([substitute(part, values) for part in parts]))
         case Quantified(universal, parameters, body):
             own = {p.name for p in parameters}
             outer = {name: value for name, value in values.items() if name not in own}
@@ -175,27 +213,4 @@ def substitute(formula: Formula, values: dict[str, str]) -> Formula:
 
 
 def _substituted(key: Key, values: dict[str, str]) -> Key:
-    return (key[0], *(values.get(term, term) for term in key[1:]))
-
-
-def _expand_effects(
-    effects: tuple[Effect, ...], unit: Unit
-) -> tuple[tuple[Literal, ...], tuple[tuple[tuple[Literal, ...], tuple[Literal, ...]], ...]]:
-    """Effects without quantifiers: the unconditional, and the others by their condition."""
-    expander = Expander(unit, hide=False)
-    simple: list[Literal] = []
-    conditional: dict[tuple[Literal, ...], list[Literal]] = {}
-    for effect in effects:
-        for values in expander.values(effect.parameters):
-            literal = Literal(_substituted(effect.literal.key, values), effect.literal.positive)
-            if effect.condition is None:
-                simple.append(literal)
-                continue
-            for clause in expander.clauses(substitute(effect.condition, values)):
-                conditional.setdefault(clause.literals, []).append(literal)
-    return tuple(simple), tuple((when, tuple(then)) for when, then in conditional.items())
-
-
-def is_equality(literal: Literal) -> bool:
-    """Whether a literal compares two terms."""
-    return literal.key[0] == EQUALITY
+    return (key[0], *[values.get(term, term) for term in key[1:]])

@@ -1,0 +1,8 @@
+(define (problem reading)
+  (:domain office)
+  (:objects ann bot - agent room domain - room problem either - thing)
+  (:init (at ann room) (at bot domain) (door room domain) (door domain room) (door domain basement)
+         (in problem domain) (in either basement)
+         (= (steps room) 2) (= (steps domain) 0.5) (= (steps basement) 10) (= (total-cost) 0))
+  (:goal (read problem))
+  (:metric minimize (total-cost)))

@@ -1,0 +1,8 @@
+(define (problem dry-roses)
+  (:domain garden)
+  (:objects roses kale beans shed - bed can1 - can)
+  (:init (path shed kale) (path kale shed) (path kale roses) (path roses kale)
+         (path kale beans) (path beans kale)
+         (at-anna kale) (lies can1 shed) (= (total-cost) 0))
+  (:goal (and (watered roses)))
+  (:metric minimize (total-cost)))

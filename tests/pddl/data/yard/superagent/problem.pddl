@@ -1,0 +1,5 @@
+(define (problem both)
+  (:domain together)
+  (:objects roses kale shed - bed can1 - can)
+  (:init (at-anna kale) (at-robo shed))
+)

@@ -1,0 +1,178 @@
+"""Bad input: one clear line with file and line, where there is one."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from serendipity import InputError, load, load_pddl
+from tests.pddl.texts import OFFICE, YARD, action, domain, one, problem
+
+DOMAIN, PROBLEM = (path.read_text() for path in OFFICE)
+
+
+def office(folder: Path, domain_text: str | bytes, problem_text: str | bytes) -> InputError:
+    """The error that these two files give."""
+    files = folder / "domain.pddl", folder / "problem.pddl"
+    for file, text in zip(files, (domain_text, problem_text), strict=True):
+        file.write_bytes(text.encode() if isinstance(text, str) else text)
+    with pytest.raises(InputError) as caught:
+        load_pddl(*files, human="ann", robots=["bot"])
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+def spoilt(text: str, old: str, new: str) -> tuple[str, int]:
+    """The text with a part replaced, and the line of that part."""
+    assert text.count(old) >= 1
+    return text.replace(old, new, 1), text.count("\n", 0, text.index(old)) + 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("(at ?who ?from)", "(att ?who ?from)", "action 'move': unknown predicate 'att'"),
+        ("(door ?from ?to)", "(door ?from)", "predicate 'door' takes 2 arguments, got 1"),
+        ("(at ?who ?from)", "(at ?from ?from)", "'?from' is of type 'room', expected type 'agent'"),
+        ("(at ?who ?from)", "(at ?who cellar)", "object 'cellar' is not declared"),
+        ("(at ?who ?from)", "(at ?who ?form)", "variable '?form' is not declared"),
+        ("?to - room", "?to - rooom", "unknown type 'rooom'"),
+        ("basement - lift", "basement - elevator", "object 'basement': unknown type 'elevator'"),
+        ("(steps ?to)", "(stairs ?to)", "unknown function 'stairs'"),
+        ("(:action fetch", "(:action move", "action 'move' is defined already in line 15"),
+        ("(door ?from ?to)", "(< (steps ?to) 3)", "numeric conditions are not supported"),
+        (
+            "(:functions",
+            "(:derived (p) (q)) (:functions",
+            "derived predicates (':derived') are not supported",
+        ),
+        ("(:action fetch", "(:durative-action fetch", "durative actions"),
+        ("(has ?who ?what) (not (in", "(probabilistic 0.5 (read ?what)) (not (in", "probabilistic"),
+        ("(:requirements", "(:wishes", "expected a section of a domain, got ':wishes'"),
+        ("(:constants", "(:types", "':types' was given already in line 4"),
+        ("?from ?to - room", "?from ?to - (either room thing)", "'either' is not supported"),
+        ("?who - agent ?from", "?to - agent ?from", "parameter '?to' is declared twice"),
+        ("lift - room", "lift - hall hall - lift", "is its own supertype"),
+        ("(read ?what - thing)", "(read ?what - thing) (read)", "predicate 'read' is declared twice"),
+        ("define (domain", "define (problem", "expected 'domain', got 'problem'"),
+    ],
+)
+def test_bad_domain(tmp_path: Path, old: str, new: str, message: str) -> None:
+    text, line = spoilt(DOMAIN, old, new)
+    error = office(tmp_path, text, PROBLEM)
+    assert message in str(error)
+    assert (error.file, error.line) == (str(tmp_path / "domain.pddl"), line)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("(at ann room)", "(att ann room)", "initial state: unknown predicate 'att'"),
+        ("(at ann room)", "(at ann)", "predicate 'at' takes 2 arguments, got 1"),
+        ("(at ann room)", "(at ann attic)", "object 'attic' is not declared"),
+        ("(at ann room)", "(at room ann)", "'room' is of type 'room', expected type 'agent'"),
+        ("domain - room", "domain - rooom", "object 'room': unknown type 'rooom'"),
+        ("(read problem)", "(red problem)", "goal: unknown predicate 'red'"),
+        ("(read problem)", "(read book)", "goal: object 'book' is not declared"),
+        ("(read problem)", "(or (read problem) (read either))", "disjunctive goals are not supported"),
+        ("(read problem)", "(preference p1 (read problem))", "'preference' is not supported"),
+        (
+            "(:goal",
+            "(:constraints (and)) (:goal",
+            "trajectory constraints (':constraints') are not supported",
+        ),
+        ("(at bot domain)", "(at 5 (door room room))", "syntax error near '5'"),
+        ("(:goal", ") (:goal", "expected the end of the file"),
+        ("(= (steps room) 2)", "(= (steps room) two)", "syntax error near 'two'"),
+    ],
+)
+def test_bad_problem(tmp_path: Path, old: str, new: str, message: str) -> None:
+    text, line = spoilt(PROBLEM, old, new)
+    error = office(tmp_path, DOMAIN, text)
+    assert message in str(error)
+    assert (error.file, error.line) == (str(tmp_path / "problem.pddl"), line)
+
+
+@pytest.mark.parametrize("text", ["", "  \n ; only a comment\n"])
+def test_empty_file(tmp_path: Path, text: str) -> None:
+    assert str(tmp_path / "domain.pddl") + ": the file is empty" in str(office(tmp_path, text, PROBLEM))
+    assert str(tmp_path / "problem.pddl") + ": the file is empty" in str(office(tmp_path, DOMAIN, text))
+
+
+@pytest.mark.parametrize("noise", [bytes(range(256)), b"\x00\x01\x02", b"(define \x07"])
+def test_binary_noise(tmp_path: Path, noise: bytes) -> None:
+    assert "the file is not text" in str(office(tmp_path, noise, PROBLEM))
+
+
+def test_every_cut_of_a_file_is_one_error(tmp_path: Path) -> None:
+    for end in range(0, len(DOMAIN.rstrip()) - 1, 37):
+        error = office(tmp_path, DOMAIN[:end], PROBLEM)
+        assert error.file == str(tmp_path / "domain.pddl")
+    for end in range(0, len(PROBLEM.rstrip()) - 1, 11):
+        error = office(tmp_path, DOMAIN, PROBLEM[:end])
+        assert error.file == str(tmp_path / "problem.pddl")
+
+
+def test_missing_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"nowhere\.pddl: there is no such file"):
+        load_pddl(OFFICE[0], tmp_path / "nowhere.pddl", human="ann", robots=["bot"])
+
+
+def test_a_directory_in_place_of_a_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="the file can't be read: is a directory"):
+        load_pddl(tmp_path, OFFICE[1], human="ann", robots=["bot"])
+
+
+def test_directories_that_are_none(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no agent's folder"):
+        load(tmp_path)
+    with pytest.raises(InputError, match="expected a directory"):
+        load(tmp_path / "nowhere")
+    with pytest.raises(InputError, match="expected a directory"):
+        load(OFFICE[0])
+
+
+def test_an_agents_folder_with_one_file(tmp_path: Path) -> None:
+    folder = tmp_path / "yard"
+    shutil.copytree(YARD, folder)
+    (folder / "robo" / "problem.pddl").unlink()
+    with pytest.raises(InputError, match=r"robo.problem\.pddl: there is no such file"):
+        load(folder)
+
+
+def test_brackets_nested_too_deeply(tmp_path: Path) -> None:
+    text, _ = spoilt(DOMAIN, "(door ?from ?to)", "(and " * 20000 + ")" * 20000)
+    assert "nested too deeply" in str(office(tmp_path, text, PROBLEM))
+
+
+def test_too_many_cases_of_a_condition(tmp_path: Path) -> None:
+    facts = [f"(f{i})" for i in range(18)]
+    either = " ".join(f"(or {' '.join(facts[i : i + 3])})" for i in range(0, 18, 3))
+    text = domain(
+        action("go", f"(and {either})", "(p)"),
+        action("set", "(p)", " ".join(facts)),
+        predicates=f"(p) {' '.join(facts)}",
+    )
+    with pytest.raises(InputError, match=r":5: action 'go h': more than 256 cases of its conditions"):
+        one(tmp_path, text, problem())
+
+
+def test_too_many_conditional_effects(tmp_path: Path) -> None:
+    facts = " ".join(f"(f{i})" for i in range(10))
+    whens = " ".join(f"(when (f{i}) (not (f{i})))" for i in range(10))
+    text = domain(action("go", "(q)", whens), action("set", "(q)", facts), predicates=f"(p) (q) {facts}")
+    with pytest.raises(
+        InputError, match=r":5: action 'go \w': more than 256 cases of its conditional effects"
+    ):
+        one(tmp_path, text, problem(init="(q)"))
+
+
+def test_a_goal_that_can_be_false_by_equality_alone(tmp_path: Path) -> None:
+    text = domain(action("go", "(q)", "(p)"))
+    with pytest.raises(InputError, match=r"problem\.pddl:5: the goal can never hold"):
+        one(tmp_path, text, problem(goal="(= o1 o2)"))
+
+
+def test_unreachable_goal_is_no_error(tmp_path: Path) -> None:
+    task = one(tmp_path, domain(action("go", "(q)", "(r)")), problem(init="(q)"))
+    assert [task.facts[f] for f in task.goal.positive] == ["p"]

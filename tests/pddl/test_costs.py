@@ -1,0 +1,101 @@
+"""What actions cost: PDDL's total-cost, or 1 each."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from serendipity import InputError
+from tests.pddl.texts import action, domain, one, problem, two
+
+METRIC = "(:metric minimize (total-cost))"
+
+
+def costs(folder: Path, effect: str, init: str = "(q)", more: str = "", functions: str = "") -> set[Fraction]:
+    text = domain(action("go", "(q)", effect), functions=functions)
+    return {a.cost for a in one(folder, text, problem(init=init, more=more)).actions}
+
+
+def test_without_costs_every_action_costs_one(tmp_path: Path) -> None:
+    assert costs(tmp_path, "(p)") == {1}
+
+
+def test_with_a_metric_an_action_that_says_nothing_is_free(tmp_path: Path) -> None:
+    assert costs(tmp_path, "(p)", more=METRIC) == {0}
+
+
+def test_with_another_priced_action_an_action_that_says_nothing_is_free(tmp_path: Path) -> None:
+    text = domain(action("go", "(q)", "(p)"), action("run", "(q)", "(p) (increase (total-cost) 2)"))
+    task = one(tmp_path, text, problem(init="(q)"))
+    assert {a.name: a.cost for a in task.actions} == {"go h": 0, "go r": 0, "run h": 2, "run r": 2}
+
+
+def test_the_convention_holds_for_each_file(tmp_path: Path) -> None:
+    priced = domain(action("go", "(q)", "(p) (increase (total-cost) 3)", parameters=""))
+    plain = domain(action("run", "(q)", "(p)", parameters=""))
+    task = two(tmp_path, (priced, problem(init="(q)")), (plain, problem(init="(q)", goal="")))
+    assert {a.name: a.cost for a in task.actions} == {"go": 3, "run": 1}
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("0.01", Fraction(1, 100)),
+        ("1e-3", Fraction(1, 1000)),
+        (".5", Fraction(1, 2)),
+        ("(+ 1 (* 2 3))", Fraction(7)),
+        ("(/ 1 3)", Fraction(1, 3)),
+        ("(- (far) 0.5)", Fraction(2)),
+    ],
+)
+def test_expressions(tmp_path: Path, expression: str, value: Fraction) -> None:
+    effect = f"(p) (increase (total-cost) {expression})"
+    assert costs(tmp_path, effect, init="(q) (= (far) 2.5)", functions="(far)") == {value}
+
+
+def test_several_increases_add_up(tmp_path: Path) -> None:
+    assert costs(tmp_path, "(p) (increase (total-cost) 1) (increase (total-cost) 0.5)") == {Fraction(3, 2)}
+
+
+@pytest.mark.parametrize(
+    ("effect", "init", "message"),
+    [
+        ("(p) (increase (total-cost) -1)", "(q)", "cost of at least 0, got -1"),
+        (
+            "(p) (increase (total-cost) (- (far) 3))",
+            "(q) (= (far) 2)",
+            "'go h': expected a cost of at least 0",
+        ),
+        ("(p) (increase (total-cost) (far))", "(q)", "no initial value of 'far'"),
+        ("(p) (increase (total-cost) (/ 1 (far)))", "(q) (= (far) 0)", "division by zero"),
+        ("(p) (increase (far) 1)", "(q)", "numeric effects are not supported"),
+        ("(p) (when (q) (increase (total-cost) 1))", "(q)", "conditional action costs are not supported"),
+        ("(p) (increase (total-cost) 1e999999999)", "(q)", "expected a number"),
+    ],
+)
+def test_bad_costs(tmp_path: Path, effect: str, init: str, message: str) -> None:
+    with pytest.raises(InputError, match=message) as caught:
+        costs(tmp_path, effect, init=init, functions="(far)")
+    assert caught.value.line == 5
+    assert caught.value.file is not None
+    assert caught.value.file.endswith("domain.pddl")
+
+
+def test_two_values_of_one_function(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"problem.pddl:4: initial state: 'far' is given two values"):
+        costs(tmp_path, "(p)", init="(q) (= (far) 1) (= (far) 2)", functions="(far)")
+
+
+def test_files_that_disagree_on_a_value(tmp_path: Path) -> None:
+    text = domain(action("go", "(q)", "(p) (increase (total-cost) (far))"), functions="(far)")
+    first, second = problem(init="(q) (= (far) 1)"), problem(init="(q) (= (far) 2)", goal="")
+    with pytest.raises(InputError, match=r"r-problem.pddl: 'far' is 2 here, 1 in another"):
+        two(tmp_path, (text, first), (text, second))
+
+
+@pytest.mark.parametrize(
+    "metric", ["(:metric maximize (total-cost))", "(:metric minimize (+ (total-cost) 1))"]
+)
+def test_other_metrics(tmp_path: Path, metric: str) -> None:
+    with pytest.raises(InputError, match=r"problem.pddl:6: the only metric supported"):
+        costs(tmp_path, "(p)", more=metric)
