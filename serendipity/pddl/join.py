@@ -7,10 +7,14 @@ precondition binds range over the objects of their type.
 
 from collections.abc import Callable, Iterable, Sequence
 from operator import itemgetter
-from typing import Any
+from typing import Any, Final
 
+from serendipity.model import InputError
 from serendipity.pddl.lifted import EQUALITY, Key, Literal, Unit
 from serendipity.pddl.normal import Operator
+
+MAX_ROWS: Final = 5_000_000
+"""The most ground actions of one operator, some gigabytes of them."""
 
 Row = tuple[str, ...]
 """Values of variables, in the order in which the join bound them."""
@@ -80,6 +84,8 @@ def bindings(operator: Operator, unit: Unit, relations: Relations) -> tuple[dict
 class _Join:
     def __init__(self, operator: Operator, unit: Unit, relations: Relations) -> None:
         self.relations = relations
+        self.unit = unit
+        self.schema = operator.schema
         self.parameters = operator.parameters
         self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in operator.parameters}
         self.joins = [lit for lit in operator.precondition if relations.joined(lit)]
@@ -96,9 +102,16 @@ class _Join:
             if parameter.name not in self.position:
                 self.position[parameter.name] = len(self.position)
                 values = [(value,) for value in self.domains[parameter.name]]
+                if len(self.rows) * len(values) > MAX_ROWS:
+                    raise self._too_many()
                 self.rows = [row + value for row in self.rows for value in values]
                 self._filter()
         return self.position, self.rows
+
+    def _too_many(self) -> InputError:
+        schema = self.schema
+        message = f"action '{schema.name}': more than {MAX_ROWS} ground actions are not supported"
+        return self.unit.domain_error(message, schema.line)
 
     def _next(self) -> Key:
         """The join that grows the rows least, as far as sizes tell."""

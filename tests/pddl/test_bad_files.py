@@ -157,6 +157,13 @@ def test_too_many_cases_of_a_condition(tmp_path: Path) -> None:
         one(tmp_path, text, problem())
 
 
+def test_too_many_ground_actions(tmp_path: Path) -> None:
+    parameters = " ".join(f"?x{i} - thing" for i in range(30))
+    text = domain(action("go", "(q)", "(p)", f"?who - agent {parameters}"))
+    with pytest.raises(InputError, match=r":5: action 'go': more than 5000000 ground actions"):
+        one(tmp_path, text, problem(init="(q)"))
+
+
 def test_too_many_conditional_effects(tmp_path: Path) -> None:
     facts = " ".join(f"(f{i})" for i in range(10))
     whens = " ".join(f"(when (f{i}) (not (f{i})))" for i in range(10))

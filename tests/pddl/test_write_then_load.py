@@ -55,7 +55,8 @@ def moves(task: Task) -> set[tuple[object, ...]]:
                 who = frozenset(task.agents[i] for i in action.participants)
                 became = frozenset(written(task, f) for f in after - state)
                 ceased = frozenset(written(task, f) for f in state - after)
-                found.add((who, action.cost, became, ceased))
+                if after != state:  # an action that never changes anything is a noop
+                    found.add((who, action.cost, became, ceased))
                 if after not in seen:
                     seen.add(after)
                     pending.append(after)
