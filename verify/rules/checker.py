@@ -12,9 +12,10 @@ from verify.rules.report import CLAIMS, RuleReport, Violation
 class Checker:
     """Checks results for one task; its tables of the human alone are kept between calls."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, alone: Alone | None = None) -> None:
+        """``alone``: tables to share; None makes new ones."""
         self._task = task
-        self._alone = Alone(task)
+        self._alone = Alone(task) if alone is None else alone
 
     def check(self, result: Result) -> RuleReport:
         """The verdict of every rule that applies to ``result``."""

@@ -1,0 +1,61 @@
+"""The human's optimal plans from any state, robots idle: predictions of ``pi_H``, replanning.
+
+*Optimal* is least cost, then fewest actions (SPEC 1).
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from serendipity.model import HumanPlan, Task
+from verify.rules.alone import Alone, TooManyStatesError
+
+__all__ = ["OptimalPlans", "TooManyStatesError"]
+
+State = frozenset[int]
+
+Worth = tuple[Fraction, int]
+"""Cost and number of actions."""
+
+
+class OptimalPlans:
+    """His optimal plans, from what the rule checker knows of their cost.
+
+    Every method raises :class:`TooManyStatesError` where his own problem is too large.
+    """
+
+    def __init__(self, task: Task, alone: Alone | None = None) -> None:
+        self._task = task
+        self._alone = Alone(task) if alone is None else alone
+
+    def worth(self, state: State) -> Worth | None:
+        """Least cost, then fewest actions, or None if the goal is out of reach."""
+        return self._alone.optimum(state)
+
+    def canonical(self) -> HumanPlan | None:
+        """``pi_H`` as SPEC 1 predicts it; None if he can't reach his goal."""
+        return next(self.plans(), None)
+
+    def plans(self) -> Iterator[HumanPlan]:
+        """All optimal plans from the initial state, the canonical one first."""
+        if self.worth(self._task.init) is not None:
+            yield from self._continue((), self._task.init)
+
+    def steps(self, state: State) -> Iterator[tuple[int, State]]:
+        """Actions that start an optimal plan from ``state``, in string order, with their results."""
+        worth = self.worth(state)
+        if worth is None or worth[1] == 0:
+            return
+        cost, length = worth
+        for i in self._task.human_actions:
+            action = self._task.actions[i]
+            if action.cost <= cost and action.applicable(state):
+                after = state.difference(action.delete).union(action.add)
+                if self.worth(after) == (cost - action.cost, length - 1):
+                    yield i, after
+
+    def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:
+        worth = self.worth(state)
+        if worth is not None and worth[1] == 0:
+            yield plan
+        for i, after in self.steps(state):
+            yield from self._continue((*plan, i), after)

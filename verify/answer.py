@@ -1,0 +1,106 @@
+"""The integer program as a planner: the whole answer to a call (SPEC 3)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice
+
+from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
+from verify.alone import OptimalPlans
+from verify.call import Call, UndecidedError
+from verify.joint import cheapest
+from verify.minimise import Effort
+from verify.question import Found
+
+TIED_MODES = ("serendipity", "communication")
+"""Modes whose answer depends on which optimal ``pi_H`` the human follows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a call is answered, proved; costs in the call's units.
+
+    Attributes:
+        call: the call.
+        found: the plan of least objective, or None where ``pi_H`` (or nothing) is the answer.
+        opportunity: whether it is an opportunity (SPEC 3.1).
+    """
+
+    call: Call
+    found: Found | None
+    opportunity: bool
+
+    @property
+    def cost(self) -> Fraction | None:
+        """The answer's cost; None: infeasible."""
+        units = self.call.baseline if self.found is None else self.found.cost
+        return None if units is None else self.call.prices.cost(units)
+
+    @property
+    def reason(self) -> str | None:
+        """Why there is no plan, or None."""
+        if self.cost is not None:
+            return None
+        if self.call.human_plan is None and self.call.options.mode in ("serendipity", "individual"):
+            return "no-human-plan"
+        return "no-plan"
+
+
+def answer(call: Call) -> Answer:
+    """Solve a call.
+
+    Raises:
+        UndecidedError: a minimum could not be proved in time.
+        UsageError: the call needs a horizon.
+    """
+    mode = call.options.mode
+    if mode == "individual" or (mode == "serendipity" and call.human_plan is None):
+        return Answer(call, None, opportunity=False)
+    found = best_plan(call)
+    idle = idle_cost(call)
+    helps = found is not None and (idle is None or found.cost < idle)
+    if call.options.windowed and not helps:
+        found = None
+    return Answer(call, found, opportunity=helps and call.human_plan is not None)
+
+
+def best_plan(call: Call) -> Found | None:
+    """The plan of least objective, then cost, if it beats doing nothing."""
+    if call.horizon != INFINITE:
+        return call.best(call.question, call.do_nothing)
+    question = call.endless
+    if call.do_nothing is not None:
+        question = question.below(call.do_nothing[0] - 1)
+    return call.decided(cheapest(question, call.effort.deadline))
+
+
+def idle_cost(call: Call) -> int | None:
+    """Cost of the answer with all robots idle; see :attr:`Call.idle`."""
+    if call.horizon != INFINITE or call.baseline is None or call.robots_goal:
+        return call.idle
+    worth = call.plans.worth(call.task.init)
+    assert worth is not None
+    best = call.prices.units(worth[0])
+    limit = call.endless.most_cost
+    return best if limit is None or best <= limit else call.baseline
+
+
+def calls(
+    task: Task, options: Options, given: HumanPlan | None, effort: Effort, plans: OptimalPlans
+) -> Sequence[Call]:
+    """The calls that make up a task: one, or one for each optimal ``pi_H`` under ``ties``.
+
+    Raises:
+        UsageError: there are more than ``max_ties``.
+    """
+    if given is not None:
+        return [Call(task, options, given, plans, effort)]
+    if options.ties == "fixed" or options.mode not in TIED_MODES:
+        return [Call(task, options, plans.canonical(), plans, effort)]
+    tied: list[HumanPlan | None] = list(islice(plans.plans(), options.max_ties + 1))
+    if len(tied) > options.max_ties:
+        raise UsageError(f"max_ties: the human has more than {options.max_ties} optimal plans")
+    return [Call(task, options, plan, plans, effort) for plan in tied or [None]]
+
+
+__all__ = ["TIED_MODES", "Answer", "UndecidedError", "answer", "best_plan", "calls", "idle_cost"]

@@ -1,0 +1,200 @@
+"""The claims that need an optimiser: each a proof, a counter-example, or neither in time."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from time import perf_counter
+
+from serendipity.model import INFINITE, Claim, Result, Step
+from verify.alone import TooManyStatesError
+from verify.answer import Answer, answer, best_plan, idle_cost
+from verify.call import Call, Score, UndecidedError
+from verify.joint import cheapest
+from verify.minimise import minimise
+from verify.question import Found, Question
+from verify.results import found_result, plan_steps
+from verify.rules import Checker
+
+Verdict = tuple[str, str, Found | None]
+"""Verdict, reason, counter-example."""
+
+
+class Examiner:
+    """Examines one result of one call.
+
+    Args:
+        call: task, options, ``pi_H`` and the solver's settings.
+        result: the result.
+        steps: its plan by ids.
+        checker: checks counter-examples.
+    """
+
+    def __init__(self, call: Call, result: Result, steps: tuple[Step, ...], checker: Checker) -> None:
+        self.call = call
+        self.result = result
+        self.steps = steps
+        self.checker = checker
+
+    def claim(self, name: str, examine: Callable[[], Verdict]) -> Claim:
+        """Run an examination; running out of time or memory leaves the claim undecided."""
+        started = perf_counter()
+        try:
+            verdict, reason, found = examine()
+        except UndecidedError as error:
+            verdict, reason, found = "undecided", str(error), None
+        except TooManyStatesError:
+            verdict, reason, found = "undecided", "the human's own problem is too large", None
+        example = None
+        if found is not None:
+            example = plan_steps(self.call, found.steps)
+            fault = self._fault(found)
+            if fault is not None:
+                verdict, reason, example = "undecided", f"the counter-example breaks a rule: {fault}", None
+            else:
+                reason += f": {self._describe(found)}"
+        return Claim(name, verdict, reason, example, perf_counter() - started)
+
+    # -- the claims
+
+    def optimal(self) -> Verdict:
+        """No plan that the mode and its options allow has a lower objective, or the same at a lower cost."""
+        score = self._score()
+        nothing = self.call.do_nothing
+        if nothing is not None and nothing < score:
+            return "refuted", "doing nothing is better", None
+        found = self._better(score)
+        if found is not None:
+            return "refuted", "a better plan", found
+        return "proved", f"no plan within {self._cut(score)}", None
+
+    def optimum_is_no_opportunity(self) -> Verdict:
+        """A proved optimum costs no less than the answer without robots."""
+        idle, cost = idle_cost(self.call), self._score()[1]
+        if idle is not None and cost < idle:
+            return "refuted", f"the optimum costs less than {self._amount(idle)}, robots idle", None
+        return "proved", "the optimum costs no less than the answer without robots", None
+
+    def no_opportunity(self) -> Verdict:
+        """The best plan does not cost less than the answer without robots."""
+        call = self.call
+        if self._usual():
+            nothing = call.do_nothing
+            assert nothing is not None
+            found = self._better(nothing)
+            if found is not None:
+                return "refuted", "an opportunity", found
+            return "proved", f"no plan within {self._cut(nothing)}", None
+        best, idle = best_plan(call), idle_cost(call)
+        if best is not None and idle is not None and best.cost < idle:
+            return "refuted", "an opportunity", best
+        return "proved", "the best plan costs no less than the answer without robots", None
+
+    def opportunity_is_cheaper(self) -> Verdict | None:
+        """Refutes an opportunity that costs no less than doing without robots."""
+        idle, cost = idle_cost(self.call), self._score()[1]
+        if idle is not None and cost >= idle:
+            return "refuted", f"the plan costs no less than {self._amount(idle)}, robots idle", None
+        return None
+
+    def savings(self) -> Verdict | None:
+        """Refutes figures that need an optimiser: ``saving`` with ``G_R``, ``saving_alone``."""
+        call, result = self.call, self.result
+        if call.baseline is None or self._usual() or result.plan is None:
+            return None
+        idle = idle_cost(call)
+        assert idle is not None
+        alone = float(call.prices.cost(call.baseline - idle))
+        if result.saving_alone is not None and result.saving_alone != alone:
+            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone:g}", None
+        cost = self._score()[1]
+        saving = float(call.prices.cost(call.baseline - cost)) if result.opportunity else 0.0
+        if result.saving != saving:
+            return "refuted", f"saving is {saving:g}, the result says {result.saving}", None
+        if not result.opportunity and call.options.windowed and cost != call.baseline:
+            return "refuted", f"doing nothing costs {self._amount(call.baseline)}", None
+        return None
+
+    def lower_bound(self) -> Verdict:
+        """No answer has an objective below the bound."""
+        call, bound = self.call, self.result.lower_bound
+        assert bound is not None
+        shift = 0
+        if call.options.windowed and not self.result.opportunity:
+            shift = call.prices.epoch  # such an answer's objective is net of its one-epoch window
+        least = shift + self._units_at_least(bound)
+        nothing = call.do_nothing
+        if nothing is not None and nothing[0] < least:
+            return "refuted", f"doing nothing has the objective {self._amount(nothing[0] - shift)}", None
+        question = self._question().below(least - 1)
+        minimum = (
+            cheapest(question, call.effort.deadline)
+            if self._endless
+            else minimise(question, call.effort, call.plans)
+        )
+        if minimum.found is not None:
+            return "refuted", "a plan below the bound", minimum.found
+        call.decided(minimum)
+        return "proved", f"no plan has an objective below {bound:.12g}", None
+
+    def infeasible(self) -> Verdict:
+        """There is no plan at all."""
+        call = self.call
+        if call.options.mode in ("individual", "serendipity") and call.human_plan is None:
+            if call.plans.worth(call.task.init) is None:
+                return "proved", "all states that the human reaches alone were visited", None
+            return "refuted", "the human has a plan alone", None
+        given: Answer = answer(call)
+        if given.cost is None:
+            return "proved", "no plan satisfies the program", None
+        return "refuted", "a plan", given.found or call.idle_robots_plan
+
+    # -- helpers
+
+    @property
+    def _endless(self) -> bool:
+        return self.call.horizon == INFINITE
+
+    def _question(self) -> Question:
+        return self.call.endless if self._endless else self.call.question
+
+    def _usual(self) -> bool:
+        """Whether doing nothing and the answer without robots are both ``pi_H``."""
+        return not self.call.robots_goal and self.call.is_optimal
+
+    def _better(self, score: Score) -> Found | None:
+        if not self._endless:
+            return self.call.better(self.call.question, score)
+        return self.call.decided(cheapest(self.call.endless.below(score[0] - 1), self.call.effort.deadline))
+
+    def _score(self) -> Score:
+        """Objective and cost of the result's own plan, recomputed."""
+        return self.call.endless.measure(self.steps, self.result.window)
+
+    def _units_at_least(self, amount: float) -> int:
+        """The fewest units that are at least ``amount``; a float stands for the exact value it rounds."""
+        scale = self.call.prices.scale
+        nearest = round(Fraction(str(amount)) * scale)
+        if float(Fraction(nearest, scale)) == amount:
+            return nearest
+        return -((-Fraction(str(amount)) * scale).__floor__())
+
+    def _amount(self, units: int) -> str:
+        return f"{float(self.call.prices.cost(units)):.12g}"
+
+    def _cut(self, score: Score) -> str:
+        words = f"objective {self._amount(score[0])}"
+        return (
+            f"{words} and lower cost, or lower objective" if self.call.may_tie(score) else f"a lower {words}"
+        )
+
+    def _describe(self, found: Found) -> str:
+        words = f"cost {self._amount(found.cost)}, objective {self._amount(found.objective)}"
+        return (
+            words if found.window is None else f"{words}, window [{found.window.start}, {found.window.end})"
+        )
+
+    def _fault(self, found: Found) -> str | None:
+        """The first rule that a counter-example breaks; None if it stands."""
+        baseline = self.call.baseline
+        opportunity = baseline is not None and found.cost < baseline
+        report = self.checker.check(found_result(self.call, found, opportunity=opportunity))
+        return None if report.ok else str(report.first)

@@ -1,0 +1,179 @@
+"""Composite plans without a horizon: uniform-cost search over joint states, with an estimate.
+
+Without a horizon an epoch costs nothing, so that an action set can be taken apart and its
+actions executed one after the other, those first that others of the set would disable.
+Only sets in which actions disable each other in a circle have to stay together.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from time import perf_counter
+from typing import Final
+
+from serendipity.model import GroundAction, Step, Task
+from serendipity.model.actions import conflicting
+from verify.encodings.automata.network import FAR, distances, goal_states
+from verify.encodings.automata.product import automata
+from verify.encodings.relevance import Relevant, relevant_part
+from verify.minimise import Minimum
+from verify.question import Found, Question
+
+MOST_STATES: Final = 500_000
+
+State = frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class _Bundle:
+    """Actions that are executed together, and what they need and do."""
+
+    actions: tuple[int, ...]
+    pre: State
+    neg: State
+    add: State
+    delete: State
+    cost: int
+
+
+def cheapest(question: Question, deadline: float | None) -> Minimum:
+    """The least cost of a plan with any number of epochs, within the question's limits.
+
+    Args:
+        question: its horizon is not looked at; its rule is ``free``.
+        deadline: value of ``time.perf_counter`` at which to give up, or None.
+    """
+    part = relevant_part(question)
+    if part is None:
+        return Minimum("none")
+    return _Search(question, part).run(deadline)
+
+
+class _Search:
+    def __init__(self, question: Question, part: Relevant) -> None:
+        self.question = question
+        self.task = question.task
+        self.facts = part.facts
+        self.table: dict[int, list[_Bundle]] = {}
+        for bundle in self._bundles(part):
+            self.table.setdefault(min(bundle.pre, default=-1), []).append(bundle)
+        conditions = [self.task.goal, *([self.task.robot_goal] if question.robots_goal else [])]
+        self.wanted = part.facts.intersection([f for c in conditions for f in c.positive])
+        self.unwanted = part.facts.intersection([f for c in conditions for f in c.negative])
+        self.watched, self.left = self._estimates(part)
+
+    def run(self, deadline: float | None) -> Minimum:
+        start = self.task.init & self.facts
+        best = {start: 0}
+        parent: dict[State, tuple[State, _Bundle]] = {}
+        queue = [(self._estimate(start), 0, 0, start)]
+        closed: set[State] = set()
+        number, most = 0, self._most()
+        while queue:
+            estimate, _, _, state = heappop(queue)
+            if state in closed:
+                continue
+            if estimate > most:
+                break
+            closed.add(state)
+            if self.wanted <= state and self.unwanted.isdisjoint(state):
+                return self._found(state, best[state], parent)
+            if len(closed) > MOST_STATES:
+                return Minimum("undecided", bound=estimate, reason=f"more than {MOST_STATES} joint states")
+            if deadline is not None and len(closed) % 256 == 0 and perf_counter() > deadline:
+                return Minimum("undecided", bound=estimate, reason="time limit")
+            for bundle in self._applicable(state):
+                after = (state - bundle.delete) | bundle.add
+                total = best[state] + bundle.cost
+                if total < best.get(after, FAR):
+                    best[after], parent[after] = total, (state, bundle)
+                    number += 1
+                    heappush(queue, (total + self._estimate(after), -total, number, after))
+        return Minimum("none")
+
+    def _most(self) -> int:
+        limits = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
+        return min(limits, default=FAR - 1)
+
+    def _found(self, state: State, cost: int, parent: dict[State, tuple[State, _Bundle]]) -> Minimum:
+        bundles = []
+        while state in parent:
+            state, bundle = parent[state]
+            bundles.append(bundle)
+        steps = tuple(
+            Step(epoch, i) for epoch, bundle in enumerate(reversed(bundles), start=1) for i in bundle.actions
+        )
+        return Minimum("found", Found(steps, None, cost, cost), cost)
+
+    def _applicable(self, state: State) -> Iterator[_Bundle]:
+        for f in (-1, *state):
+            for bundle in self.table.get(f, ()):
+                if bundle.pre <= state and bundle.neg.isdisjoint(state):
+                    yield bundle
+
+    def _estimates(self, part: Relevant) -> tuple[State, dict[State, int]]:
+        """Distances in the human's automaton: robots' costs are only left out."""
+        groups = [frozenset(variable.facts) for variable in self.task.variables]
+        machine = automata(self.task, part, groups)[self.task.human]
+        weights = list(self.question.prices.team)
+        left = distances(machine, weights, goal_states(self.question, machine))[0]
+        return machine.facts, dict(zip(machine.states, left, strict=True))
+
+    def _estimate(self, state: State) -> int:
+        return self.left.get(state & self.watched, 0)
+
+    def _bundles(self, part: Relevant) -> Iterator[_Bundle]:
+        for i in part.actions:
+            yield self._bundle((i,))
+        if not self.question.options.strict:
+            for circle in circles([(i, self.task.actions[i]) for i in part.actions], self.task):
+                yield self._bundle(circle)
+
+    def _bundle(self, ids: tuple[int, ...]) -> _Bundle:
+        chosen = [self.task.actions[i] for i in ids]
+        return _Bundle(
+            ids,
+            self.facts.intersection([f for action in chosen for f in action.pre]),
+            self.facts.intersection([f for action in chosen for f in action.neg]),
+            self.facts.intersection([f for action in chosen for f in action.add]),
+            self.facts.intersection([f for action in chosen for f in action.delete]),
+            sum(self.question.prices.team[i] for i in ids),
+        )
+
+
+def circles(actions: list[tuple[int, GroundAction]], task: Task) -> list[tuple[int, ...]]:
+    """Sets of actions that may share an epoch but in no order follow each other."""
+    by_id = dict(actions)
+    disables = {i: [j for j, b in actions if j != i and _disables(a, b)] for i, a in actions}
+    found: set[tuple[int, ...]] = set()
+
+    def extend(chosen: tuple[int, ...]) -> None:
+        if len(chosen) > 1 and _strongly_connected(chosen, disables):
+            found.add(tuple(sorted(chosen)))
+        if len(chosen) < len(task.agents):
+            for j in {j for i in chosen for j in disables[i]} - set(chosen):
+                if not any(conflicting(by_id[i], by_id[j], strict=False) for i in chosen):
+                    extend((*chosen, j))
+
+    for i, _ in actions:
+        extend((i,))
+    return sorted(found)
+
+
+def _disables(a: GroundAction, b: GroundAction) -> bool:
+    return not set(a.delete).isdisjoint(b.pre) or not set(a.add).isdisjoint(b.neg)
+
+
+def _strongly_connected(chosen: tuple[int, ...], disables: dict[int, list[int]]) -> bool:
+    """Whether each of the actions leads to each other one along ``disables``."""
+    members = set(chosen)
+    for start in chosen:
+        reached, pending = {start}, [start]
+        while pending:
+            for j in disables[pending.pop()]:
+                if j in members and j not in reached:
+                    reached.add(j)
+                    pending.append(j)
+        if reached != members:
+            return False
+    return True

@@ -1,0 +1,133 @@
+"""What is asked of an integer program: one minimum, under one mode's rules.
+
+A :class:`Question` holds all that decides which plans are allowed and what they cost;
+both encodings answer it.  Costs become integers here: all are multiplied by the least
+common multiple of their denominators, so that cheaper means cheaper by at least 1.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import reduce
+from math import lcm
+
+from serendipity.model import HumanPlan, Options, Step, Task, Window
+
+FREE, WINDOW, EXACT, ALONE = "free", "window", "exact", "alone"
+"""Rules for the human: anything (SPEC 3.4), a window (3.1), exactly ``pi_H``, his own actions only."""
+
+
+@dataclass(frozen=True, slots=True)
+class Prices:
+    """Integer costs of one question, in units of ``1 / scale``.
+
+    Attributes:
+        scale: units per unit of the domain's cost.
+        team: cost of each action to the team, discounted (SPEC 1).
+        talk: what each action adds to the objective for communication (Def. 3.2).
+        epoch: ``K``: what an epoch of the window adds to the objective.
+    """
+
+    scale: int
+    team: tuple[int, ...]
+    talk: tuple[int, ...]
+    epoch: int
+
+    def units(self, amount: Fraction) -> int:
+        """The largest number of units that is at most ``amount``."""
+        return (amount * self.scale).__floor__()
+
+    def cost(self, units: int) -> Fraction:
+        """The cost that a number of units is."""
+        return Fraction(units, self.scale)
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A plan that answers a question, replayed; costs in the question's units."""
+
+    steps: tuple[Step, ...]
+    window: Window | None
+    objective: int
+    cost: int
+
+
+@dataclass(frozen=True)
+class Question:
+    """Minimise the objective over the plans that a rule allows.
+
+    Attributes:
+        task: the task.
+        options: discount, interference, suffix and the other options in force.
+        rule: ``free``, ``window``, ``exact`` or ``alone``.
+        human_plan: ``pi_H``; empty where there is none.
+        horizon: number of epochs.
+        prices: integer costs.
+        robots: whether robots (and joint actions) take part at all.
+        robots_goal: whether ``G_R`` has to be reached.
+        most: the objective may not exceed this many units, or None.
+        most_cost: the cost may not exceed this many units, or None.
+    """
+
+    task: Task
+    options: Options
+    rule: str
+    human_plan: HumanPlan
+    horizon: int
+    prices: Prices
+    robots: bool = True
+    robots_goal: bool = True
+    most: int | None = None
+    most_cost: int | None = None
+
+    def but(self, **changes: object) -> "Question":
+        """This question with some fields changed."""
+        return replace(self, **changes)  # type: ignore[arg-type]
+
+    def below(self, most: int | None, most_cost: int | None = None) -> "Question":
+        """The same with tighter limits on objective and cost (eq. 11)."""
+        return replace(self, most=_least(self.most, most), most_cost=_least(self.most_cost, most_cost))
+
+    @property
+    def keeps_pi_h(self) -> bool:
+        """Whether the prefix is ``pi_H`` epoch by epoch, not the second (7b)."""
+        return not self.options.keep_prefix
+
+    def allowed(self) -> list[int]:
+        """Ids of the actions that may occur at all."""
+        if self.rule == ALONE or not self.robots:
+            return list(self.task.human_actions)
+        return list(range(len(self.task.actions)))
+
+    def measure(self, steps: Iterable[Step], window: Window | None) -> tuple[int, int]:
+        """Objective and cost of a plan in units."""
+        steps = tuple(steps)
+        cost = sum(self.prices.team[step.action] for step in steps)
+        talk = sum(self.prices.talk[step.action] for step in steps)
+        return cost + talk + (self.prices.epoch * len(window) if window else 0), cost
+
+
+def _least(a: int | None, b: int | None) -> int | None:
+    return b if a is None else a if b is None else min(a, b)
+
+
+def prices(task: Task, options: Options, human_plan: HumanPlan) -> Prices:
+    """The integer costs of a call.
+
+    Communication costs nothing outside communication mode, and ``K`` nothing without windows.
+    """
+    team = [task.team_cost(action, options.discount) for action in task.actions]
+    talk = [Fraction(0)] * len(team)
+    if options.mode == "communication":
+        planned = set(human_plan)
+        for i, action in enumerate(task.actions):
+            if task.human in action.participants and i not in planned:
+                talk[i] = options.communication_weight * action.cost
+    epoch = options.window_weight if options.windowed else Fraction(0)
+    scale = reduce(lcm, (amount.denominator for amount in (*team, *talk, epoch)), 1)
+    return Prices(
+        scale,
+        tuple(int(amount * scale) for amount in team),
+        tuple(int(amount * scale) for amount in talk),
+        int(epoch * scale),
+    )

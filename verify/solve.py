@@ -1,0 +1,114 @@
+"""``serendipity solve``: the integer program answers from scratch, in every mode of SPEC 3."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from fractions import Fraction
+from time import perf_counter
+from typing import Any
+
+from serendipity.model import HumanPlan, Options, Result, Task, UsageError
+from verify.alone import OptimalPlans, TooManyStatesError
+from verify.answer import Answer, answer, calls
+from verify.call import UndecidedError
+from verify.minimise import Effort
+from verify.results import to_result
+from verify.solver import solver_version
+
+
+def solve(
+    task: Task,
+    options: Options,
+    *,
+    human_plan: Iterable[str] | None = None,
+    encoding: str = "automata",
+    solver: str = "highs",
+) -> Result:
+    """The best plan by integer programming alone: slow, and independent of the search.
+
+    Args:
+        task: the task.
+        options: mode and options; ``time_limit`` bounds the whole call, in seconds.
+        human_plan: names of the actions that the human is going to do; None predicts them.
+        encoding: ``automata`` or ``paper``.
+        solver: ``highs`` or ``cbc``.
+
+    Returns:
+        A result with status ``optimal`` or ``infeasible``, or ``unknown`` where the limit
+        came first (``reason`` says which).
+
+    Raises:
+        UsageError: a mode or option that no integer program answers, or no such solver.
+        PlanError: ``human_plan`` can't be executed, or misses the goal.
+    """
+    if options.mode == "assistance" or options.human_model != "omniscient":
+        raise UsageError("solve: expected a mode other than 'assistance' and the omniscient human model")
+    started = perf_counter()
+    deadline = None if options.time_limit is None else started + options.time_limit
+    effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
+    given: HumanPlan | None = None if human_plan is None else task.plan_from_names(human_plan)
+    plans = OptimalPlans(task)
+    try:
+        answers = [answer(call) for call in calls(task, options, given, effort, plans)]
+        tied = given is None and options.ties != "fixed" and plans.canonical() is not None
+        result = over_ties(answers, options.ties) if tied and len(answers) > 1 else to_result(answers[0])
+    except (UndecidedError, TooManyStatesError) as error:
+        reason = str(error) or "the human's own problem is too large"
+        human = task.agents[task.human]
+        result = Result(options.mode, "unknown", human, options, reason=reason)
+    statistics = {
+        "elapsed_seconds": perf_counter() - started,
+        "solver": solver_version(solver),
+        "encoding": encoding,
+        "solver_calls": effort.calls,
+        **effort.size,
+    }
+    return replace(result, statistics={**result.statistics, **statistics})
+
+
+def over_ties(answers: list[Answer], ties: str) -> Result:
+    """One result from the answers for all optimal ``pi_H`` (SPEC 1)."""
+    results = [to_result(each) for each in answers]
+    listed: list[dict[str, Any]] = [
+        {"human_plan": list(r.human_plan or ()), "cost": r.cost, "opportunity": r.opportunity}
+        for r in results
+    ]
+    missing = next((r for r in results if r.cost is None), None)
+    if missing is not None:
+        chosen = missing
+    elif ties == "expected":
+        chosen = _mean(answers, results)
+    else:
+        costs = [each.cost or Fraction(0) for each in answers]
+        wanted = min(costs) if ties == "optimistic" else max(costs)
+        chosen = results[costs.index(wanted)]
+    return replace(chosen, statistics={**chosen.statistics, "ties": listed})
+
+
+def _mean(answers: list[Answer], results: list[Result]) -> Result:
+    """The expected answer: means of the figures, no single plan."""
+
+    def mean(values: Iterable[Fraction | None]) -> float:
+        return float(sum((value or Fraction(0) for value in values), Fraction(0)) / len(answers))
+
+    objective = mean(_objective(each) for each in answers)
+    return replace(
+        results[0],
+        opportunity=any(each.opportunity for each in answers),
+        cost=mean(each.cost for each in answers),
+        saving=mean(_saving(each) for each in answers),
+        objective=objective,
+        lower_bound=objective,
+        window=None,
+        plan=None,
+        agent_costs={},
+    )
+
+
+def _objective(each: Answer) -> Fraction | None:
+    return each.cost if each.found is None else each.call.prices.cost(each.found.objective)
+
+
+def _saving(each: Answer) -> Fraction:
+    if not each.opportunity or each.cost is None or each.call.baseline is None:
+        return Fraction(0)
+    return each.call.prices.cost(each.call.baseline) - each.cost
