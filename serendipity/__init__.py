@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     )
     from serendipity.pddl import load, load_agents, load_pddl
     from serendipity.planning import plan, plan_anytime
+    from serendipity.reproduction import reproduce
     from serendipity.scenarios import example, generate_usar
 
 __version__ = "0.1.0"
@@ -54,6 +55,7 @@ __all__ = [
     "load_pddl",
     "plan",
     "plan_anytime",
+    "reproduce",
     "verify",
 ]
 
@@ -67,10 +69,11 @@ _HOMES: Final = {
     "plan_anytime": "serendipity.planning",
     "check": "serendipity.certify",
     "verify": "serendipity.certify",
+    "reproduce": "serendipity.reproduction",
 }
 """Where the public functions live; the public classes live in ``serendipity.model``."""
 
-_NEED_SIBLINGS: Final = ("serendipity.planning", "serendipity.certify")
+_NEED_SIBLINGS: Final = ("serendipity.planning", "serendipity.certify", "serendipity.reproduction")
 
 
 def __getattr__(name: str) -> Any:

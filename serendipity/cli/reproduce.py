@@ -1,0 +1,173 @@
+"""``serendipity reproduce``: a folder of tasks through modes x discounts."""
+
+import logging
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
+
+import typer
+
+from serendipity.cli import output
+from serendipity.model import UsageError
+
+if TYPE_CHECKING:
+    from serendipity.reproduction import Reproduction
+    from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
+
+log = logging.getLogger("serendipity.reproduce")
+
+_FORMATS: Final = ("table", "csv", "json")
+
+
+def reproduce(
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FOLDER",
+            help="Folder of tasks: testN, each with a folder per agent and superagent/.",
+            show_default=False,
+        ),
+    ],
+    modes: Annotated[
+        str, typer.Option(metavar="MODE,...", help="Modes to solve each task in.")
+    ] = "individual,serendipity,communication,composite",
+    discounts: Annotated[
+        str, typer.Option(metavar="D,...", help="Discounts, 0 to 1.")
+    ] = "0,0.1,0.3,0.5,0.7,0.9",
+    jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", help="Processes.")] = 1,
+    dask: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS|local", help="Work on a Dask cluster (needs serendipity[dask])."),
+    ] = None,
+    journal: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Append finished tasks to FILE and skip those in it; by default OUTPUT.journal.",
+        ),
+    ] = None,
+    report: Annotated[
+        Path | None, typer.Option(metavar="FILE.html", help="Also write tables and charts to one page.")
+    ] = None,
+    tables: Annotated[
+        Path | None,
+        typer.Option(metavar="PREFIX", help="Also write Table I and II to PREFIX1.csv and PREFIX2.csv."),
+    ] = None,
+    format: Annotated[  # noqa: A002 - the option's name
+        str | None,
+        typer.Option("--format", metavar="|".join(_FORMATS), help="By default after -o's name, else table."),
+    ] = None,
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> None:
+    """Run a folder of tasks through modes and discounts; a run that was killed goes on where it was."""
+    output.start_logging(verbose)
+    form = _format(format, output_file)
+    for file in (output_file, report, journal, tables):
+        output.check_output(file)
+    from serendipity.cli.progress import shown
+    from serendipity.reproduction import reproduce as run_all
+    from serendipity.reproduction.tables import examples, table_1, table_2
+
+    kept = journal
+    if kept is None and output_file is not None:
+        kept = output_file.with_name(f"{output_file.name}.journal")
+    with shown(quiet=quiet) as on_progress:
+        run = run_all(
+            folder,
+            modes=_listed(modes),
+            discounts=_listed(discounts),
+            jobs=jobs,
+            journal=kept,
+            dask=dask,
+            on_progress=on_progress,
+        )
+    entries, times, answers = table_1(run), table_2(run), examples()
+    output.write_answer(_answer(form, run, entries, times, answers), output_file)
+    written = [output_file] if output_file else []
+    written += _extras(report, tables, run, entries, times, answers)
+    if journal is None and kept is not None:
+        kept.unlink(missing_ok=True)  # the answer holds all of it
+    _tell(written, quiet=quiet)
+
+
+def _tell(written: list[Path], *, quiet: bool) -> None:
+    """Where the files are: on a terminal, or in the log."""
+    for path in written:
+        if sys.stderr.isatty() and not quiet:
+            sys.stderr.write(f"Wrote {path}\n")
+        else:
+            log.info("wrote %s", path)
+
+
+def _format(wanted: str | None, output_file: Path | None) -> str:
+    if wanted is None:
+        suffix = "" if output_file is None else output_file.suffix[1:]
+        return suffix if suffix in _FORMATS else "table"
+    if wanted not in _FORMATS:
+        raise UsageError(f"--format: expected one of {', '.join(_FORMATS)}, got '{wanted}'")
+    return wanted
+
+
+def _listed(text: str) -> list[str]:
+    return [part for part in text.replace(",", " ").split() if part]
+
+
+def _answer(
+    form: str,
+    run: "Reproduction",
+    entries: "tuple[Entry, ...]",
+    times: "tuple[Times, ...]",
+    answers: "tuple[ExampleAnswer, ...]",
+) -> str:
+    from serendipity.reproduction import formats
+
+    if form == "csv":
+        return formats.rows_as_csv(run)
+    if form == "json":
+        return output.as_json(formats.as_json(run, entries, times, answers))
+    return _text(run, entries, times, answers)
+
+
+def _text(
+    run: "Reproduction",
+    entries: "tuple[Entry, ...]",
+    times: "tuple[Times, ...]",
+    answers: "tuple[ExampleAnswer, ...]",
+) -> str:
+    from serendipity.cli.render import Grid, Line, rendered
+    from serendipity.reproduction import COLUMNS
+    from serendipity.reproduction.report import examples_grid, table_1_grid, table_2_grid
+
+    parts: list[Line | Grid] = [Grid(COLUMNS, [row.cells() for row in run.rows])]
+    for title, (header, rows) in (
+        ("Table I: mean cost (number of tasks in which a robot helps)", table_1_grid(entries)),
+        ("Table II: seconds of a planning call", table_2_grid(times)),
+        ("The paper's examples, sections III-B to III-D", examples_grid(answers)),
+    ):
+        parts += [Line(), Line(title, "bold"), Grid(header, rows)]
+    return rendered(parts)
+
+
+def _extras(
+    report: Path | None,
+    tables: Path | None,
+    run: "Reproduction",
+    entries: "tuple[Entry, ...]",
+    times: "tuple[Times, ...]",
+    answers: "tuple[ExampleAnswer, ...]",
+) -> list[Path]:
+    """Write what was asked for besides the answer; the files written."""
+    from serendipity.reproduction import formats
+    from serendipity.reproduction.report import html_report
+
+    texts: dict[Path, str] = {}
+    if report is not None:
+        texts[report] = html_report(run, entries, times, answers)
+    if tables is not None:
+        texts[tables.with_name(f"{tables.name}1.csv")] = formats.table_1_as_csv(entries)
+        texts[tables.with_name(f"{tables.name}2.csv")] = formats.table_2_as_csv(times)
+    for path, text in texts.items():
+        output.write_answer(text, path)
+    return list(texts)

@@ -1,0 +1,55 @@
+"""A run as CSV and as JSON."""
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from typing import Any, Final
+
+from serendipity.reproduction.rows import COLUMNS
+from serendipity.reproduction.run import Reproduction
+from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
+
+SCHEMA: Final = "serendipity.reproduction/1"
+
+
+def rows_as_csv(run: Reproduction) -> str:
+    """The rows, one a line, below the names of ``COLUMNS``."""
+    return _csv(COLUMNS, (row.cells() for row in run.rows))
+
+
+def table_1_as_csv(entries: Sequence[Entry]) -> str:
+    """Table I, one entry a line."""
+    return _csv_of([entry.to_dict() for entry in entries])
+
+
+def table_2_as_csv(times: Sequence[Times]) -> str:
+    """Table II, one mode a line."""
+    return _csv_of([time.to_dict() for time in times])
+
+
+def as_json(
+    run: Reproduction, entries: Sequence[Entry], times: Sequence[Times], answers: Sequence[ExampleAnswer]
+) -> dict[str, Any]:
+    """The JSON object (schema ``serendipity.reproduction/1``)."""
+    return {
+        "schema": SCHEMA,
+        "modes": list(run.modes),
+        "discounts": [float(discount) for discount in run.discounts],
+        "rows": [row.to_dict() for row in run.rows],
+        "table_1": [entry.to_dict() for entry in entries],
+        "table_2": [time.to_dict() for time in times],
+        "examples": [answer.to_dict() for answer in answers],
+    }
+
+
+def _csv_of(objects: Sequence[dict[str, Any]]) -> str:
+    lines = (["" if value is None else value for value in item.values()] for item in objects)
+    return _csv(list(objects[0]), lines)
+
+
+def _csv(header: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(lines)
+    return text.getvalue()

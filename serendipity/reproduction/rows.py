@@ -1,0 +1,114 @@
+"""One row per task, mode and discount."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Final
+
+from serendipity.model import Window
+
+COLUMNS: Final = (
+    "test",
+    "mode",
+    "discount",
+    "cost",
+    "human_cost",
+    "window_start",
+    "window_end",
+    "seconds",
+)
+"""The columns of the CSV, in order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """An answer in short.
+
+    Attributes:
+        test: the task's number or name.
+        mode: as in ``Options``.
+        discount: exact.
+        status: as in ``Result``.
+        cost: of the answer, or None.
+        human_cost: of the human's plan, or None.
+        opportunity: whether a robot helps.
+        window: of the answer, or None.
+        seconds: wall time of the planning call, without reading the task.
+        best_tie: least cost over the human's optimal plans; ``cost`` where that is no question.
+        worst_tie: greatest cost over them.
+    """
+
+    test: str
+    mode: str
+    discount: Fraction
+    status: str
+    cost: Fraction | None
+    human_cost: Fraction | None
+    opportunity: bool
+    window: Window | None
+    seconds: float
+    best_tie: Fraction | None
+    worst_tie: Fraction | None
+
+    def cells(self) -> tuple[str, ...]:
+        """The texts of ``COLUMNS``; empty where there is no value."""
+        start, end = ("", "") if self.window is None else (str(self.window.start), str(self.window.end))
+        costs = (_text(self.cost), _text(self.human_cost))
+        return (
+            self.test,
+            self.mode,
+            f"{float(self.discount):.10g}",
+            *costs,
+            start,
+            end,
+            f"{self.seconds:.6f}",
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object: ``COLUMNS``, then what else is known."""
+        return {
+            "test": self.test,
+            "mode": self.mode,
+            "discount": float(self.discount),
+            "cost": _float(self.cost),
+            "human_cost": _float(self.human_cost),
+            "window_start": None if self.window is None else self.window.start,
+            "window_end": None if self.window is None else self.window.end,
+            "seconds": self.seconds,
+            "status": self.status,
+            "opportunity": self.opportunity,
+            "best_tie": _float(self.best_tie),
+            "worst_tie": _float(self.worst_tie),
+        }
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> "Row":
+        """The row that :meth:`to_dict` wrote."""
+        window = None
+        if data["window_start"] is not None:
+            window = Window(data["window_start"], data["window_end"])
+        return cls(
+            test=data["test"],
+            mode=data["mode"],
+            discount=Fraction(str(data["discount"])),
+            status=data["status"],
+            cost=exact_cost(data["cost"]),
+            human_cost=exact_cost(data["human_cost"]),
+            opportunity=data["opportunity"],
+            window=window,
+            seconds=data["seconds"],
+            best_tie=exact_cost(data["best_tie"]),
+            worst_tie=exact_cost(data["worst_tie"]),
+        )
+
+
+def exact_cost(value: float | None) -> Fraction | None:
+    """The rational that a cost in a result stands for."""
+    return None if value is None else Fraction(str(value))
+
+
+def _float(value: Fraction | None) -> float | None:
+    return None if value is None else float(value)
+
+
+def _text(value: Fraction | None) -> str:
+    return "" if value is None else str(float(value))

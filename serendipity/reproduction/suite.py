@@ -1,0 +1,65 @@
+"""The tasks of a folder, in natural order, each with a fingerprint of what its files say."""
+
+import hashlib
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from serendipity.model import InputError, UsageError
+
+_NUMBERED = re.compile(r"test(\d+)")
+
+
+@dataclass(frozen=True, slots=True)
+class TaskFolder:
+    """One task of a suite.
+
+    Attributes:
+        test: its number, for a folder ``testN``; else the folder's name.
+        path: the folder.
+        fingerprint: changes when a file of the task does.
+    """
+
+    test: str
+    path: Path
+    fingerprint: str
+
+
+def find_tasks(folder: Path) -> tuple[TaskFolder, ...]:
+    """The tasks in a folder: its subfolders in which agents have theirs.
+
+    Raises:
+        InputError: there is no such folder, or no task in it.
+        UsageError: the folder is a task itself.
+    """
+    if not folder.is_dir():
+        raise InputError("expected a folder of tasks", folder)
+    if _is_task(folder):
+        raise UsageError(f"{folder} is a single task: expected a folder of tasks; try `serendipity plan`")
+    found = [path for path in folder.iterdir() if _is_task(path)]
+    if not found:
+        raise InputError("no task in this folder: expected testN/AGENT/domain.pddl", folder)
+    tasks = (TaskFolder(_name(path), path, _fingerprint(path)) for path in found)
+    return tuple(sorted(tasks, key=lambda task: natural(task.test)))
+
+
+def natural(name: str) -> tuple[tuple[int, str], ...]:
+    """Sorting key by which 2 comes before 10."""
+    return tuple((int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name))
+
+
+def _is_task(path: Path) -> bool:
+    return path.is_dir() and next(path.glob("*/domain.pddl"), None) is not None
+
+
+def _name(path: Path) -> str:
+    numbered = _NUMBERED.fullmatch(path.name)
+    return numbered[1] if numbered else path.name
+
+
+def _fingerprint(path: Path) -> str:
+    digest = hashlib.sha256()
+    for file in sorted(path.glob("*/*.pddl")):
+        digest.update(f"{file.parent.name}/{file.name}\0".encode())
+        digest.update(hashlib.sha256(file.read_bytes()).digest())
+    return digest.hexdigest()[:16]

@@ -1,0 +1,112 @@
+"""``serendipity reproduce`` on the command line."""
+
+import json
+import os
+import pty
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from tests.cli.conftest import Run, assert_one_line
+
+Runs = Callable[[str], Run]
+SHORT = "--modes serendipity,individual --discounts 0.6"
+
+
+@pytest.fixture
+def suite(tmp_path: Path) -> Path:
+    for number, preset in ((1, "room2"), (2, "room7")):
+        serendipity.generate_usar(tmp_path / "suite" / f"test{number}", preset=preset)
+    return tmp_path / "suite"
+
+
+def test_formats_say_the_same(run: Runs, suite: Path) -> None:
+    shown = run(f"reproduce suite {SHORT}")
+    assert (shown.code, shown.err) == (0, "")
+    rows = run(f"reproduce suite {SHORT} --format csv").out.splitlines()
+    data = json.loads(run(f"reproduce suite {SHORT} --format json").out)
+    assert data["schema"] == "serendipity.reproduction/1"
+    for line, row in zip(rows[1:], data["rows"], strict=True):
+        cells = line.split(",")[:-1]
+        assert cells == ["" if row[name] is None else str(row[name]) for name in rows[0].split(",")[:-1]]
+        assert any(text.split()[:4] == cells[:4] for text in shown.out.splitlines())
+    assert "Table I:" in shown.out
+    assert "Table II:" in shown.out
+
+
+def test_files(run: Runs, suite: Path, tmp_path: Path) -> None:
+    done = run(f"reproduce suite {SHORT} -o rows.csv --report page.html --tables table")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    written = {path.name for path in tmp_path.iterdir()}
+    assert written == {"suite", "rows.csv", "page.html", "table1.csv", "table2.csv"}
+    assert (tmp_path / "table1.csv").read_text().startswith("discount,variant,mean_cost,improved,")
+    assert (tmp_path / "table2.csv").read_text().startswith("mode,calls,mean_seconds,")
+
+
+def test_a_journal_of_ones_own_stays(run: Runs, suite: Path, tmp_path: Path) -> None:
+    first = run(f"reproduce suite {SHORT} --format csv --journal done.jsonl").out
+    assert run(f"reproduce suite {SHORT} --format csv --journal done.jsonl").out == first
+    assert len((tmp_path / "done.jsonl").read_text().splitlines()) == 2
+
+
+def test_progress_in_a_log(run: Runs, suite: Path) -> None:
+    lines = run(f"reproduce suite {SHORT} --format csv -v").err.splitlines()
+    assert [line.split("progress: ")[1].split(",")[0] for line in lines] == [
+        "0 of 2 tasks",
+        "1 of 2 tasks",
+        "2 of 2 tasks",
+    ]
+
+
+def test_progress_on_a_terminal(suite: Path, tmp_path: Path) -> None:
+    ours, theirs = pty.openpty()
+    command = [
+        sys.executable,
+        "-m",
+        "serendipity",
+        "reproduce",
+        str(suite),
+        *SHORT.split(),
+        "--format",
+        "csv",
+    ]
+    done = subprocess.run(
+        command, stdout=subprocess.PIPE, stderr=theirs, check=True, env=os.environ | {"TERM": "xterm"}
+    )
+    os.close(theirs)
+    shown = os.read(ours, 100_000).decode()
+    os.close(ours)
+    assert "opportunities" in shown
+    assert "2/2" in shown
+    assert done.stdout.startswith(b"test,mode,")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("", ("nowhere", "expected a folder of tasks")),
+        ("--modes help", ("modes", "individual, serendipity", "'help'")),
+        ("--modes assistance", ("modes", "'assistance'")),
+        ("--discounts 2", ("discount", "[0, 1]")),
+        ("--discounts ,", ("at least one",)),
+        ("--jobs 0", ("jobs", "at least 1")),
+        ("--format text", ("--format", "table, csv, json")),
+        ("-o absent/rows.csv", ("no folder",)),
+        ("--report absent/page.html", ("no folder",)),
+    ],
+)
+def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
+    assert_one_line(run(f"reproduce nowhere {options}"), *words)
+
+
+def test_a_single_task_is_not_a_folder_of_tasks(run: Runs, suite: Path) -> None:
+    assert_one_line(run("reproduce suite/test1"), "single task", "serendipity plan")
+
+
+def test_no_scheduler(run: Runs, suite: Path) -> None:
+    pytest.importorskip("distributed", reason="needs the extra serendipity[dask]")
+    assert_one_line(run(f"reproduce suite {SHORT} --dask nonsense://x"), "--dask", "nonsense://x")
