@@ -4,8 +4,16 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.
 """
 
 from search.alone import PlanGraph
-from search.clock import Clock
+from search.clock import Clock, OutOfTimeError
 from search.outcome import Outcome
 from search.planner import optimal_human_plan, optimal_human_plans, solve
 
-__all__ = ["Clock", "Outcome", "PlanGraph", "optimal_human_plan", "optimal_human_plans", "solve"]
+__all__ = [
+    "Clock",
+    "OutOfTimeError",
+    "Outcome",
+    "PlanGraph",
+    "optimal_human_plan",
+    "optimal_human_plans",
+    "solve",
+]

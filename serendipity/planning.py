@@ -1,16 +1,19 @@
 """The facade over the search: options in, results out, incumbents on the way."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, replace
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
-from search import Clock, Outcome, optimal_human_plans, solve
+from search import Clock, Outcome, OutOfTimeError, optimal_human_plans, solve
+from search.simulation import solve_for_human
 from serendipity.model.errors import UsageError
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
+from serendipity.simulation import realised
 
 
 def plan(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> Result:
@@ -27,8 +30,8 @@ def plan(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any)
         UsageError: an option is unknown or has no legal value.
         PlanError: ``human_plan`` can't be executed, or misses the goal.
     """
-    *_, last = plan_anytime(task, human_plan=human_plan, **options)
-    return last
+    *_, last = _answers(task, human_plan, options)
+    return last()
 
 
 def plan_anytime(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> Iterator[Result]:
@@ -36,14 +39,26 @@ def plan_anytime(task: Task, *, human_plan: Iterable[str] | None = None, **optio
 
     Args and errors are those of :func:`plan`.
     """
+    for answer in _answers(task, human_plan, options):
+        yield answer()
+
+
+def _answers(
+    task: Task, human_plan: Iterable[str] | None, options: dict[str, Any]
+) -> Iterator[Callable[[], Result]]:
+    """Answers that are put into words only if somebody asks for them."""
     chosen = options_from(options)
     clock = Clock(chosen.time_limit)
     given = None if human_plan is None else task.plan_from_names(human_plan)
     if chosen.ties != "fixed" and given is None and _depends_on_ties(chosen):
-        yield _over_ties(task, chosen, clock)
+        yield partial(_over_ties, task, chosen, clock)
         return
-    for outcome in solve(task, chosen, human_plan=given, clock=clock):
-        yield to_result(task, chosen, outcome, clock)
+    for outcome in _solver(chosen)(task, chosen, human_plan=given, clock=clock):
+        yield partial(to_result, task, chosen, outcome, clock)
+
+
+def _solver(options: Options) -> Callable[..., Iterator[Outcome]]:
+    return solve if options.human_model == "omniscient" else solve_for_human
 
 
 def options_from(given: dict[str, Any]) -> Options:
@@ -57,8 +72,12 @@ def options_from(given: dict[str, Any]) -> Options:
         if name not in known:
             raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
     chosen = Options(**given)
-    if chosen.mode == "assistance" or chosen.human_model != "omniscient":
-        raise UsageError("mode 'assistance' and human models other than 'omniscient' are not available yet")
+    if chosen.mode == "assistance":
+        raise UsageError("mode 'assistance' is not available yet")
+    if chosen.human_model != "omniscient" and chosen.mode != "serendipity":
+        raise UsageError(
+            f"human_model: '{chosen.human_model}' is for serendipity mode only, not for {chosen.mode}"
+        )
     return chosen
 
 
@@ -70,7 +89,7 @@ def _over_ties(task: Task, options: Options, clock: Clock) -> Result:
     """The task solved once for each optimal ``pi_H`` (SPEC 1)."""
     graph = optimal_human_plans(task)
     if graph is None:
-        *_, only = solve(task, options, clock=clock)
+        *_, only = _solver(options)(task, options, clock=clock)
         return to_result(task, options, only, clock)
     count = graph.count()
     if count > options.max_ties:
@@ -89,7 +108,7 @@ def _over_ties(task: Task, options: Options, clock: Clock) -> Result:
 
 
 def _last(task: Task, options: Options, human_plan: HumanPlan, clock: Clock) -> Result:
-    *_, outcome = solve(task, options, human_plan=human_plan, clock=clock)
+    *_, outcome = _solver(options)(task, options, human_plan=human_plan, clock=clock)
     return to_result(task, options, outcome, clock)
 
 
@@ -148,12 +167,31 @@ def to_result(task: Task, options: Options, outcome: Outcome, clock: Clock) -> R
         saving_alone=None if outcome.baseline is None else float(outcome.saving_alone),
         plan=steps,
         agent_costs={} if outcome.steps is None else _agent_costs(task, options, outcome.steps),
+        realised=_realised(task, options, outcome, clock),
         statistics={
             "elapsed_seconds": clock.elapsed(),
             "expanded": outcome.expanded,
             "generated": outcome.generated,
         },
     )
+
+
+def _realised(task: Task, options: Options, outcome: Outcome, clock: Clock) -> dict[str, bool]:
+    """The verdicts of SPEC 6; none without a plan, or where the time is over."""
+    if outcome.steps is None or outcome.cost is None:
+        return {}
+    try:
+        return realised(
+            task,
+            options,
+            outcome.human_plan or (),
+            outcome.steps,
+            cost=outcome.cost,
+            horizon=outcome.horizon,
+            clock=clock,
+        )
+    except OutOfTimeError:
+        return {}
 
 
 def _saving(outcome: Outcome) -> Fraction | None:

@@ -14,6 +14,8 @@ from serendipity.model.options import INFINITE, Options
 from serendipity.model.plans import Step, Window
 from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
+from serendipity.model.trace import Trace, TraceEpoch, TraceSkip
+from serendipity.model.visibility import Surroundings, Visible, surroundings
 
 __all__ = [
     "INFINITE",
@@ -29,8 +31,14 @@ __all__ = [
     "Result",
     "SerendipityError",
     "Step",
+    "Surroundings",
     "Task",
+    "Trace",
+    "TraceEpoch",
+    "TraceSkip",
     "UsageError",
+    "Visible",
     "Window",
     "exact",
+    "surroundings",
 ]

@@ -1,0 +1,6 @@
+"""The human who replans: what he does with a plan that nobody told him of (SPEC 6)."""
+
+from search.simulation.planner import solve_for_human
+from search.simulation.simulator import Epoch, Simulated, Skipped, simulate
+
+__all__ = ["Epoch", "Simulated", "Skipped", "simulate", "solve_for_human"]

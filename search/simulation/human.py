@@ -1,0 +1,142 @@
+"""The human's state machine: what he decides when he looks up (SPEC 6, steps 1 and 2)."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from search.alone import Alone
+from search.clock import Clock
+from search.encoding import Encoding, Op, applicable, encoding
+from search.keys import INFINITE_KEY, Weights
+from search.projection import human_projection
+from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, doubtful_encoding
+from search.simulation.intention import Intention, Intentions
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan, Task
+from serendipity.model.visibility import Visible, surroundings
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What a look makes of his plan; costs are scaled, None is infinite.
+
+    Attributes:
+        intention: what he means to do now.
+        kept: ``c``, what his plan costs where it still works.
+        best: ``h``, his optimal cost alone; where it is None he waits.
+    """
+
+    intention: Intention
+    kept: int | None
+    best: int | None
+
+    @property
+    def replanned(self) -> bool:
+        """Whether he has changed his mind."""
+        return self.best is not None and self.kept != self.best
+
+
+class Human:
+    """One human with his beliefs, plans and decisions, in packed states.
+
+    Args:
+        task: the task.
+        options: discount and weights.
+        clock: asked for time.
+        human_model: ``observant`` or ``local``.
+        actions: ids of actions that will be asked about, beyond the useful ones.
+        visible: what a local human sees; None for the default.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        clock: Clock,
+        *,
+        human_model: str,
+        actions: Collection[int] = (),
+        visible: Visible | None = None,
+    ) -> None:
+        local = human_model == "local"
+        self.encoding = _encoding(task, actions, local=local)
+        self.weights = Weights(self.encoding, options, None)
+        self.keys = self.weights.keys
+        self.bound = human_projection(self.encoding, self.encoding.goal, self.weights.human, clock)
+        self.alone = Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, clock)
+        self.intentions = Intentions(self.encoding, self.keys, self.weights.human)
+        self.eyes: Eyes = _eyes(task, self.encoding, visible) if local else Everywhere()
+        self.concern = self.encoding.own_mask | self.encoding.goal.mask
+        for i in actions:
+            if task.actions[i].participants == (task.human,):
+                self.concern |= _asked_by(self.encoding.op(i))
+        self._looks: dict[tuple[int, int], Look] = {}
+
+    def decide(self, belief: int, intention: Intention) -> Look:
+        """Step 1: whether he keeps his plan, makes another, or waits."""
+        key = (belief & self.concern, intention.number)
+        look = self._looks.get(key)
+        if look is None:
+            look = self._looks[key] = self._decide(belief, intention)
+        return look
+
+    def _decide(self, belief: int, intention: Intention) -> Look:
+        kept = intention.cost if intention.works(belief, self.encoding.goal) else None
+        limit = INFINITE_KEY if kept is None else self.key_of(kept)
+        best = self.alone.key(belief, limit)
+        if best >= limit:
+            return Look(intention, kept, kept)
+        plan = self.alone.optimal_plans(belief).canonical()
+        return Look(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
+
+    def accepts(self, joint: Op, belief: int, best: int | None) -> bool:
+        """Step 2: whether he takes part, ``best`` being his cost alone now."""
+        if not applicable(joint, belief):
+            return False
+        if best is None:
+            return True  # anything may be worth more than no plan at all
+        left = best - self.keys.scaled_cost(self.weights.human[joint.cost])
+        if left < 0:
+            return False
+        limit = self.key_of(left + 1)
+        return self.alone.key(belief & joint.keep | joint.put, limit) < limit
+
+    def stuck(self, state: int) -> bool:
+        """Whether he has no plan alone from a packed state, as it truly is."""
+        return self.alone.key(state) >= INFINITE_KEY
+
+    def learn(self, belief: int, state: int, op: Op) -> int:
+        """The belief after he tried an action in vain: its preconditions as they are."""
+        mask = _asked_by(op)
+        return belief & ~mask | state & mask
+
+    def key_of(self, cost: int) -> int:
+        """The least key of a scaled cost."""
+        return (cost << self.keys.cost_shift) + (cost << self.keys.objective_shift)
+
+    def plan_alone(self) -> HumanPlan | None:
+        """His canonical optimal plan from ``I``, or None."""
+        init = self.encoding.init
+        if self.alone.key(init) >= INFINITE_KEY:
+            return None
+        return self.alone.optimal_plans(init).canonical()
+
+
+def _encoding(task: Task, actions: Collection[int], *, local: bool) -> Encoding:
+    packed = doubtful_encoding(task) if local else encoding(task)
+    asked = {f for i in actions for f in (*task.actions[i].pre, *task.actions[i].neg)}
+    if all(packed.fact_bits[f] is not None for f in asked):
+        return packed
+    extra = asked | (set(surroundings(task).located) if local else set())
+    return Encoding(packed.task, frozenset(extra))
+
+
+def _asked_by(op: Op) -> int:
+    """The fields that an op's precondition looks at."""
+    mask = op.need_mask
+    for field, _ in op.forbidden:
+        mask |= field
+    return mask
+
+
+def _eyes(task: Task, packed: Encoding, visible: Visible | None) -> Eyes:
+    return Nearby(packed, surroundings(task)) if visible is None else AsTold(packed, visible)

@@ -1,0 +1,74 @@
+"""What remains of the human's current plan (``rho`` of SPEC 6)."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+from search.encoding import Encoding, Goal, Op, applicable
+from search.keys import Keys
+from search.successors import NOTHING, Option
+
+
+@dataclass(frozen=True, eq=False)
+class Intention:
+    """A sequence of his own actions; one object for each sequence.
+
+    Attributes:
+        number: tells intentions apart.
+        op: the first action, packed; None at the end.
+        option: what it does; nothing at the end.
+        rest: the intention after it; itself at the end.
+        weight: key increment of all its actions.
+        cost: their cost, scaled.
+    """
+
+    number: int
+    op: Op | None
+    option: Option
+    _rest: "Intention | None"
+    weight: int
+    cost: int
+
+    @property
+    def rest(self) -> "Intention":
+        """What remains after the first action."""
+        return self._rest or self
+
+    @cached_property
+    def actions(self) -> tuple[int, ...]:
+        """Action ids, in order."""
+        return (*self.option.actions, *(self._rest.actions if self._rest else ()))
+
+    def works(self, state: int, goal: Goal) -> bool:
+        """Whether it leads from a packed state to the goal, with robots idle."""
+        at = self
+        while at.op is not None:
+            if not applicable(at.op, state):
+                return False
+            state = state & at.op.keep | at.op.put
+            at = at.rest
+        return goal.holds(state)
+
+
+class Intentions:
+    """Makes intentions, each sequence once."""
+
+    def __init__(self, encoding: Encoding, keys: Keys, weights: list[int]) -> None:
+        self._encoding = encoding
+        self._keys = keys
+        self._weights = weights
+        self._known: dict[tuple[int, ...], Intention] = {(): Intention(0, None, NOTHING, None, 0, 0)}
+
+    def of(self, actions: Iterable[int]) -> Intention:
+        """The intention to do these actions, one after another."""
+        wanted = tuple(actions)
+        found = self._known.get(wanted)
+        if found is None:
+            rest = self.of(wanted[1:])
+            op = self._encoding.op(wanted[0])
+            weight = self._weights[op.cost]
+            option = Option(weight, op.keep, op.put, (op.action,), op.agents)
+            cost = rest.cost + self._keys.scaled_cost(weight)
+            found = Intention(len(self._known), op, option, rest, rest.weight + weight, cost)
+            self._known[wanted] = found
+        return found

@@ -1,0 +1,197 @@
+"""The best help that happens, with a human who replans on sight (SPEC 6)."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from search.best_first import Incumbent, Progress, best_first
+from search.clock import Clock, OutOfTimeError
+from search.followed import Followed
+from search.keys import INFINITE_KEY
+from search.outcome import Outcome, path_steps, plan_steps
+from search.simulation.human import Human
+from search.simulation.space import Reactive
+from search.successors import Successors, as_option
+from serendipity.model.errors import UsageError
+from serendipity.model.options import Options
+from serendipity.model.plans import Step
+from serendipity.model.task import HumanPlan, Task
+
+
+def solve_for_human(
+    task: Task, options: Options, *, human_plan: HumanPlan | None = None, clock: Clock | None = None
+) -> Iterator[Outcome]:
+    """Answers with falling cost and rising lower bound; the last one is the best known.
+
+    The minimum is over the robots' action sequences of at most ``T`` epochs.  The human
+    produces prefix, window and suffix himself, so an answer has no window, and ``K``
+    does not count.
+
+    Args:
+        task: the task.
+        options: options in force; ``human_model`` is not ``omniscient``.
+        human_plan: ``pi_H``, already replayed, or None to predict it.
+        clock: deadline and cancellation.
+
+    Raises:
+        UsageError: the horizon is shorter than ``pi_H``, or one is missing.
+    """
+    clock = clock or Clock(options.time_limit)
+    try:
+        human = Human(task, options, clock, human_model=options.human_model, actions=human_plan or ())
+        plan = human.plan_alone() if human_plan is None else human_plan
+    except OutOfTimeError:
+        yield Outcome("unknown", reason="time-limit")
+        return
+    if plan is None:
+        yield Outcome("infeasible", reason="no-human-plan")
+    else:
+        yield from _Call(task, options, human, plan, clock).answers()
+
+
+def _epochs(task: Task, options: Options, plan: HumanPlan) -> int:
+    """``T`` (SPEC 2, 3.5)."""
+    if not isinstance(options.horizon, int):
+        if not plan and task.robot_goal:
+            raise UsageError(
+                "horizon: must be given, since the human's goal holds already and robots have theirs"
+            )
+        return len(plan)
+    if options.horizon < len(plan):
+        raise UsageError(
+            f"horizon: expected at least {len(plan)}, the length of the human's plan, got {options.horizon}"
+        )
+    return options.horizon
+
+
+class _Call:
+    """One planning call: its incumbents and its bound.
+
+    ``baseline`` leaves him alone (or, with ``G_R``, follows ``pi_H`` beside the robots);
+    ``idle`` is what he does by himself; ``best`` is the incumbent over everything.
+    """
+
+    def __init__(self, task: Task, options: Options, human: Human, plan: HumanPlan, clock: Clock) -> None:
+        self.task = task
+        self.options = options
+        self.human = human
+        self.plan = plan
+        self.clock = clock
+        self.epochs = _epochs(task, options, plan)
+        self.progress = Progress()
+        self.baseline = Incumbent(INFINITE_KEY)
+        self.idle = Incumbent(INFINITE_KEY)
+        self.best = Incumbent(INFINITE_KEY)
+
+    def answers(self) -> Iterator[Outcome]:
+        """Each better answer, then the last one with what is proved of it."""
+        try:
+            self._follow()
+            if not self.task.robot_goal:
+                self._search(self.idle, Progress(), idle=True)
+                self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
+                yield self._outcome("feasible")
+            for _ in best_first(self._space(idle=False), self.best, self.progress, self.clock):
+                yield self._outcome("feasible")
+            status = "optimal" if self._has_answer() else "infeasible"
+        except OutOfTimeError:
+            status = "feasible" if self._has_answer() else "unknown"
+        yield self._outcome(status)
+
+    def _follow(self) -> None:
+        """The plan in which he does ``pi_H`` exactly, robots seeing to ``G_R`` beside him."""
+        packed, weights = self.human.encoding, self.human.weights
+        steps = [(op, as_option(op, weights.team(op))) for op in map(packed.op, self.plan)]
+        if not self.task.robot_goal:
+            self.baseline.key = sum(option.weight for _, option in steps)
+            return
+        space = Followed(
+            initial=packed.init,
+            horizon=self.epochs,
+            steps=steps,
+            goals=(packed.goal, packed.robot_goal),
+            successors=self._successors(idle=False),
+        )
+        for _ in best_first(space, self.baseline, Progress(), self.clock):
+            pass
+
+    def _search(self, best: Incumbent, progress: Progress, *, idle: bool) -> None:
+        for _ in best_first(self._space(idle=idle), best, progress, self.clock):
+            pass
+
+    def _space(self, *, idle: bool) -> Reactive:
+        return Reactive(
+            self.human,
+            self._successors(idle=idle),
+            horizon=self.epochs,
+            human_plan=self.plan,
+            no_block=self.options.no_block is not False,
+            most_cost=None if idle else self._most_cost(),
+            sees_all=self.options.human_model == "observant",
+        )
+
+    def _successors(self, *, idle: bool) -> Successors:
+        return Successors(
+            self.human.encoding, self.human.weights.team, strict=self.options.strict, idle=idle
+        )
+
+    def _most_cost(self) -> int | None:
+        """``max_cost`` (eq. 11), scaled and rounded down."""
+        limit = self.options.max_cost
+        if limit is None:
+            return None
+        if limit == "human":
+            known = self.baseline.key < INFINITE_KEY
+            return self.human.keys.scaled_cost(self.baseline.key) if known else None
+        return int(Fraction(limit) * self.human.keys.scale)
+
+    def _has_answer(self) -> bool:
+        """Without ``G_R``, leaving him alone is always an answer."""
+        return self.best.key < INFINITE_KEY or not self.task.robot_goal
+
+    def _helps(self) -> bool:
+        """Whether the incumbent costs less than ``pi_H``, and than what he does by himself."""
+        keys, found = self.human.keys, self.best.key
+        if found >= self.idle.key:
+            return False
+        rivals = [key for key in (self.baseline.key, self.idle.key) if key < INFINITE_KEY]
+        return all(keys.cost(found) < keys.cost(key) for key in rivals)
+
+    def _outcome(self, status: str) -> Outcome:
+        helps, keys = self._helps(), self.human.keys
+        answer = self.best if helps or self.task.robot_goal else self.baseline
+        known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
+        baseline = None if self.baseline.key == INFINITE_KEY else keys.cost(self.baseline.key)
+        saving_alone = Fraction(0)
+        if baseline is not None and self.idle.key < INFINITE_KEY:
+            saving_alone = max(baseline - keys.cost(self.idle.key), saving_alone)
+        cost = keys.cost(answer.key) if known else None
+        return Outcome(
+            status,
+            human_plan=self.plan,
+            horizon=self.epochs,
+            reason=_reason(status),
+            steps=self._steps(answer) if known else None,
+            cost=cost,
+            objective=cost,
+            lower_bound=cost if status == "optimal" else self._lower_bound(status),
+            baseline=baseline,
+            saving_alone=saving_alone,
+            opportunity=helps,
+            expanded=self.progress.expanded,
+            generated=self.progress.generated,
+        )
+
+    def _lower_bound(self, status: str) -> Fraction | None:
+        if status == "infeasible":
+            return None
+        return self.human.keys.objective(min(self.progress.bound, self.best.key, self.baseline.key))
+
+    def _steps(self, answer: Incumbent) -> tuple[Step, ...]:
+        if answer is self.baseline and answer.node is None:
+            return plan_steps(self.plan)
+        assert answer.node is not None, "an incumbent of the search has a node"
+        return tuple(sorted(path_steps(answer.node) + plan_steps(answer.tail, answer.end)))
+
+
+def _reason(status: str) -> str | None:
+    return {"infeasible": "no-plan-within-horizon", "unknown": "time-limit"}.get(status)

@@ -1,0 +1,261 @@
+"""Plays a composite plan against a human who replans, epoch by epoch (SPEC 6)."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from search.clock import Clock
+from search.encoding import Op, applicable
+from search.simulation.human import Human, Look
+from search.simulation.intention import Intention
+from serendipity.model.options import Options
+from serendipity.model.plans import Step
+from serendipity.model.task import HumanPlan, Task
+from serendipity.model.visibility import Visible
+
+INAPPLICABLE, CONFLICT, REFUSED = "inapplicable", "conflict", "refused"
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """An action of the plan that did not happen: its id, and why."""
+
+    action: int
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class Epoch:
+    """What happened in one epoch.
+
+    Attributes:
+        epoch: from 1.
+        saw: ids of the facts that he found other than expected, with their truth.
+        kept: ``c``: cost of his former plan where it still works, undiscounted.
+        best: ``h``: his optimal cost alone.
+        replanned: whether he has made another plan.
+        plan: what he means to do, from this epoch on.
+        accepted: the joint action that he takes part in, or None.
+        own: what he does by himself, or None.
+        failed: whether ``own`` turned out to be impossible.
+        robots: what robots do without him.
+        skipped: what the plan says and does not happen.
+    """
+
+    epoch: int
+    saw: tuple[tuple[int, bool], ...]
+    kept: Fraction | None
+    best: Fraction | None
+    replanned: bool
+    plan: tuple[int, ...]
+    accepted: int | None
+    own: int | None
+    failed: bool
+    robots: tuple[int, ...]
+    skipped: tuple[Skipped, ...]
+
+    @property
+    def executed(self) -> tuple[int, ...]:
+        """Ids of the actions that took place."""
+        his = () if self.own is None or self.failed else (self.own,)
+        return (*his, *(() if self.accepted is None else (self.accepted,)), *self.robots)
+
+
+@dataclass(frozen=True, slots=True)
+class Simulated:
+    """A plan as it turned out.
+
+    Attributes:
+        epochs: until the goals hold, the horizon, or nothing can happen any more.
+        goals_hold: whether the goals hold at the end.
+        cost: of the actions that took place, for the team.
+    """
+
+    epochs: tuple[Epoch, ...]
+    goals_hold: bool
+    cost: Fraction
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The actions that took place."""
+        return tuple(Step(e.epoch, i) for e in self.epochs for i in sorted(e.executed))
+
+    def realised(self, promised: Fraction) -> bool:
+        """Whether the plan works out at the promised cost or less."""
+        undisturbed = not any(epoch.skipped for epoch in self.epochs)
+        return self.goals_hold and undisturbed and self.cost <= promised
+
+
+def simulate(
+    task: Task,
+    options: Options,
+    human_plan: HumanPlan,
+    steps: Iterable[Step],
+    *,
+    human_model: str,
+    horizon: int | None,
+    visible: Visible | None = None,
+    clock: Clock | None = None,
+) -> Simulated:
+    """What becomes of the robots' part of a plan with a human who replans.
+
+    Args:
+        task: the task.
+        options: discount and interference.
+        human_plan: his plan at the beginning; empty where he has none.
+        steps: the composite plan; what it wants him to do alone is not looked at.
+        human_model: ``observant`` or ``local``.
+        horizon: ``T``, or None for any.
+        visible: what a local human sees; None for the default.
+        clock: asked for time.
+
+    Raises:
+        OutOfTimeError: the clock ran out.
+    """
+    planned: dict[int, list[int]] = {}
+    for step in steps:
+        if task.actions[step.action].participants != (task.human,):
+            planned.setdefault(step.epoch, []).append(step.action)
+    asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
+    human = Human(task, options, clock or Clock(), human_model=human_model, actions=asked, visible=visible)
+    return _Run(task, options, human, planned).play(human_plan, horizon)
+
+
+def variants(task: Task, action: int) -> tuple[int, ...]:
+    """The ids of the ground actions that are the same action to people: it comes first."""
+    same = task.actions[action]
+    others = task.named[same.name]
+    return (action, *(i for i in others if i != action and task.actions[i].participants == same.participants))
+
+
+class _Run:
+    """One simulation: true state, his belief, what he expects to see next."""
+
+    def __init__(self, task: Task, options: Options, human: Human, planned: dict[int, list[int]]) -> None:
+        self.task = task
+        self.strict = options.strict
+        self.human = human
+        self.encoding = human.encoding
+        self.planned = planned
+        self.settled = False
+        self.state = self.expected = self.encoding.init
+
+    def play(self, human_plan: HumanPlan, horizon: int | None) -> Simulated:
+        intention = self.human.intentions.of(human_plan)
+        last = max(self.planned, default=0)
+        epochs: list[Epoch] = []
+        while not self._done() and (horizon is None or len(epochs) < horizon):
+            before = self.expected
+            epoch, intention = self._epoch(len(epochs) + 1, intention)
+            epochs.append(epoch)
+            if epoch.epoch >= last and not epoch.executed and self.expected == before:
+                break  # nothing will ever change again
+        return Simulated(tuple(epochs), self._done(), self._cost(epochs))
+
+    def _epoch(self, number: int, intention: Intention) -> tuple[Epoch, Intention]:
+        human, encoding = self.human, self.encoding
+        belief = human.eyes.look(self.expected, self.state)
+        saw = self._differences(self.expected, belief)
+        look = self._look(belief, intention)
+        intention = look.intention
+        offered = [self._variant(i) for i in sorted(self.planned.get(number, ()))]
+        joint, skipped = self._joint(offered, belief, look)
+        own = intention.op if joint is None and look.best is not None else None
+        failed = own is not None and not applicable(own, self.state)
+        did = joint if joint is not None else None if failed else own
+        robots = self._robots(offered, did, skipped)
+        self.settled = own is not None and not failed
+        if failed and own is not None:
+            self.expected = human.learn(belief, self.state, own)
+        else:
+            self.expected = belief if did is None else belief & did.keep | did.put
+        self._apply([encoding.op(i) for i in robots] + ([] if did is None else [did]))
+        epoch = Epoch(
+            number,
+            saw,
+            self._exact(look.kept),
+            self._exact(look.best),
+            look.replanned,
+            intention.actions,
+            None if joint is None else joint.action,
+            None if own is None else own.action,
+            failed,
+            tuple(robots),
+            tuple(skipped),
+        )
+        return epoch, intention.rest if own is not None and not failed else intention
+
+    def _look(self, belief: int, intention: Intention) -> Look:
+        """Step 1; while all goes as he expected, the rest of an optimal plan is optimal."""
+        if self.settled and not (belief ^ self.expected) & self.human.concern:
+            return Look(intention, intention.cost, intention.cost)
+        return self.human.decide(belief, intention)
+
+    def _joint(self, offered: Sequence[int], belief: int, look: Look) -> tuple[Op | None, list[Skipped]]:
+        """The joint action with him that takes place, and those that do not."""
+        taken: Op | None = None
+        skipped = []
+        for i in offered:
+            op = self.encoding.op(i)
+            if not op.agents & self.encoding.human_bit:
+                continue
+            if not applicable(op, self.state):
+                skipped.append(Skipped(i, INAPPLICABLE))
+            elif taken is not None:
+                skipped.append(Skipped(i, CONFLICT))
+            elif self.human.accepts(op, belief, look.best):
+                taken = op
+            else:
+                skipped.append(Skipped(i, REFUSED))
+        return taken, skipped
+
+    def _robots(self, offered: Sequence[int], his: Op | None, skipped: list[Skipped]) -> list[int]:
+        """What robots do without him; he has priority, and among them the smaller id."""
+        done: list[int] = []
+        taken = [] if his is None else [his.action]
+        for i in offered:
+            op = self.encoding.op(i)
+            if op.agents & self.encoding.human_bit:
+                continue
+            if not applicable(op, self.state):
+                skipped.append(Skipped(i, INAPPLICABLE))
+            elif not all(self.encoding.compatible(i, j, self.strict) for j in (*taken, *done)):
+                skipped.append(Skipped(i, CONFLICT))
+            else:
+                done.append(i)
+        return done
+
+    def _variant(self, action: int) -> int:
+        """Of ground actions with one name and the same agents, one that is applicable."""
+        possible = variants(self.task, action)
+        return next((i for i in possible if applicable(self.encoding.op(i), self.state)), action)
+
+    def _apply(self, ops: Sequence[Op]) -> None:
+        keep, put = -1, 0
+        for op in ops:
+            keep &= op.keep
+            put |= op.put
+        self.state = self.state & keep | put
+
+    def _done(self) -> bool:
+        return self.encoding.goal.holds(self.state) and self.encoding.robot_goal.holds(self.state)
+
+    def _differences(self, expected: int, found: int) -> tuple[tuple[int, bool], ...]:
+        different = (expected ^ found) & self.human.concern
+        if not different:
+            return ()
+        return tuple(
+            (fact, found & bits[0] == bits[1])
+            for fact, bits in enumerate(self.encoding.fact_bits)
+            if bits is not None
+            and bits[0] & different
+            and (expected & bits[0] == bits[1]) != (found & bits[0] == bits[1])
+        )
+
+    def _exact(self, scaled: int | None) -> Fraction | None:
+        return None if scaled is None else Fraction(scaled, self.human.keys.scale)
+
+    def _cost(self, epochs: Iterable[Epoch]) -> Fraction:
+        human = self.human
+        keys = sum(human.weights.team(self.encoding.op(i)) for epoch in epochs for i in epoch.executed)
+        return human.keys.cost(keys)

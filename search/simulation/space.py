@@ -1,0 +1,191 @@
+"""Robots' action sequences, with the human simulated (SPEC 6, optimising under a model).
+
+A node is an epoch, the true state, and the human's mind: what he expects to see and
+what he means to do.  He does not wait for anybody, but in equal state and mind an
+earlier epoch is no worse: robots can do the same, only sooner, and he answers the
+same.  So labels dominate as elsewhere, on state and mind.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from search.best_first import Incumbent, Node
+from search.encoding import applicable
+from search.labels import Labels
+from search.simulation.human import Human, Look
+from search.simulation.intention import Intention
+from search.successors import NOTHING, Option, Successors
+
+
+class Mind(NamedTuple):
+    """The human between two epochs.
+
+    Attributes:
+        belief: what he expects to see; 0 where he sees everything anyway.
+        intention: what remains of his plan.
+        guarded: he must have a plan alone in the true state (``no_block``).
+    """
+
+    belief: int
+    intention: Intention
+    guarded: bool
+
+
+class Reactive:
+    """The search space of robots' action sequences.
+
+    Args:
+        human: his state machine.
+        successors: what agents can do in an epoch.
+        horizon: number of epochs ``T``.
+        human_plan: ``pi_H``.
+        no_block: robots must not leave him without a plan.
+        most_cost: largest scaled cost of an acceptable plan, or None.
+        sees_all: he is observant, so that beliefs need no telling apart.
+    """
+
+    def __init__(
+        self,
+        human: Human,
+        successors: Successors,
+        *,
+        horizon: int,
+        human_plan: tuple[int, ...],
+        no_block: bool,
+        most_cost: int | None,
+        sees_all: bool,
+    ) -> None:
+        self._human = human
+        self._successors = successors
+        self._horizon = horizon
+        self._most_cost = most_cost
+        self._no_block = no_block
+        self._sees_all = sees_all
+        packed = human.encoding
+        self._goals = (packed.goal, packed.robot_goal)
+        self._offers_idle = sees_all and not packed.task.robot_goal
+        self._width = packed.all_ones.bit_length()
+        self._labels = Labels()
+        self._minds: list[Mind] = []
+        self._numbers: dict[tuple[int, int, bool], int] = {}
+        self._intention = human.intentions.of(human_plan)
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The initial state, the human with ``pi_H`` in mind."""
+        init = self._human.encoding.init
+        mind = self._number(Mind(self._belief(init), self._intention, False))
+        node = Node(0, 0, init, mind << 1, 0, None, ())
+        self._labels.add(self._place(node), 0, 0)
+        yield self._human.bound(init), node
+
+    def alive(self, node: Node) -> bool:
+        """Whether no better node makes this one superfluous."""
+        return self._labels.alive(self._place(node), node.epoch, node.key)
+
+    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors of a node; complete plans are offered to ``best``."""
+        if node.parent is None and self._offer(node, best):
+            return
+        if node.epoch == self._horizon:
+            return
+        mind, state = self._minds[node.phase >> 1], node.state
+        belief, look = self._look(mind, state, settled=bool(node.phase & 1))
+        stuck = self._stuck(state, look)
+        if mind.guarded and stuck:
+            return
+        if self._offers_idle and not stuck:
+            self._offer_idle(node, look.intention, best)
+        yield from self._act(node, best, belief, look, guarded=self._no_block and not stuck)
+
+    def _look(self, mind: Mind, state: int, *, settled: bool) -> tuple[int, Look]:
+        """What he believes and decides; while all goes as expected an optimal plan stays so."""
+        human, rho = self._human, mind.intention
+        belief = state if self._sees_all else human.eyes.look(mind.belief, state)
+        surprised = not self._sees_all and (belief ^ mind.belief) & human.concern
+        if settled and not surprised:
+            return belief, Look(rho, rho.cost, rho.cost)
+        return belief, human.decide(belief, rho)
+
+    def _act(
+        self, node: Node, best: Incumbent, belief: int, look: Look, *, guarded: bool
+    ) -> Iterator[tuple[int, Node]]:
+        human, state = self._human, node.state
+        rho = look.intention
+        for joint in self._successors.joint(state):
+            op = human.encoding.op(joint.actions[0])
+            if human.accepts(op, belief, look.best):
+                mind = Mind(self._belief(belief & op.keep | op.put), rho, guarded)
+                yield from self._children(node, best, joint, mind, settled=False)
+        if look.best is None or rho.op is None:
+            mind = Mind(self._belief(belief), rho, guarded)
+            yield from self._children(node, best, NOTHING, mind, settled=False)
+        elif applicable(rho.op, state):
+            mind = Mind(self._belief(belief & rho.op.keep | rho.op.put), rho.rest, guarded)
+            yield from self._children(node, best, rho.option, mind, settled=True)
+        else:
+            mind = Mind(human.learn(belief, state, rho.op), rho, guarded)
+            yield from self._children(node, best, NOTHING, mind, settled=False)
+
+    def _children(
+        self, node: Node, best: Incumbent, part: Option, mind: Mind, *, settled: bool
+    ) -> Iterator[tuple[int, Node]]:
+        """What robots can do beside the human's part."""
+        epoch, state, human = node.epoch + 1, node.state, self._human
+        alone = state & part.keep | part.put
+        # Robots don't change the variables that the bound looks at.
+        rest = human.bound(alone)
+        if node.key + part.weight + rest >= best.key:
+            return
+        if mind.guarded and not self._sees_all and human.stuck(alone):
+            mind = mind._replace(guarded=False)  # his own mistake, whatever robots do
+        number = self._number(mind) << 1
+        for option in self._successors.with_robots(part, state):
+            key = node.key + option.weight
+            bound = key + rest
+            if bound >= best.key or self._too_dear(bound):
+                break
+            after = state & option.keep | option.put
+            as_expected = settled and not (self._sees_all and (after ^ alone) & human.concern)
+            child = Node(key, epoch, after, number | as_expected, 0, node, option.actions)
+            if self._labels.add(self._place(child), epoch, key) and not self._offer(child, best):
+                yield bound, child
+
+    def _offer(self, node: Node, best: Incumbent) -> bool:
+        """Whether the goals hold: the plan ends there."""
+        if not all(goal.holds(node.state) for goal in self._goals):
+            return False
+        if node.key < best.key and not self._too_dear(node.key):
+            best.key, best.node, best.end, best.tail = node.key, node, 0, ()
+        return True
+
+    def _offer_idle(self, node: Node, intention: Intention, best: Incumbent) -> None:
+        """Offer the plan in which robots do nothing any more: he does what he means to do."""
+        key = node.key + intention.weight
+        if key >= best.key or self._too_dear(key) or len(intention.actions) > self._horizon - node.epoch:
+            return
+        best.key, best.node, best.end, best.tail = key, node, node.epoch + 1, intention.actions
+
+    def _stuck(self, state: int, look: Look) -> bool:
+        """Whether he has no plan alone in the true state."""
+        if self._sees_all:
+            return look.best is None
+        return self._no_block and self._human.stuck(state)
+
+    def _belief(self, belief: int) -> int:
+        return 0 if self._sees_all else belief
+
+    def _number(self, mind: Mind) -> int:
+        """A number for a mind, the same for equal ones."""
+        key = (mind.belief, mind.intention.number, mind.guarded)
+        number = self._numbers.get(key)
+        if number is None:
+            number = self._numbers[key] = len(self._minds)
+            self._minds.append(mind)
+        return number
+
+    def _place(self, node: Node) -> int:
+        return node.phase >> 1 << self._width | node.state
+
+    def _too_dear(self, key: int) -> bool:
+        return self._most_cost is not None and self._human.keys.scaled_cost(key) > self._most_cost
+

@@ -1,0 +1,133 @@
+"""A simulation told epoch by epoch: what he saw, expected and did, and what did not happen."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any, Final
+
+from serendipity.model.result import PlanStep
+
+SCHEMA: Final = "serendipity.trace/1"
+
+WHY: Final = {
+    "inapplicable": "its preconditions do not hold",
+    "conflict": "it gets in the way of another action",
+    "refused": "it would cost him more than going on alone",
+}
+"""Why a step of the plan does not happen, in words."""
+
+
+@dataclass(frozen=True, slots=True)
+class TraceSkip:
+    """A step of the plan that did not happen.
+
+    Attributes:
+        agents: names of those whom the plan wanted to take part.
+        action: its name.
+        why: a key of ``WHY``.
+    """
+
+    agents: tuple[str, ...]
+    action: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class TraceEpoch:
+    """One epoch as the human lived through it; costs are his own, undiscounted.
+
+    Attributes:
+        epoch: from 1.
+        saw: facts that he found other than he expected, ``not`` in front of false ones;
+            of those only that matter to what he can do.
+        expected_cost: what was left of his former plan would cost (``c``), None where it
+            does not work any more.
+        best_cost: his optimal cost alone from here (``h``), None where there is no plan.
+        decision: ``keeps`` his plan, ``replans``, or ``waits``.
+        why: the decision in words.
+        plan: what he means to do, from this epoch on.
+        did: what he does, joint actions included; None where he waits.
+        failed: whether it turned out to be impossible.
+        steps: what takes place, with what it costs the team.
+        skipped: what the plan says and does not happen.
+    """
+
+    epoch: int
+    saw: tuple[str, ...]
+    expected_cost: float | None
+    best_cost: float | None
+    decision: str
+    why: str
+    plan: tuple[str, ...]
+    did: str | None
+    failed: bool
+    steps: tuple[PlanStep, ...]
+    skipped: tuple[TraceSkip, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """A plan played against a human who replans (SPEC 6).
+
+    Attributes:
+        human: his name.
+        human_model: ``observant`` or ``local``.
+        realised: the goals hold, nothing was skipped or refused, and the cost is at most
+            the promised one.
+        reason: why it is not realised, None where it is.
+        goals_hold: whether the goals hold at the end.
+        promised_cost: of the plan, for the team.
+        cost: of what took place, for the team.
+        epochs: until the goals hold, the horizon, or nothing can happen any more.
+    """
+
+    human: str
+    human_model: str
+    realised: bool
+    reason: str | None
+    goals_hold: bool
+    promised_cost: float
+    cost: float
+    epochs: tuple[TraceEpoch, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        plain: dict[str, Any] = _plain(asdict(self))
+        return {"schema": SCHEMA, **plain}
+
+    def lines(self) -> Iterator[str]:
+        """The story in words, a line for each thing that happened."""
+        for epoch in self.epochs:
+            yield f"epoch {epoch.epoch}"
+            if epoch.saw:
+                yield f"  {self.human} sees: {', '.join(epoch.saw)}"
+            if epoch.saw or epoch.decision != "keeps":
+                yield f"  {self.human} {epoch.why}"
+            yield f"  {self.human}: {self._deed(epoch)}"
+            for step in epoch.steps:
+                if self.human not in step.agents:
+                    yield f"  {', '.join(step.agents)}: {step.action}"
+            for skip in epoch.skipped:
+                yield f"  does not happen: {skip.action} ({WHY[skip.why]})"
+        yield self._verdict()
+
+    def text(self) -> str:
+        """The story as one text."""
+        return "".join(f"{line}\n" for line in self.lines())
+
+    def _deed(self, epoch: TraceEpoch) -> str:
+        if epoch.did is None:
+            return "waits"
+        return f"tries {epoch.did}, in vain" if epoch.failed else epoch.did
+
+    def _verdict(self) -> str:
+        costs = f"cost {self.cost:.10g}, promised {self.promised_cost:.10g}"
+        if self.realised:
+            return f"realised with the {self.human_model} human: {costs}"
+        return f"not realised with the {self.human_model} human: {self.reason} ({costs})"
+
+
+def _plain(value: Any) -> Any:
+    """Tuples as lists, all the way down."""
+    if isinstance(value, dict):
+        return {key: _plain(inner) for key, inner in value.items()}
+    return [_plain(inner) for inner in value] if isinstance(value, tuple | list) else value

@@ -1,0 +1,78 @@
+"""What an agent can see from where he is (SPEC 6, the ``local`` human).
+
+*Parts* of a fact: its PDDL arguments; of a name without blanks, as in ground files,
+everything between ``_``.  A *location fact* says where somebody or something is: its
+last part is a place, the one before it who is there.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain
+
+from serendipity.model.actions import State
+from serendipity.model.task import Task
+
+Visible = Callable[[int, int, State], bool]
+"""``visible(agent, fact, state)``: whether the agent sees in ``state`` if the fact is true."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """The default of what is visible: what is where the agent is.
+
+    Places are the values of the human's position: the exactly-one group with most
+    facts of the form ``predicate human place``.  Where there is none, everything is in
+    one place, and visible.
+
+    Attributes:
+        agents: names of the agents.
+        parts: per fact id the words that it is about.
+        located: per location fact who or what it places, and where.
+    """
+
+    agents: tuple[str, ...]
+    parts: tuple[frozenset[str], ...]
+    located: Mapping[int, tuple[str, str]]
+
+    def visible(self, agent: int, fact: int, state: State) -> bool:
+        """Whether one of the fact's parts is the agent's place, or is somebody or something there."""
+        if not self.located:
+            return True
+        return not self.parts[fact].isdisjoint(self.near(agent, state))
+
+    def near(self, agent: int, state: State) -> frozenset[str]:
+        """The agent's place, and who and what is there."""
+        here = [self.located[f] for f in state if f in self.located]
+        places = {place for who, place in here if who == self.agents[agent]}
+        return frozenset(chain(places, (who for who, place in here if place in places)))
+
+
+def surroundings(task: Task) -> Surroundings:
+    """The surroundings of a task; computed once and kept with it."""
+    return task.derived(_find)
+
+
+def _find(task: Task) -> Surroundings:
+    words = [name.split() if " " in name else name.split("_") for name in task.facts]
+    parts = tuple(
+        frozenset(w[1:] if " " in name else w) for name, w in zip(task.facts, words, strict=True)
+    )
+    return Surroundings(task.agents, parts, dict(_location_facts(task, words)))
+
+
+def _location_facts(task: Task, words: list[list[str]]) -> Iterator[tuple[int, tuple[str, str]]]:
+    """Location facts: predicates of positions, with a place of the human as the last word."""
+    groups = [v.facts for v in task.variables if not v.boolean]
+    human = task.agents[task.human]
+    his = [[f for f in facts if len(words[f]) > 2 and words[f][-2] == human] for facts in groups]
+    position = max(his, key=len, default=[])
+    if len(position) < 2:
+        return
+    places = Counter(words[f][-1] for f in position)
+    grouped = {f for facts in groups for f in facts}
+    facts = [f for f, w in enumerate(words) if len(w) > 2 and w[-1] in places]
+    predicates = {tuple(words[f][:-2]) for f in facts if f in grouped}
+    for f in facts:
+        if tuple(words[f][:-2]) in predicates:
+            yield f, (words[f][-2], words[f][-1])

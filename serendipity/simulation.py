@@ -1,0 +1,173 @@
+"""The facade over the simulator: a plan played against a human who replans (SPEC 6)."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Final
+
+from search import Clock
+from search.simulation import Epoch, Simulated
+from search.simulation import simulate as play
+from serendipity.model.errors import InputError, UsageError
+from serendipity.model.options import Options
+from serendipity.model.plans import Step
+from serendipity.model.result import PlanStep, Result
+from serendipity.model.task import HumanPlan, Task
+from serendipity.model.trace import WHY, Trace, TraceEpoch, TraceSkip
+from serendipity.model.visibility import Visible
+
+HUMAN_MODELS: Final = ("observant", "local")
+"""Models of a human who replans."""
+
+
+def simulate(
+    task: Task, result: Result, human_model: str = "observant", *, visible: Visible | None = None
+) -> Trace:
+    """Play a result's plan against a human who looks up in each epoch and replans.
+
+    Args:
+        task: the task that was asked.
+        result: the answer, from :func:`serendipity.plan` or read from JSON.
+        human_model: ``observant`` (he sees everything) or ``local`` (what is where he is).
+        visible: ``visible(agent, fact, state)`` says what a local human sees, by ids of the
+            task; None for the default of ``docs/semantics.md``, section 6.
+
+    Raises:
+        UsageError: there is no such human model.
+        InputError: the result has no plan, or is for another task.
+    """
+    if human_model not in HUMAN_MODELS:
+        raise UsageError(f"human_model: expected one of {', '.join(HUMAN_MODELS)}, got {human_model!r}")
+    if result.plan is None or result.cost is None:
+        raise InputError("result: has no plan to simulate")
+    if result.human != task.agents[task.human]:
+        raise InputError(f"result: is for another task: its human is '{result.human}'")
+    plan = _human_plan(task, result)
+    horizon = result.horizon if isinstance(result.horizon, int) else None
+    steps = [Step(step.epoch, _action(task, step)) for step in result.plan]
+    simulated = play(
+        task, result.options, plan, steps, human_model=human_model, horizon=horizon, visible=visible
+    )
+    return _Story(task, result, human_model, simulated).trace()
+
+
+def realised(
+    task: Task,
+    options: Options,
+    human_plan: HumanPlan,
+    steps: tuple[Step, ...],
+    *,
+    cost: Fraction,
+    horizon: int | str | None,
+    clock: Clock,
+) -> dict[str, bool]:
+    """The verdicts that a result carries: always ``observant``, ``local`` if it was planned for.
+
+    Raises:
+        OutOfTimeError: the clock ran out.
+    """
+    models = ("observant",) if options.human_model != "local" else HUMAN_MODELS
+    epochs = horizon if isinstance(horizon, int) else None
+    return {
+        model: play(
+            task, options, human_plan, steps, human_model=model, horizon=epochs, clock=clock
+        ).realised(cost)
+        for model in models
+    }
+
+
+def _human_plan(task: Task, result: Result) -> HumanPlan:
+    return task.plan_from_names(result.human_plan) if result.human_plan else ()
+
+
+def _action(task: Task, step: PlanStep) -> int:
+    """The action that a step of a result names; of several with one name any will do."""
+    agents = sorted(step.agents)
+    for i in task.named.get(step.action, ()):
+        if sorted(task.agents[agent] for agent in task.actions[i].participants) == agents:
+            return i
+    raise InputError(
+        f"result: is for another task: this one has no action '{step.action}' of {', '.join(agents)}"
+    )
+
+
+class _Story:
+    """Turns ids into names and numbers into words."""
+
+    def __init__(self, task: Task, result: Result, human_model: str, simulated: Simulated) -> None:
+        assert result.cost is not None, "a result with a plan has a cost"
+        self.task = task
+        self.discount = result.options.discount
+        self.human_model = human_model
+        self.simulated = simulated
+        self.promised = result.cost
+        # Rounding keeps the order, so a plan that costs no more never seems to.
+        self.cost = float(simulated.cost)
+
+    def trace(self) -> Trace:
+        reason = self._reason()
+        return Trace(
+            human=self.task.agents[self.task.human],
+            human_model=self.human_model,
+            realised=reason is None,
+            reason=reason,
+            goals_hold=self.simulated.goals_hold,
+            promised_cost=self.promised,
+            cost=self.cost,
+            epochs=tuple(self._epochs()),
+        )
+
+    def _reason(self) -> str | None:
+        for epoch in self.simulated.epochs:
+            for skip in epoch.skipped:
+                return f"epoch {epoch.epoch}: {self._name(skip.action)} does not happen, {WHY[skip.why]}"
+        if not self.simulated.goals_hold:
+            return "the goals do not hold at the end"
+        return "it costs more" if self.cost > self.promised else None
+
+    def _epochs(self) -> Iterator[TraceEpoch]:
+        for epoch in self.simulated.epochs:
+            decision = "waits" if epoch.best is None else "replans" if epoch.replanned else "keeps"
+            did = epoch.own if epoch.accepted is None else epoch.accepted
+            yield TraceEpoch(
+                epoch=epoch.epoch,
+                saw=tuple(f"{'' if true else 'not '}{self.task.facts[fact]}" for fact, true in epoch.saw),
+                expected_cost=_float(epoch.kept),
+                best_cost=_float(epoch.best),
+                decision=decision,
+                why=_why(decision, epoch),
+                plan=tuple(self._name(i) for i in epoch.plan),
+                did=None if did is None else self._name(did),
+                failed=epoch.failed,
+                steps=tuple(self._step(epoch.epoch, i) for i in sorted(epoch.executed)),
+                skipped=tuple(
+                    TraceSkip(self._agents(s.action), self._name(s.action), s.why) for s in epoch.skipped
+                ),
+            )
+
+    def _name(self, action: int) -> str:
+        return self.task.actions[action].name
+
+    def _agents(self, action: int) -> tuple[str, ...]:
+        return tuple(self.task.agents[i] for i in self.task.actions[action].participants)
+
+    def _step(self, epoch: int, action: int) -> PlanStep:
+        cost = self.task.team_cost(self.task.actions[action], self.discount)
+        return PlanStep(epoch, self._agents(action), self._name(action), float(cost))
+
+
+def _why(decision: str, epoch: Epoch) -> str:
+    if decision == "waits":
+        return "has no plan from here and waits"
+    if decision == "keeps":
+        return f"keeps his plan: it still costs {_number(epoch.best)}, and none is cheaper"
+    if epoch.kept is None:
+        return f"replans: his plan does not work any more; the best from here costs {_number(epoch.best)}"
+    return f"replans: {_number(epoch.best)} instead of {_number(epoch.kept)}"
+
+
+def _number(value: Fraction | None) -> str:
+    return "" if value is None else f"{float(value):.10g}"
+
+
+def _float(value: Fraction | None) -> float | None:
+    return None if value is None else float(value)
