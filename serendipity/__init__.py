@@ -16,6 +16,7 @@ from serendipity._siblings import require_siblings
 
 if TYPE_CHECKING:
     from serendipity.certify import check, verify
+    from serendipity.interruptibility import interruptions
     from serendipity.model import (
         Certificate,
         InputError,
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
         Result,
         SerendipityError,
         Task,
+        Trace,
         UsageError,
         Window,
     )
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from serendipity.planning import plan, plan_anytime
     from serendipity.reproduction import reproduce
     from serendipity.scenarios import example, generate_usar
+    from serendipity.simulation import simulate
 
 __version__ = "0.1.0"
 
@@ -44,18 +47,21 @@ __all__ = [
     "Result",
     "SerendipityError",
     "Task",
+    "Trace",
     "UsageError",
     "Window",
     "__version__",
     "check",
     "example",
     "generate_usar",
+    "interruptions",
     "load",
     "load_agents",
     "load_pddl",
     "plan",
     "plan_anytime",
     "reproduce",
+    "simulate",
     "verify",
 ]
 
@@ -67,13 +73,20 @@ _HOMES: Final = {
     "generate_usar": "serendipity.scenarios",
     "plan": "serendipity.planning",
     "plan_anytime": "serendipity.planning",
+    "simulate": "serendipity.simulation",
     "check": "serendipity.certify",
     "verify": "serendipity.certify",
     "reproduce": "serendipity.reproduction",
+    "interruptions": "serendipity.interruptibility",
 }
 """Where the public functions live; the public classes live in ``serendipity.model``."""
 
-_NEED_SIBLINGS: Final = ("serendipity.planning", "serendipity.certify", "serendipity.reproduction")
+_NEED_SIBLINGS: Final = (
+    "serendipity.planning",
+    "serendipity.certify",
+    "serendipity.interruptibility",
+    "serendipity.reproduction",
+)
 
 
 def __getattr__(name: str) -> Any:

@@ -1,0 +1,107 @@
+"""``serendipity interruptions``: in which windows the human could be helped, and by how much."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+import serendipity
+from serendipity.cli import naming, output, plan_options
+from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.human_plan import read_human_plan
+from serendipity.model import UsageError
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from serendipity.cli.render import Grid, Line
+    from serendipity.interruptibility import InterruptionReport
+
+
+def interruptions(
+    files: naming.Files = None,
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    discount: plan_options.Discount = None,
+    horizon: plan_options.Horizon = None,
+    human_plan: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
+    ] = None,
+    suffix: plan_options.Suffix = None,
+    preservation: plan_options.Preservation = None,
+    interference: plan_options.Interference = None,
+    heat_map: Annotated[
+        Path | None, typer.Option(metavar="FILE.svg", help="Also draw the savings over start and end.")
+    ] = None,
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """For every window: the least he could pay, the least the team could, what goes and what replaces it."""
+    output.start_logging(verbose)
+    form = output.choose_format(format, output_file)
+    for file in (output_file, heat_map):
+        output.check_output(file)
+    if heat_map is not None and heat_map.suffix != ".svg":
+        raise UsageError(f"--heat-map: expected a file name that ends in .svg, got '{heat_map}'")
+    name = naming.TaskName(
+        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    options = plan_options.given(
+        discount=discount,
+        horizon=horizon,
+        suffix=suffix,
+        preservation=preservation,
+        interference=interference,
+    )
+    if human_plan is not None:
+        options["human_plan"] = read_human_plan(human_plan).checked(task)
+    report = serendipity.interruptions(task, **options)
+    if form == "json":
+        output.write_answer(output.as_json(report.to_dict()), output_file)
+    else:
+        from serendipity.cli.render import rendered
+
+        output.write_answer(rendered(_text(report)), output_file)
+    if heat_map is not None:
+        from serendipity.heat_map import heat_map as drawn
+
+        output.write_answer(drawn(report), heat_map)
+    return ExitCode.ANSWERED if report.human_plan is not None else ExitCode.INFEASIBLE
+
+
+def _text(report: "InterruptionReport") -> "Iterator[Line | Grid]":
+    from serendipity.cli.render import Grid, Line
+
+    if report.human_plan is None:
+        yield Line(f"{report.human} can't reach his goal alone: there is no plan to interrupt")
+        return
+    verdict = "can" if report.interruptible else "can't"
+    yield Line(
+        f"the plan of {report.human} ({len(report.human_plan)} actions, cost {_number(report.human_cost)}) "
+        f"{verdict} be interrupted to his advantage"
+    )
+    yield Line()
+    header = ("window", "he pays", "team pays", "he saves", "team saves", "removed", "instead")
+    rows = []
+    for entry in report.windows:
+        gone = entry.removal
+        removed = f"{gone.first}..{gone.last}" if gone is not None and gone.removed else ""
+        window = f"[{entry.window.start}, {entry.window.end})"
+        costs = (entry.human_cost, entry.team_cost, entry.human_saving, entry.team_saving)
+        instead = "" if gone is None else "; ".join(gone.replacement)
+        rows.append((window, *map(_number, costs), removed, instead))
+    helpful = (i for i, entry in enumerate(report.windows) if entry.human_saving and entry.human_saving > 0)
+    yield Grid(header, rows, frozenset(helpful), numbered=True)
+
+
+def _number(value: "Fraction | None") -> str:
+    return "-" if value is None else f"{float(value):.10g}"

@@ -1,0 +1,198 @@
+"""Which interruptions would help the human: every window, and the best that is possible in it (SPEC 3.2)."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Final
+
+from search.interruptions import interruptions as search_windows
+from serendipity.model import Options, PlanStep, Step, Task, UsageError, Window
+from serendipity.planning import options_from
+
+SCHEMA: Final = "serendipity.interruptions/1"
+
+_OPTIONS: Final = ("discount", "horizon", "suffix", "preservation", "interference")
+"""What of ``Options`` makes a difference here."""
+
+
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """What a plan takes out of ``pi_H``, and what the human does instead (Def. 2.0).
+
+    Attributes:
+        first: ``i``, from 1.
+        last: ``j``; ``first - 1`` where nothing is removed.
+        removed: names of ``pi_H[i..j]``.
+        replacement: names of what stands in its place.
+    """
+
+    first: int
+    last: int
+    removed: tuple[str, ...]
+    replacement: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Interruption:
+    """The best that is possible in one window; costs in the domain's unit.
+
+    Attributes:
+        window: the window.
+        human_cost: least undiscounted cost of what the human takes part in; None if no plan fits.
+        team_cost: least cost for the team, perhaps of another plan.
+        human_saving: cost(pi_H) - ``human_cost``.
+        team_saving: cost of doing nothing - ``team_cost``.
+        removal: what the plan with ``human_cost`` removes and puts in place.
+        plan: that plan.
+    """
+
+    window: Window
+    human_cost: Fraction | None
+    team_cost: Fraction | None
+    human_saving: Fraction | None
+    team_saving: Fraction | None
+    removal: Removal | None
+    plan: tuple[PlanStep, ...] | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object."""
+        removed = None
+        if self.removal is not None and self.removal.removed:
+            removed = {
+                "first": self.removal.first,
+                "last": self.removal.last,
+                "actions": list(self.removal.removed),
+            }
+        return {
+            "window": {"start": self.window.start, "end": self.window.end},
+            "human_cost": _float(self.human_cost),
+            "team_cost": _float(self.team_cost),
+            "human_saving": _float(self.human_saving),
+            "team_saving": _float(self.team_saving),
+            "removed": removed,
+            "replacement": None if self.removal is None else list(self.removal.replacement),
+            "plan": None if self.plan is None else [step.to_dict() for step in self.plan],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class InterruptionReport:
+    """The report of SPEC 3.2.
+
+    Attributes:
+        human: his name.
+        human_plan: names of ``pi_H``, or None where he has no plan alone (no report then).
+        human_cost: cost(pi_H).
+        team_cost: what doing nothing for him costs the team.
+        horizon: ``T``.
+        interruptible: whether he pays less in some window (Def. 2.1).
+        windows: ascending.
+        options: in force.
+    """
+
+    human: str
+    human_plan: tuple[str, ...] | None
+    human_cost: Fraction | None
+    team_cost: Fraction | None
+    horizon: int | None
+    interruptible: bool
+    windows: tuple[Interruption, ...]
+    options: Options
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object (schema ``serendipity.interruptions/1``)."""
+        options = self.options.to_dict()
+        return {
+            "schema": SCHEMA,
+            "human": self.human,
+            "human_plan": None if self.human_plan is None else list(self.human_plan),
+            "human_cost": _float(self.human_cost),
+            "team_cost": _float(self.team_cost),
+            "horizon": self.horizon,
+            "interruptible": self.interruptible,
+            "reason": "no-human-plan" if self.human_plan is None else None,
+            "windows": [window.to_dict() for window in self.windows],
+            "options": {name: options[name] for name in _OPTIONS},
+        }
+
+
+def interruptions(
+    task: Task, *, human_plan: Iterable[str] | None = None, **options: Any
+) -> InterruptionReport:
+    """For each window the best for the human and the best for the team.
+
+    Args:
+        task: the task.
+        human_plan: names of the actions that the human is going to do; None predicts them.
+        **options: ``discount``, ``horizon``, ``suffix``, ``preservation``, ``interference``.
+
+    Raises:
+        UsageError: an option is not one of these, or has no legal value.
+        PlanError: ``human_plan`` can't be executed, or misses the goal.
+    """
+    for name in options:
+        if name not in _OPTIONS:
+            raise UsageError(f"interruptions: expected options among {', '.join(_OPTIONS)}, got '{name}'")
+    chosen = options_from(options)
+    given = None if human_plan is None else task.plan_from_names(human_plan)
+    found = search_windows(task, chosen, human_plan=given)
+    human = task.agents[task.human]
+    if found is None:
+        return InterruptionReport(
+            human, None, None, None, None, interruptible=False, windows=(), options=chosen
+        )
+    alone = task.cost_of(found.human_plan)
+    windows = []
+    for outcome in found.windows:
+        steps = outcome.steps
+        windows.append(
+            Interruption(
+                window=outcome.window,
+                human_cost=outcome.human_cost,
+                team_cost=outcome.team_cost,
+                human_saving=_less(alone, outcome.human_cost),
+                team_saving=_less(found.baseline, outcome.team_cost),
+                removal=None if steps is None else _removal(task, found.human_plan, steps),
+                plan=None if steps is None else tuple(_named(task, chosen, step) for step in steps),
+            )
+        )
+    return InterruptionReport(
+        human=human,
+        human_plan=tuple(task.actions[i].name for i in found.human_plan),
+        human_cost=alone,
+        team_cost=found.baseline,
+        horizon=found.horizon,
+        interruptible=any(w.human_saving is not None and w.human_saving > 0 for w in windows),
+        windows=tuple(windows),
+        options=chosen,
+    )
+
+
+def removal(former: tuple[str, ...], executed: tuple[str, ...]) -> Removal:
+    """What of ``former`` is gone in ``executed``: common beginning and end are left out."""
+    shortest = min(len(former), len(executed))
+    begin = next((k for k in range(shortest) if former[k] != executed[k]), shortest)
+    rest = shortest - begin
+    end = next((k for k in range(rest) if former[-1 - k] != executed[-1 - k]), rest)
+    last = len(former) - end
+    return Removal(begin + 1, last, former[begin:last], executed[begin : len(executed) - end])
+
+
+def _removal(task: Task, human_plan: tuple[int, ...], steps: tuple[Step, ...]) -> Removal:
+    actions = task.actions
+    executed = (actions[s.action] for s in sorted(steps) if task.human in actions[s.action].participants)
+    return removal(tuple(actions[i].name for i in human_plan), tuple(action.name for action in executed))
+
+
+def _named(task: Task, options: Options, step: Step) -> PlanStep:
+    action = task.actions[step.action]
+    agents = tuple(task.agents[i] for i in action.participants)
+    return PlanStep(step.epoch, agents, action.name, float(task.team_cost(action, options.discount)))
+
+
+def _less(before: Fraction | None, after: Fraction | None) -> Fraction | None:
+    return None if before is None or after is None else before - after
+
+
+def _float(value: Fraction | None) -> float | None:
+    return None if value is None else float(value)

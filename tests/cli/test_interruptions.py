@@ -1,0 +1,68 @@
+"""``serendipity interruptions`` on the command line."""
+
+import json
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from tests.cli.conftest import Run, assert_one_line
+
+Runs = Callable[[str], Run]
+
+
+def test_table_json_and_map_agree(run: Runs, tmp_path: Path) -> None:
+    shown = run("interruptions --example room2 --discount 0.6 --heat-map map.svg")
+    assert (shown.code, shown.err) == (0, "")
+    data = json.loads(run("interruptions --example room2 --discount 0.6 --format json").out)
+    assert data["schema"] == "serendipity.interruptions/1"
+    assert data["interruptible"]
+    rows = [line.split() for line in shown.out.splitlines()[3:]]
+    assert len(rows) == len(data["windows"]) == 91
+    drawn = [e.text or "" for e in ET.parse(tmp_path / "map.svg").iter() if e.tag.endswith("}title")][1:]
+    for i, (row, entry) in enumerate(zip(rows, data["windows"], strict=True)):
+        window = f"[{entry['window']['start']}, {entry['window']['end']})"
+        assert " ".join(row[:2]) == window
+        costs = [entry[name] for name in ("human_cost", "team_cost", "human_saving", "team_saving")]
+        assert [float(cell) for cell in row[2:6]] == costs
+        assert drawn[i] == f"{window}: saves {entry['human_saving']:.3g}"
+        assert drawn[91 + i] == f"{window}: saves {entry['team_saving']:.3g}"
+
+
+def test_the_hand_over_of_section_3c(run: Runs) -> None:
+    data = json.loads(run("interruptions --example room2 --discount 0.6 --format json").out)
+    entry = next(e for e in data["windows"] if e["window"] == {"start": 6, "end": 7})
+    assert (entry["human_cost"], entry["team_cost"]) == (11, 12.6)
+    assert entry["removed"]["first"] == 6
+    assert any("hand_over" in name for name in entry["replacement"])
+    planned = serendipity.plan(serendipity.example("room2"), discount="0.6")
+    assert planned.cost == entry["team_cost"]
+
+
+def test_a_human_without_a_plan(run: Runs, tmp_path: Path) -> None:
+    serendipity.generate_usar(tmp_path / "task", rooms=5, medkits=1, seed=1)
+    problem = tmp_path / "task" / "commx" / "problem.pddl"
+    lines = problem.read_text().splitlines()
+    problem.write_text("\n".join(line for line in lines if "(at mk1" not in line))
+    for file in ("superagent", "robot"):
+        other = tmp_path / "task" / file / "problem.pddl"
+        lines = other.read_text().splitlines()
+        other.write_text("\n".join(line for line in lines if "(at mk1" not in line))
+    done = run("interruptions task")
+    assert done.code == 3, done
+    assert "no plan to interrupt" in done.out
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--horizon 3", ("horizon", "13")),
+        ("--heat-map map.pdf", (".svg", "map.pdf")),
+        ("--heat-map absent/map.svg", ("no folder",)),
+        ("--discount 2", ("discount",)),
+    ],
+)
+def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
+    assert_one_line(run(f"interruptions --example room2 {options}"), *words)
