@@ -86,6 +86,7 @@ _NEED_SIBLINGS: Final = (
     "serendipity.certify",
     "serendipity.interruptibility",
     "serendipity.reproduction",
+    "serendipity.simulation",
 )
 
 
