@@ -54,13 +54,12 @@ def _cell(x: int, y: int, value: Fraction | None, most: Fraction, window: str) -
     share = float(value / most) if value is not None and value > 0 else 0.0
     colour = "#bbb" if value is None else _mixed(share)
     label = "" if value is None else f"{float(value):.3g}"
+    ink = "#fff" if share > 0.5 else "#000"
     shown = "no plan fits" if value is None else f"saves {label}"
     return (
         f'<g><title>{window}: {shown}</title><rect x="{x}" y="{y}" width="{_CELL - 2}" height="{_CELL - 2}" '
         f'fill="{colour}" stroke="#999"/>'
-        + _text(
-            x + _CELL / 2 - 1, y + _CELL / 2 + 3, label, "middle", colour="#fff" if share > 0.5 else "#000"
-        )
+        + _text(x + _CELL / 2 - 1, y + _CELL / 2 + 3, label, "middle", colour=ink)
         + "</g>"
     )
 

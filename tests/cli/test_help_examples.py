@@ -17,7 +17,9 @@ def test_examples_of_help_run(run: Callable[[str], Run]) -> None:
         assert done.err == ""
 
 
-@pytest.mark.parametrize("command", ["", "plan", "verify", "examples", "interruptions", "reproduce", "generate usar"])
+@pytest.mark.parametrize(
+    "command", ["", "plan", "verify", "examples", "interruptions", "reproduce", "generate usar"]
+)
 def test_help_shows_its_examples(command: str, run: Callable[[str], Run]) -> None:
     done = run(f"{command} --help")
     shown = [text for text in EXAMPLES if text.startswith(f"serendipity {command}".rstrip())]
