@@ -1,0 +1,56 @@
+"""A lower bound on the value of a state: both together, without turns.
+
+Where the states that the two can reach together are few, the joint optimum itself, from
+one table.  Elsewhere a relaxation of it, see :mod:`search.assistance.provision`.
+"""
+
+from typing import Final
+
+from search.assistance.closure import Arc, Closure, TooManyStatesError
+from search.assistance.game import INFINITE, UNIT_BITS, Game
+from search.assistance.provision import Provision
+from search.encoding import Goal
+from search.keys import INFINITE_KEY
+
+MAX_JOINT_STATES: Final = 100_000
+_SUPPORTER_BITS: Final = 24
+
+
+class Bound:
+    """Admissible and consistent; the same whoever is to move."""
+
+    def __init__(self, game: Game) -> None:
+        self._provision = Provision(game)
+        self._joint: Closure | None = _joint_closure(game)
+        try:
+            self._joint.key(game.init)
+        except TooManyStatesError:
+            self._joint = None
+
+    @property
+    def exact(self) -> bool:
+        """Whether it is the joint optimum, not a relaxation."""
+        return self._joint is not None
+
+    def __call__(self, state: int) -> int:
+        """A value that no policy undercuts from ``state``."""
+        if self._joint is None:
+            return self._provision(state)
+        key = self._joint.key(state)
+        if key >= INFINITE_KEY:
+            return INFINITE
+        prime, supporter = divmod(key, 1 << _SUPPORTER_BITS)
+        return (prime << UNIT_BITS) + supporter
+
+    def wanted(self, state: int) -> frozenset[int]:
+        """Supporter actions that a plan attaining the bound makes use of; may be empty."""
+        return frozenset() if self._joint is not None else self._provision.wanted(state)
+
+
+def _joint_closure(game: Game) -> Closure:
+    arcs = []
+    for ops, shift in ((game.encoding.own, _SUPPORTER_BITS), (game.supporter_ops, 0)):
+        for op in ops:
+            condition = Goal(op.need_mask, op.need, op.forbidden)
+            arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << shift))
+    return Closure(arcs, game.goal, game.encoding.fields, MAX_JOINT_STATES, game.clock)

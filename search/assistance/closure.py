@@ -1,0 +1,162 @@
+"""Exact distances to a goal for every state of a transition system that is reachable from a query.
+
+A query explores what is reachable from its state, then runs Dijkstra backward over it; so
+a state costs work once.  Small closures are explored state by state, large ones by whole
+layers in arrays.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from search.clock import Clock
+from search.encoding import Goal
+from search.keys import INFINITE_KEY
+
+if TYPE_CHECKING:
+    from search.assistance.layers import Layers
+
+SMALL: Final = 3_000
+"""States that are explored one by one before arrays take over."""
+
+_CHECK_EVERY: Final = 512
+
+
+class TooManyStatesError(Exception):
+    """The closure of a state is larger than the limit."""
+
+
+class Arc(NamedTuple):
+    """A weighted transition: where it applies, what it keeps and puts, its weight."""
+
+    condition: Goal
+    keep: int
+    put: int
+    weight: int
+
+
+@dataclass(frozen=True, slots=True)
+class _ByField:
+    """Arcs by the value of the field that most of them ask for."""
+
+    field: int
+    by_value: dict[int, list[Arc]]
+    always: list[Arc]
+
+
+class Closure:
+    """Distances, filled in where they are asked for.
+
+    Args:
+        arcs: the transitions.
+        goal: where the distance is 0 (and nothing goes on).
+        fields: masks of the fields that a state consists of.
+        limit: most states of one closure.
+        clock: asked for time.
+    """
+
+    def __init__(
+        self, arcs: list[Arc], goal: Goal, fields: Sequence[int], limit: int, clock: Clock
+    ) -> None:
+        self._arcs = [arc for arc in arcs if arc.condition.need >= 0]
+        self._goal = goal
+        self._fields = fields
+        self._limit = limit
+        self._clock = clock
+        self._known: dict[int, int] = {}
+        self._by_field = _by_field(self._arcs, fields)
+        self._layers: "list[Layers]" = []
+
+    def key(self, state: int) -> int:
+        """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
+
+        Raises:
+            TooManyStatesError: its closure exceeds the limit.
+        """
+        known = self._known.get(state)
+        if known is not None:
+            return known
+        for layers in self._layers:
+            distance = layers.distance(state)
+            if distance is not None:
+                self._known[state] = distance
+                return distance
+        self._settle(state)
+        return self.key(state)
+
+    def _settle(self, start: int) -> None:
+        predecessors: dict[int, list[tuple[int, int]]] = {start: []}
+        pending = [start]
+        seeds: list[tuple[int, int]] = []
+        known, holds = self._known, self._goal.holds
+        count = 0
+        while pending:
+            state = pending.pop()
+            count += 1
+            if not count % _CHECK_EVERY:
+                self._clock.check()
+            if state in known:
+                seeds.append((known[state], state))
+            elif holds(state):
+                seeds.append((0, state))
+            else:
+                for after, weight in self._successors(state):
+                    before = predecessors.get(after)
+                    if before is None:
+                        before = predecessors[after] = []
+                        pending.append(after)
+                    before.append((weight, state))
+            if len(predecessors) > min(SMALL, self._limit):
+                self._settle_in_layers(start)
+                return
+        self._spread(seeds, predecessors)
+
+    def _successors(self, state: int) -> list[tuple[int, int]]:
+        index = self._by_field
+        found = []
+        for arcs in (index.by_value.get(state & index.field, ()), index.always):
+            for condition, keep, put, weight in arcs:
+                if state & condition.need_mask == condition.need and (
+                    not condition.forbidden or condition.holds(state)
+                ):
+                    after = state & keep | put
+                    if after != state:
+                        found.append((after, weight))
+        return found
+
+    def _spread(
+        self, seeds: list[tuple[int, int]], predecessors: dict[int, list[tuple[int, int]]]
+    ) -> None:
+        distances: dict[int, int] = {}
+        queue = [seed for seed in seeds if seed[0] < INFINITE_KEY]
+        heapify(queue)
+        while queue:
+            distance, state = heappop(queue)
+            if state in distances:
+                continue
+            distances[state] = distance
+            for weight, before in predecessors[state]:
+                if before not in distances:
+                    heappush(queue, (distance + weight, before))
+        for state in predecessors:
+            self._known[state] = distances.get(state, INFINITE_KEY)
+
+    def _settle_in_layers(self, start: int) -> None:
+        # Loads numpy: only a task with a large closure pays for it.
+        from search.assistance.layers import Layers
+
+        self._layers.append(Layers(self._arcs, self._goal, self._fields, start, self._limit, self._clock))
+
+
+def _by_field(arcs: list[Arc], fields: Sequence[int]) -> _ByField:
+    masks = [arc.condition.need_mask for arc in arcs]
+    field = max(fields, key=lambda field: sum(mask & field != 0 for mask in masks), default=0)
+    by_value: dict[int, list[Arc]] = {}
+    always = []
+    for arc in arcs:
+        if arc.condition.need_mask & field:
+            by_value.setdefault(arc.condition.need & field, []).append(arc)
+        else:
+            always.append(arc)
+    return _ByField(field, by_value, always)

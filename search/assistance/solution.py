@@ -1,0 +1,35 @@
+"""What a solver of the game hands over."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NamedTuple
+
+Costs = tuple[Fraction, Fraction]
+"""The prime's and the supporter's, compared in this order."""
+
+
+class Entry(NamedTuple):
+    """What the supporter does in a state: the value of it, the action, the state after it."""
+
+    value: Costs
+    action: int
+    after: int
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """A policy and what is known of its value.
+
+    Attributes:
+        lower: no policy is worth less; None where none ends.
+        upper: what this one is worth; None where none was found.
+        policy: per packed state with the supporter to move what it does; in a state that is
+            not listed it does nothing, for ever.
+        floors: lower bounds of packed states with the supporter to move, which prove each other.
+    """
+
+    lower: Costs | None
+    upper: Costs | None
+    policy: Mapping[int, Entry] = field(default_factory=dict)
+    floors: Mapping[int, Costs] = field(default_factory=dict)
