@@ -93,7 +93,7 @@ def calls(
     Raises:
         UsageError: there are more than ``max_ties``.
     """
-    if given is not None:
+    if given is not None and options.mode != "individual":
         return [Call(task, options, given, plans, effort)]
     if options.ties == "fixed" or options.mode not in TIED_MODES:
         return [Call(task, options, plans.canonical(), plans, effort)]

@@ -6,6 +6,7 @@ from functools import cached_property
 
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from verify.alone import OptimalPlans
+from verify.following import cheapest_following
 from verify.minimise import Effort, Minimum, minimise
 from verify.question import EXACT, FREE, WINDOW, Found, Prices, Question, prices
 
@@ -58,7 +59,7 @@ class Call:
     @property
     def robots_goal(self) -> bool:
         """Whether robots have goals of their own."""
-        return bool(self.task.robot_goal)
+        return bool(self.task.robot_goal) and self.options.mode != "individual"
 
     @cached_property
     def prices(self) -> Prices:
@@ -108,7 +109,8 @@ class Call:
     def idle_robots_plan(self) -> Found | None:
         """The cheapest plan in which he executes ``pi_H`` and robots reach ``G_R`` without him."""
         if self.horizon == INFINITE:
-            raise UndecidedError("robots' goals without a horizon: what doing nothing costs is not examined")
+            endless = Question(self.task, self.options, EXACT, self.human_plan or (), 0, self.prices)
+            return self.decided(cheapest_following(endless, self.effort.deadline))
         question = Question(
             self.task, self.options, EXACT, self.human_plan or (), int(self.horizon), self.prices
         )

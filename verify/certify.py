@@ -104,19 +104,19 @@ class _Certifier:
             yield from (Claim(name, "not_in_scope", out) for name in wanted if name not in refuted)
 
     def _wanted(self) -> list[str]:
-        """The claims of the result that need an optimiser."""
+        """The claims of the result that need an optimiser; the bound comes last."""
         result = self.result
         if result.status == "infeasible":
             return ["infeasible"]
         if result.status == "unknown" or result.cost is None:
             return []
-        wanted = ["lower_bound"] if result.lower_bound is not None else []
+        wanted = []
         if result.status == "optimal":
             if result.opportunity or not result.options.windowed:
                 wanted.append("optimal")
             if not result.opportunity and result.human_plan is not None:
                 wanted.append("no_opportunity")
-        return wanted
+        return wanted if result.lower_bound is None else [*wanted, "lower_bound"]
 
     def _out_of_scope(self) -> str | None:
         result = self.result
@@ -177,7 +177,7 @@ class _Certifier:
         if figures.verdict != "proved":
             yield figures
         examined: dict[str, Claim] = {}
-        for name in sorted(wanted, key=lambda name: name == "lower_bound"):
+        for name in wanted:
             claim = self._examine(examiner, name, examined)
             examined[name] = claim
             yield claim

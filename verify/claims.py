@@ -58,12 +58,12 @@ class Examiner:
     def optimal(self) -> Verdict:
         """No plan that the mode and its options allow has a lower objective, or the same at a lower cost."""
         score = self._score()
-        nothing = self.call.do_nothing
-        if nothing is not None and nothing < score:
-            return "refuted", "doing nothing is better", None
         found = self._better(score)
         if found is not None:
             return "refuted", "a better plan", found
+        nothing = self.call.do_nothing
+        if nothing is not None and nothing < score:  # beyond max_cost, which pi_H is exempt from
+            return "refuted", "doing nothing is better", None
         return "proved", f"no plan within {self._cut(score)}", None
 
     def optimum_is_no_opportunity(self) -> Verdict:

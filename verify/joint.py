@@ -25,7 +25,7 @@ State = frozenset[int]
 
 
 @dataclass(frozen=True, slots=True)
-class _Bundle:
+class Bundle:
     """Actions that are executed together, and what they need and do."""
 
     actions: tuple[int, ...]
@@ -46,15 +46,18 @@ def cheapest(question: Question, deadline: float | None) -> Minimum:
     part = relevant_part(question)
     if part is None:
         return Minimum("none")
-    return _Search(question, part).run(deadline)
+    return JointSearch(question, part).run(deadline)
 
 
-class _Search:
+class JointSearch:
+    """Uniform-cost search of one question; what a timetable changes can be overridden."""
+
     def __init__(self, question: Question, part: Relevant) -> None:
         self.question = question
         self.task = question.task
+        self.part = part
         self.facts = part.facts
-        self.table: dict[int, list[_Bundle]] = {}
+        self.table: dict[int, list[Bundle]] = {}
         for bundle in self._bundles(part):
             self.table.setdefault(min(bundle.pre, default=-1), []).append(bundle)
         conditions = [self.task.goal, *([self.task.robot_goal] if question.robots_goal else [])]
@@ -63,10 +66,11 @@ class _Search:
         self.watched, self.left = self._estimates(part)
 
     def run(self, deadline: float | None) -> Minimum:
-        start = self.task.init & self.facts
+        """The cheapest plan within the question's limits."""
+        start = self.start
         best = {start: 0}
-        parent: dict[State, tuple[State, _Bundle]] = {}
-        queue = [(self._estimate(start), 0, 0, start)]
+        parent: dict[State, tuple[State, Bundle]] = {}
+        queue = [(self.estimate(start), 0, 0, start)]
         closed: set[State] = set()
         number, most = 0, self._most()
         while queue:
@@ -76,26 +80,35 @@ class _Search:
             if estimate > most:
                 break
             closed.add(state)
-            if self.wanted <= state and self.unwanted.isdisjoint(state):
+            if self.is_goal(state):
                 return self._found(state, best[state], parent)
             if len(closed) > MOST_STATES:
                 return Minimum("undecided", bound=estimate, reason=f"more than {MOST_STATES} joint states")
             if deadline is not None and len(closed) % 256 == 0 and perf_counter() > deadline:
                 return Minimum("undecided", bound=estimate, reason="time limit")
-            for bundle in self._applicable(state):
+            for bundle in self.applicable(state):
                 after = (state - bundle.delete) | bundle.add
                 total = best[state] + bundle.cost
                 if total < best.get(after, FAR):
                     best[after], parent[after] = total, (state, bundle)
                     number += 1
-                    heappush(queue, (total + self._estimate(after), -total, number, after))
+                    heappush(queue, (total + self.estimate(after), -total, number, after))
         return Minimum("none")
+
+    @property
+    def start(self) -> State:
+        """The initial state."""
+        return self.task.init & self.facts
+
+    def is_goal(self, state: State) -> bool:
+        """Whether the goals hold."""
+        return self.wanted <= state and self.unwanted.isdisjoint(state)
 
     def _most(self) -> int:
         limits = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
         return min(limits, default=FAR - 1)
 
-    def _found(self, state: State, cost: int, parent: dict[State, tuple[State, _Bundle]]) -> Minimum:
+    def _found(self, state: State, cost: int, parent: dict[State, tuple[State, Bundle]]) -> Minimum:
         bundles = []
         while state in parent:
             state, bundle = parent[state]
@@ -105,7 +118,8 @@ class _Search:
         )
         return Minimum("found", Found(steps, None, cost, cost), cost)
 
-    def _applicable(self, state: State) -> Iterator[_Bundle]:
+    def applicable(self, state: State) -> Iterator[Bundle]:
+        """What can be done next."""
         for f in (-1, *state):
             for bundle in self.table.get(f, ()):
                 if bundle.pre <= state and bundle.neg.isdisjoint(state):
@@ -119,19 +133,21 @@ class _Search:
         left = distances(machine, weights, goal_states(self.question, machine))[0]
         return machine.facts, dict(zip(machine.states, left, strict=True))
 
-    def _estimate(self, state: State) -> int:
+    def estimate(self, state: State) -> int:
+        """A lower bound on the cost that is left."""
         return self.left.get(state & self.watched, 0)
 
-    def _bundles(self, part: Relevant) -> Iterator[_Bundle]:
+    def _bundles(self, part: Relevant) -> Iterator[Bundle]:
         for i in part.actions:
-            yield self._bundle((i,))
+            yield self.bundle((i,))
         if not self.question.options.strict:
             for circle in circles([(i, self.task.actions[i]) for i in part.actions], self.task):
-                yield self._bundle(circle)
+                yield self.bundle(circle)
 
-    def _bundle(self, ids: tuple[int, ...]) -> _Bundle:
+    def bundle(self, ids: tuple[int, ...]) -> Bundle:
+        """The actions as one."""
         chosen = [self.task.actions[i] for i in ids]
-        return _Bundle(
+        return Bundle(
             ids,
             self.facts.intersection([f for action in chosen for f in action.pre]),
             self.facts.intersection([f for action in chosen for f in action.neg]),

@@ -16,7 +16,7 @@ from verify.alone import OptimalPlans, TooManyStatesError
 from verify.encodings.automata import AutomataEncoding
 from verify.encodings.paper import PaperEncoding
 from verify.question import WINDOW, Found, Question
-from verify.solver import Model, optimise
+from verify.solver import SOLVERS, Model, optimise
 
 State = frozenset[int]
 
@@ -63,6 +63,8 @@ class Effort:
     def __post_init__(self) -> None:
         if self.encoding not in ENCODINGS:
             raise UsageError(f"encoding: expected one of {', '.join(ENCODINGS)}, got {self.encoding!r}")
+        if self.solver not in SOLVERS:
+            raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {self.solver!r}")
 
     @property
     def seconds_left(self) -> float | None:

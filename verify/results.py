@@ -37,7 +37,7 @@ def to_result(answer: Answer) -> Result:
         return _infeasible(call, answer.reason)
     baseline = call.baseline
     assert baseline is not None
-    if call.robots_goal and call.options.mode != "individual":
+    if call.robots_goal:
         nothing = call.idle_robots_plan
         assert nothing is not None
         steps = nothing.steps

@@ -1,0 +1,138 @@
+"""Time of a certificate, parse to verdict, over a folder of tasks (one thread).
+
+    python benchmarks/certificates.py FOLDER [--encoding automata] [--solver highs] [--stride N]
+        [--limit N] [--time-limit SECONDS] [--csv FILE]
+
+Each task is read, planned, read again and verified; only the second reading and the
+verification are timed.  With ``--csv`` the rows are appended and a later run with the same
+file goes on where the first one stopped.
+"""
+
+import argparse
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+
+import serendipity
+from serendipity.model import Result
+from verify.certify import certify
+
+KEY = ("test", "mode", "discount", "encoding", "solver")
+FIELDS = (*KEY, "verdict", "seconds", "load", "variables", "constraints")
+MODES = ("serendipity", "communication")
+DISCOUNTS = ("0", "0.5", "0.9")
+
+
+def main() -> None:
+    """Measure and print a table."""
+    arguments = _arguments()
+    done = _read(arguments.csv)
+    rows = list(done.values())
+    for folder in _folders(arguments):
+        for mode in MODES:
+            for discount in DISCOUNTS:
+                key = (folder.name, mode, discount, arguments.encoding, arguments.solver)
+                if key not in done:
+                    row = _measure(folder, mode, discount, arguments)
+                    rows.append(row)
+                    _append(arguments.csv, row)
+    _table(
+        [row for row in rows if (row["encoding"], row["solver"]) == (arguments.encoding, arguments.solver)]
+    )
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--human", default=None)
+    parser.add_argument("--encoding", default="automata", choices=("automata", "paper"))
+    parser.add_argument("--solver", default="highs", choices=("highs", "cbc"))
+    parser.add_argument("--stride", type=int, default=1, help="every N-th task")
+    parser.add_argument("--limit", type=int, default=None, help="at most N tasks")
+    parser.add_argument("--time-limit", type=float, default=None, help="seconds for a certificate")
+    parser.add_argument("--csv", type=Path, default=None, help="append rows here, and resume from it")
+    return parser.parse_args()
+
+
+def _folders(arguments: argparse.Namespace) -> list[Path]:
+    folders = sorted(
+        (p for p in arguments.folder.iterdir() if p.is_dir()), key=lambda p: (len(p.name), p.name)
+    )
+    return folders[:: arguments.stride][: arguments.limit]
+
+
+def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespace) -> dict[str, str]:
+    task = serendipity.load(folder, human=arguments.human)
+    planned = serendipity.plan(task, mode=mode, discount=discount)
+    data = planned.to_dict()
+    started = perf_counter()
+    task = serendipity.load(folder, human=arguments.human)
+    loaded = perf_counter()
+    certificate = certify(
+        task,
+        Result.from_dict(data),
+        encoding=arguments.encoding,
+        solver=arguments.solver,
+        time_limit=arguments.time_limit,
+    )
+    seconds = perf_counter() - started
+    return {
+        "test": folder.name,
+        "mode": mode,
+        "discount": discount,
+        "encoding": arguments.encoding,
+        "solver": arguments.solver,
+        "verdict": certificate.verdict,
+        "seconds": f"{seconds:.4f}",
+        "load": f"{loaded - started:.4f}",
+        "variables": str(certificate.size.get("variables", 0)),
+        "constraints": str(certificate.size.get("constraints", 0)),
+    }
+
+
+def _read(path: Path | None) -> dict[tuple[str, ...], dict[str, str]]:
+    if path is None or not path.exists():
+        return {}
+    with path.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {tuple(row[name] for name in KEY): row for row in rows}
+
+
+def _append(path: Path | None, row: dict[str, str]) -> None:
+    if path is None:
+        return
+    new = not path.exists()
+    with path.open("a", newline="") as file:
+        writer = csv.DictWriter(file, FIELDS)
+        if new:
+            writer.writeheader()
+        writer.writerow(row)
+
+
+def _table(rows: list[dict[str, str]]) -> None:
+    print(
+        f"{'mode':<14}{'discount':>9}{'n':>5}{'proved':>8}{'undecided':>10}{'median':>9}{'95 %':>9}{'max':>9}"
+    )
+    for line in _lines(rows):
+        print(line)
+
+
+def _lines(rows: list[dict[str, str]]) -> Iterator[str]:
+    for mode in MODES:
+        for discount in (*DISCOUNTS, "all"):
+            chosen = [row for row in rows if row["mode"] == mode and discount in (row["discount"], "all")]
+            if not chosen:
+                continue
+            times = sorted(float(row["seconds"]) for row in chosen)
+            verdicts = [row["verdict"] for row in chosen]
+            worst = times[max(0, -(-len(times) * 95 // 100) - 1)]
+            yield (
+                f"{mode:<14}{discount:>9}{len(times):>5}{verdicts.count('proved'):>8}"
+                f"{verdicts.count('undecided'):>10}{median(times):>8.3f}s{worst:>8.3f}s{times[-1]:>8.3f}s"
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,110 @@
+"""The solver adapter's contract: what counts as a proof, and what does not."""
+
+import random
+
+import pytest
+
+from serendipity.model import UsageError
+from verify.solver import LARGEST_COEFFICIENT, SOLVERS, Model, optimise, solver_version
+
+solvers = pytest.mark.parametrize("solver", SOLVERS)
+
+
+def _cover(seed: int, columns: int, rows: int) -> Model:
+    """A random covering problem; at 1000 by 500 it takes seconds."""
+    dice = random.Random(seed)
+    model = Model()
+    for _ in range(columns):
+        model.objective[model.binary()] = dice.randint(1, 20)
+    for _ in range(rows):
+        model.add("cover", dict.fromkeys(dice.sample(range(columns), 6), 1), ">=", 1)
+    return model
+
+
+def _least(model: Model) -> int:
+    """The optimum by trying everything."""
+    best = sum(model.objective.values())
+    for chosen in range(2 ** len(model.upper)):
+        values = [chosen >> i & 1 for i in range(len(model.upper))]
+        if all(sum(values[x] for x in row.terms) >= row.right for row in model.rows):
+            best = min(best, sum(values[x] * weight for x, weight in model.objective.items()))
+    return best
+
+
+@solvers
+@pytest.mark.parametrize("seed", range(5))
+def test_optimum_is_the_least(solver: str, seed: int) -> None:
+    model = _cover(seed, 10, 6)
+    outcome = optimise(model, solver=solver)
+    assert outcome.status == "optimal"
+    assert outcome.values is not None
+    objective = sum(outcome.values[x] * weight for x, weight in model.objective.items())
+    assert objective == _least(model)
+    assert outcome.bound is None or outcome.bound <= objective + 1e-6
+
+
+@solvers
+def test_infeasible_is_a_proof_without_values(solver: str) -> None:
+    model = Model()
+    x, y = model.binary(), model.binary()
+    model.add("both", {x: 1, y: 1}, ">=", 2)
+    model.add("one", {x: 1, y: 1}, "<=", 1)
+    outcome = optimise(model, solver=solver)
+    assert (outcome.status, outcome.values) == ("infeasible", None)
+
+
+@solvers
+def test_a_time_limit_is_no_proof(solver: str) -> None:
+    model = _cover(1, 1000, 500)
+    outcome = optimise(model, solver=solver, seconds=0.2)
+    assert outcome.status == "undecided"
+    assert outcome.reason == "time limit"
+
+
+def test_no_time_at_all_is_no_proof() -> None:
+    outcome = optimise(_cover(1, 10, 5), seconds=0)
+    assert (outcome.status, outcome.values) == ("undecided", None)
+
+
+@pytest.mark.parametrize(
+    ("sense", "right", "status"),
+    [("<=", 0, "optimal"), ("<=", -1, "infeasible"), (">=", 1, "infeasible"), ("==", 1, "infeasible")],
+)
+def test_rows_without_columns_are_checked(sense: str, right: int, status: str) -> None:
+    model = Model()
+    model.binary()
+    model.add("empty", {}, sense, right)
+    assert optimise(model).status == status
+
+
+def test_a_program_without_columns_has_the_empty_solution() -> None:
+    assert optimise(Model()).values == ()
+
+
+@solvers
+def test_columns_that_no_row_mentions_get_a_value(solver: str) -> None:
+    model = Model()
+    model.binary()
+    fixed = model.column(1, 1)
+    outcome = optimise(model, solver=solver)
+    assert outcome.status == "optimal"
+    assert outcome.values is not None
+    assert outcome.values[fixed] == 1
+
+
+def test_numbers_that_tolerances_blur_are_no_proof() -> None:
+    model = Model()
+    model.objective[model.binary()] = LARGEST_COEFFICIENT + 1
+    outcome = optimise(model)
+    assert outcome.status == "undecided"
+    assert "digits" in outcome.reason
+
+
+def test_unknown_solver() -> None:
+    with pytest.raises(UsageError, match="expected one of highs, cbc"):
+        optimise(Model(), solver="abacus")
+
+
+@solvers
+def test_solvers_say_their_version(solver: str) -> None:
+    assert any(character.isdigit() for character in solver_version(solver))
