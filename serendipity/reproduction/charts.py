@@ -9,8 +9,8 @@ from html import escape
 from math import ceil, floor, log10
 from typing import Final
 
-_WIDTH, _HEIGHT = 640, 360
-_LEFT, _RIGHT, _TOP, _BOTTOM = 64, 150, 40, 52
+_WIDTH, _HEIGHT = 700, 360
+_LEFT, _RIGHT, _TOP, _BOTTOM = 64, 210, 40, 52
 _COLOURS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 _DASHES: Final = ("", "7 4", "2 3", "9 3 2 3", "4 2", "1 2")
 

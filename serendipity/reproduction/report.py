@@ -19,7 +19,8 @@ th, td { padding: .25rem .75rem; text-align: right; border-bottom: 1px solid #88
 th:first-child, td:first-child { text-align: left; }
 svg { width: 100%; max-width: 44rem; height: auto; }
 """
-_BIN: Final = Fraction(1, 2)
+_MOST_BINS: Final = 16
+_WIDTHS: Final = tuple(Fraction(10) ** power * factor for power in range(-6, 12) for factor in (1, 2, 5))
 _LEAST_SECONDS: Final = 1e-6
 
 
@@ -127,19 +128,27 @@ def _chart_of_counts(entries: Sequence[Entry]) -> str:
 def _chart_of_savings(run: Reproduction) -> str:
     """How much is saved where something is, at the greatest discount."""
     most = max(run.discounts)
-    counts: dict[str, dict[int, int]] = {}
+    saved: dict[str, list[Fraction]] = {}
     for row in run.rows:
         if row.discount == most and row.opportunity and row.cost is not None and row.human_cost is not None:
-            bin_ = floor((row.human_cost - row.cost) / _BIN)
-            by_bin = counts.setdefault(row.mode, {})
-            by_bin[bin_] = by_bin.get(bin_, 0) + 1
-    if not counts:
+            saved.setdefault(row.mode, []).append(row.human_cost - row.cost)
+    if not saved:
         return ""
-    last = max(bin_ for by_bin in counts.values() for bin_ in by_bin)
-    groups = [f"{float(i * _BIN):g}-{float((i + 1) * _BIN):g}" for i in range(last + 1)]
-    series = {mode: [by_bin.get(i, 0) for i in range(last + 1)] for mode, by_bin in counts.items()}
-    labels = Labels(f"Savings at discount {float(most):g}", "saved cost", "tasks")
+    width = _width(max(max(values) for values in saved.values()))
+    last = max(floor(value / width) for values in saved.values() for value in values)
+    groups = [f"{float(i * width):g}-" for i in range(last + 1)]
+    series = {
+        mode: [sum(floor(value / width) == i for value in saved[mode]) for i in range(last + 1)]
+        for mode in run.modes
+        if mode in saved
+    }
+    labels = Labels(f"Savings at discount {float(most):g}", "saved cost, from", "tasks")
     return bars(labels, groups, series)
+
+
+def _width(most: Fraction) -> Fraction:
+    """The finest round width that makes no more than ``_MOST_BINS`` bins."""
+    return next(width for width in _WIDTHS if most / width < _MOST_BINS)
 
 
 def _chart_of_times(run: Reproduction) -> str:
