@@ -1,0 +1,97 @@
+"""Claims about a human who replans, certified by playing the plan once more (SPEC 6)."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from time import perf_counter
+
+from serendipity.model import Claim, PlanError, Result, Step, Task
+from verify.alone import TooManyStatesError
+from verify.rules.replay import replay_human
+from verify.simulator.person import Person
+from verify.simulator.run import Played, play
+
+_TOO_LARGE = "the human's own problem is too large"
+_MODELS = ("observant", "local")
+
+
+def realised_claim(task: Task, result: Result) -> Claim | None:
+    """The ``realised`` claim of a result, or None where it makes none.
+
+    It stands for every verdict that the result carries and, where it was planned under a
+    human model, for the plan being what robots and human do then.
+    """
+    if result.plan is None or result.cost is None:
+        return None
+    if not result.realised and result.options.human_model == "omniscient":
+        return None
+    started = perf_counter()
+    try:
+        fault = next(_Examination(task, result).faults(), None)
+    except TooManyStatesError:
+        return Claim("realised", "undecided", _TOO_LARGE, seconds=perf_counter() - started)
+    except PlanError as error:
+        fault = f"human plan: {error}"
+    seconds = perf_counter() - started
+    if fault is not None:
+        return Claim("realised", "refuted", fault, seconds=seconds)
+    models = ", ".join(result.realised) or result.options.human_model
+    return Claim("realised", "proved", f"played again, {models}: as the result says", seconds=seconds)
+
+
+class _Examination:
+    def __init__(self, task: Task, result: Result) -> None:
+        self.task = task
+        self.result = result
+        self.person = Person(task)
+        self.human_plan = replay_human(task, result.human_plan or ())
+        self.steps = [Step(step.epoch, _action(task, step.action, step.agents)) for step in result.plan or ()]
+
+    def faults(self) -> Iterator[str]:
+        """What is wrong, one line each."""
+        for model, said in self.result.realised.items():
+            if model not in _MODELS:
+                yield f"there is no human model '{model}'"
+            elif self._play(model).realised(self._promised()) is not said:
+                yield f"{model}: the result says {str(said).lower()}, playing it says otherwise"
+        model = self.result.options.human_model
+        if model in _MODELS and self.result.opportunity:
+            yield from self._reaction(self._play(model))
+
+    def _reaction(self, played: Played) -> Iterator[str]:
+        """An answer under a human model is what happens under it."""
+        if not played.realised(self._promised()):
+            yield "the plan does not work out with the human that it was made for"
+        names = {(step.epoch, self.task.actions[step.action].name) for step in played.steps}
+        said = {(step.epoch, step.action) for step in self.result.plan or ()}
+        for epoch, name in sorted(names ^ said):
+            says = "does not say" if (epoch, name) in names else "says wrongly"
+            yield f"epoch {epoch}: the plan {says} '{name}'"
+        if played.blocked is not None and self.result.options.no_block is not False:
+            yield f"epoch {played.blocked}: robots leave the human without a plan"
+
+    def _play(self, model: str) -> Played:
+        horizon = self.result.horizon
+        return play(
+            self.task,
+            self.result.options,
+            self.human_plan,
+            self.steps,
+            human_model=model,
+            horizon=horizon if isinstance(horizon, int) else None,
+            person=self.person,
+        )
+
+    def _promised(self) -> Fraction:
+        """The plan's exact cost; the result's own figure is rounded."""
+        actions = (self.task.actions[step.action] for step in self.steps)
+        discount = self.result.options.discount
+        return sum((self.task.team_cost(action, discount) for action in actions), Fraction(0))
+
+
+def _action(task: Task, name: str, agents: tuple[str, ...]) -> int:
+    """One of the actions of that name and those agents; which one does not matter."""
+    wanted = sorted(agents)
+    for i in task.named.get(name, ()):
+        if sorted(task.agents[agent] for agent in task.actions[i].participants) == wanted:
+            return i
+    raise PlanError(f"there is no action '{name}' of {', '.join(wanted)}")

@@ -1,0 +1,43 @@
+"""The human by himself, over sets of facts: his costs and plans from any state or belief."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from serendipity.model import Task
+from verify.alone import OptimalPlans, State
+
+
+class Person:
+    """What he would do and pay alone; kept between questions about one task.
+
+    Every method but :meth:`cost_of` raises :class:`verify.alone.TooManyStatesError` where
+    his own problem is too large.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._plans = OptimalPlans(task)
+
+    def cost(self, state: State) -> Fraction | None:
+        """``h``: his optimal cost alone; None for infinity."""
+        worth = self._plans.worth(state)
+        return None if worth is None else worth[0]
+
+    def plan(self, state: State) -> list[int]:
+        """The canonical optimal plan from a state that has one."""
+        chosen = []
+        while (step := next(self._plans.steps(state), None)) is not None:
+            action, state = step
+            chosen.append(action)
+        return chosen
+
+    def cost_of(self, plan: Sequence[int], state: State) -> Fraction | None:
+        """``c``: what a plan costs if it works from a state, robots idle; None for infinity."""
+        total = Fraction(0)
+        for i in plan:
+            action = self._task.actions[i]
+            if not action.applicable(state):
+                return None
+            state = state.difference(action.delete).union(action.add)
+            total += action.cost
+        return total if self._task.goal.holds(state) else None
