@@ -17,13 +17,13 @@ from typing import Any, NamedTuple, TypeVar
 from serendipity.model.actions import Condition, GroundAction, conflicting
 from serendipity.model.task import Task
 
-
 T = TypeVar("T")
 
 
 class Op(NamedTuple):
     """A packed ground action: applicable iff ``s & need_mask == need`` and no ``s & m == v``
-    of ``forbidden``; its successor is ``s & keep | put``."""
+    of ``forbidden``; its successor is ``s & keep | put``.
+    """
 
     need_mask: int
     need: int
@@ -107,6 +107,7 @@ class Encoding:
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
+        self._values: dict[int, list[int]] = {0: [0]}
         shift = 0
         for variable in task.variables:
             if not any(f in relevant for f in variable.facts):
@@ -117,6 +118,8 @@ class Encoding:
                 value = 1 if variable.boolean else code
                 self.fact_bits[fact] = (mask, value << shift)
             self.fields.append(mask)
+            codes = range(2) if variable.boolean else range(len(variable.facts))
+            self._values[mask] = [code << shift for code in codes]
             shift += width
         self.boolean = {f for v in task.variables if v.boolean for f in v.facts}
         self.all_ones = (1 << shift) - 1
@@ -137,7 +140,9 @@ class Encoding:
     @cached_property
     def joint(self) -> tuple[Op, ...]:
         """Useful ops in which the human and others take part."""
-        return tuple(op for op in self._useful_ops if op.agents & self.human_bit and op.agents != self.human_bit)
+        return tuple(
+            op for op in self._useful_ops if op.agents & self.human_bit and op.agents != self.human_bit
+        )
 
     @cached_property
     def others(self) -> tuple[Op, ...]:
@@ -147,6 +152,11 @@ class Encoding:
     @cached_property
     def _useful_ops(self) -> list[Op]:
         return [self.op(i) for i in self.useful]
+
+    @cached_property
+    def outside(self) -> int:
+        """The fields that some op without the human sets."""
+        return self.changed_by(self.others)
 
     @cached_property
     def own_mask(self) -> int:
@@ -199,6 +209,10 @@ class Encoding:
             if bits is not None:
                 packed |= bits[1]
         return packed
+
+    def values(self, field: int) -> list[int]:
+        """The values that a field can have, in place."""
+        return self._values[field]
 
     def condition(self, condition: Condition) -> Goal:
         """The packed form of a conjunction of literals over packed facts."""

@@ -4,10 +4,13 @@ from collections.abc import Iterator
 
 from search.best_first import Incumbent, Node
 from search.encoding import Goal
+from search.help import Bounds
 from search.keys import Keys
 from search.labels import Labels
-from search.projection import Projection
 from search.successors import NOTHING, Option, Successors
+
+UNTOUCHED, TOUCHED = 0, 1
+"""Phases: before and after the human's first touch."""
 
 
 class Free:
@@ -20,7 +23,7 @@ class Free:
         goals: what has to hold at the end.
         keys: layout of keys.
         successors: what agents can do in an epoch.
-        bound: lower bound on what the human still has to pay.
+        bounds: lower bounds on what still has to be paid.
     """
 
     def __init__(
@@ -32,7 +35,7 @@ class Free:
         goals: tuple[Goal, ...],
         keys: Keys,
         successors: Successors,
-        bound: Projection,
+        bounds: Bounds,
     ) -> None:
         self._initial = initial
         self._horizon = horizon
@@ -40,13 +43,13 @@ class Free:
         self._goals = goals
         self._keys = keys
         self._successors = successors
-        self._bound = bound
+        self._bounds = bounds
         self._labels = Labels()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
         self._labels.add(self._initial, 0, 0)
-        yield self._bound(self._initial), Node(0, 0, self._initial, 0, 0, None, ())
+        yield self._bounds.untouched(0, self._initial), Node(0, 0, self._initial, UNTOUCHED, 0, None, ())
 
     def alive(self, node: Node) -> bool:
         """Whether no cheaper node that is as early makes this one superfluous."""
@@ -62,14 +65,22 @@ class Free:
             epoch, parts = node.epoch + 1, self._together(node.state)
         else:
             return
-        for option in parts:
+        bounds = self._bounds
+        for part, option in parts:
             after = node.state & option.keep | option.put
             key = node.key + option.weight
-            bound = key + self._bound(after)
+            bound = key + bounds.private(after)
             if bound >= best.key or self._too_dear(bound) or not option.actions:
                 continue
+            if self._horizon is not None and epoch + bounds.steps(after) > self._horizon:
+                continue
+            touched = node.phase == TOUCHED or bounds.touches(part.actions)
+            if not touched:
+                bound = max(bound, key + bounds.untouched(epoch, after))
+                if bound >= best.key:
+                    continue
             if self._labels.add(after, epoch, key):
-                child = Node(key, epoch, after, 0, 0, node, option.actions)
+                child = Node(key, epoch, after, TOUCHED if touched else UNTOUCHED, 0, node, option.actions)
                 if not self._offer(child, best):
                     yield bound, child
 
@@ -80,16 +91,18 @@ class Free:
         best.key, best.node = node.key, node
         return True
 
-    def _together(self, state: int) -> Iterator[Option]:
+    def _together(self, state: int) -> Iterator[tuple[Option, Option]]:
+        """The human's part of each action set, and the whole set."""
         successors = self._successors
         for part in (NOTHING, *successors.human(state), *successors.joint(state)):
-            yield from successors.with_robots(part, state)
+            for option in successors.with_robots(part, state):
+                yield part, option
 
-    def _one_after_another(self, state: int) -> Iterator[Option]:
+    def _one_after_another(self, state: int) -> Iterator[tuple[Option, Option]]:
         """Without a horizon only sets that can't be put in a sequence need to be sets."""
-        for option in self._together(state):
+        for part, option in self._together(state):
             if len(option.actions) <= 1 or not self._successors.sequential(option.actions):
-                yield option
+                yield part, option
 
     def _too_dear(self, key: int) -> bool:
         return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

@@ -27,8 +27,9 @@ INFINITE_KEY = 1 << 4096
 class Keys:
     """Widths of the fields, low to high: announced, actions, start, length, cost, objective.
 
-    ``epoch_weight`` is the increment of one more epoch of the window.  ``announced`` holds the communication cost of a suffix, which ranks below the
-    human's own preferences while he replans and is moved into the objective afterwards.
+    ``epoch_weight`` is the increment of one more epoch of the window.  ``announced`` holds
+    the communication cost of a suffix, which ranks below the human's own preferences while
+    he replans and is moved into the objective afterwards.
     """
 
     scale: int
@@ -113,6 +114,7 @@ class Weights:
         announces: whether off-plan actions cost communication.
         human: increment of an action of the human by the index of its cost,
             communication left out.
+        robots: increment of an action without the human by the index of its cost.
 
     Args:
         packed: the packed task.
@@ -136,13 +138,13 @@ class Weights:
         self._human_bit = packed.human_bit
         self._planned = frozenset(plan or ())
         self.human = [self.keys.of_action(cost) for cost in costs]
-        self._without = [self.keys.of_action(cost * (1 - options.discount)) for cost in costs]
+        self.robots = [self.keys.of_action(cost * (1 - options.discount)) for cost in costs]
         self._announced = [int(cost * announced * scale) for cost in costs]
 
     def team(self, op: Op) -> int:
         """Increment of an op inside a composite plan, communication included."""
         if not op.agents & self._human_bit:
-            return self._without[op.cost]
+            return self.robots[op.cost]
         weight = self.human[op.cost]
         if self.announces and op.action not in self._planned:
             weight += self._announced[op.cost] << self.keys.objective_shift

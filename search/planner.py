@@ -13,7 +13,7 @@ from search.keys import INFINITE_KEY
 from search.outcome import Outcome, path_sets, path_steps, plan_steps
 from search.schedule import schedule
 from search.tables import Tables
-from search.windows import window_space
+from search.windows import free_bounds, window_space
 from serendipity.model.errors import UsageError
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.plans import Step, Window
@@ -45,7 +45,7 @@ def solve(
     if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
         yield Outcome("infeasible", reason="no-human-plan")
     elif plan is not None and options.mode == "individual":
-        yield _individual(task, plan)
+        yield _individual(tables, plan)
     else:
         yield from _Call(tables, plan, given=human_plan is not None).answers()
 
@@ -61,17 +61,22 @@ def optimal_human_plans(task: Task) -> PlanGraph | None:
     return Tables(task, Options(), Clock()).optimal_plans()
 
 
-def _individual(task: Task, plan: HumanPlan) -> Outcome:
-    cost = task.cost_of(plan)
+def _individual(tables: Tables, plan: HumanPlan) -> Outcome:
+    """The human alone, optimally, whatever plan of his is given."""
+    graph = tables.optimal_plans()
+    assert graph is not None, "a plan that reaches the goal was given or found"
+    best = graph.canonical()
+    cost, given = tables.task.cost_of(best), tables.task.cost_of(plan)
     return Outcome(
         "optimal",
         human_plan=plan,
         horizon=len(plan),
-        steps=plan_steps(plan),
+        steps=plan_steps(plan if cost == given else best),
         cost=cost,
         objective=cost,
         lower_bound=cost,
-        baseline=cost,
+        baseline=given,
+        saving_alone=given - cost,
     )
 
 
@@ -81,7 +86,7 @@ def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
         shortest = 0 if plan is None else len(plan)
         if isinstance(options.horizon, int) and options.horizon < shortest:
             raise UsageError(
-                f"horizon: expected at least {shortest}, the length of the human's plan, got {options.horizon}"
+                f"horizon: expected at least {shortest}, the length of his plan, got {options.horizon}"
             )
         return options.horizon
     if plan is None:
@@ -89,7 +94,9 @@ def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
             return INFINITE
         raise UsageError("horizon: must be given, since the human has no plan of his own")
     if not plan and task.robot_goal:
-        raise UsageError("horizon: must be given, since the human's goal holds already and robots have theirs")
+        raise UsageError(
+            "horizon: must be given, since the human's goal holds already and robots have theirs"
+        )
     return len(plan)
 
 
@@ -173,7 +180,9 @@ class _Call:
     def _space(self, *, idle: bool = False) -> Space:
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
-            return window_space(self.tables, self.plan, self.epochs, self._most_cost(), idle=idle)
+            return window_space(
+                self.tables, self.plan, self.epochs, self._most_cost(), self.best.key, idle=idle
+            )
         return Free(
             initial=self.tables.encoding.init,
             horizon=self.epochs,
@@ -181,7 +190,7 @@ class _Call:
             goals=self.tables.goals,
             keys=self.keys,
             successors=self.tables.successors(idle=idle),
-            bound=self.tables.bound,
+            bounds=free_bounds(self.tables, self.epochs, self.best.key, idle=idle),
         )
 
     def _most_cost(self) -> int | None:

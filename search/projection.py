@@ -45,7 +45,14 @@ class Projection:
 
 
 @dataclass(frozen=True, slots=True)
-class _Graph:
+class Projected:
+    """The human's actions projected onto fields of his, as far as they lead from ``I``.
+
+    Attributes:
+        mask: the fields that are kept.
+        predecessors: per projected state what leads to it.
+    """
+
     mask: int
     predecessors: Predecessors
 
@@ -59,14 +66,15 @@ def human_projection(encoding: Encoding, goal: Goal, weights: Sequence[int], clo
         weights: key increment of an action of his by the index of its cost.
         clock: asked for time while the table is built.
     """
-    graph = encoding.derived(_human_graph)
+    graph = encoding.derived(human_graph)
     clock.check()
     return Projection(graph.mask, _distances(graph, goal, weights))
 
 
-def _human_graph(encoding: Encoding) -> _Graph:
+def human_graph(encoding: Encoding) -> Projected:
+    """His graph over all his private fields, or over as many as stay tractable."""
     own = (*encoding.own, *encoding.joint)
-    changed, shared = encoding.changed_by(own), encoding.changed_by(encoding.others)
+    changed, shared = encoding.changed_by(own), encoding.outside
     private = [field for field in encoding.fields if field & changed and not field & shared]
     goal_first = sorted(private, key=lambda field: (not field & encoding.goal.mask, field))
     for count in range(len(private), 0, -1):
@@ -74,11 +82,11 @@ def _human_graph(encoding: Encoding) -> _Graph:
         mask = sum(fields)
         predecessors = _explore(encoding.init & mask, _Moves(fields, own))
         if predecessors is not None:
-            return _Graph(mask, predecessors)
-    return _Graph(0, {0: []})
+            return Projected(mask, predecessors)
+    return Projected(0, {0: []})
 
 
-def _distances(graph: _Graph, goal: Goal, weights: Sequence[int]) -> dict[int, int]:
+def _distances(graph: Projected, goal: Goal, weights: Sequence[int]) -> dict[int, int]:
     """Backward Dijkstra over the projected states that are reachable forward."""
     distances: dict[int, int] = {}
     queue = [(0, state) for state in graph.predecessors if _satisfies(state, graph.mask, goal)]

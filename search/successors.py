@@ -136,4 +136,6 @@ class Successors:
 
 
 def _together(a: Option, b: Option) -> Option:
-    return Option(a.weight + b.weight, a.keep & b.keep, a.put | b.put, a.actions + b.actions, a.agents | b.agents)
+    return Option(
+        a.weight + b.weight, a.keep & b.keep, a.put | b.put, a.actions + b.actions, a.agents | b.agents
+    )

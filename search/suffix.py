@@ -106,7 +106,8 @@ class Subplan:
 
 class Preserved:
     """The rest ``pi_H[j+1..]``, from a state that still contains what ``pi_H[1..j]`` made
-    true of the human's own facts (Def. 3.1, read literally)."""
+    true of the human's own facts (Def. 3.1, read literally).
+    """
 
     def __init__(
         self,

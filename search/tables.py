@@ -1,13 +1,17 @@
 """What every search of one call shares: packed task, key weights, bounds, the human alone."""
 
+from collections.abc import Sequence
 from functools import cached_property
 
 from search.alone import Alone, PlanGraph
 from search.clock import Clock
 from search.encoding import Encoding, Goal, Op, encoding, full_encoding, human_facts
+from search.help import Providers
 from search.keys import INFINITE_KEY, Weights
 from search.projection import Projection, human_projection
 from search.successors import Option, Successors, as_option
+from search.touches import Touches
+from search.ways import Ways
 from serendipity.model.actions import Condition
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan, Task
@@ -54,6 +58,15 @@ class Tables:
         return human_projection(self.encoding, self.encoding.goal, self.weights.human, self.clock)
 
     @cached_property
+    def steps(self) -> Projection:
+        """Lower bound on the number of his actions to ``G_H``."""
+        weights = self.weights.human
+        if len(weights) == 1:  # every action costs the same, so the cheapest way is the shortest
+            distances = self.bound.distances
+            return Projection(self.bound.mask, {at: key // weights[0] for at, key in distances.items()})
+        return human_projection(self.encoding, self.encoding.goal, [1] * len(weights), self.clock)
+
+    @cached_property
     def alone(self) -> Alone:
         """The human by himself, to ``G_H``."""
         return Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, self.clock)
@@ -63,7 +76,7 @@ class Tables:
         """The human by himself, to ``G_H`` and ``G_R``; None where he can't affect ``G_R``."""
         robot_goal = self.task.robot_goal
         touched = {*robot_goal.positive, *robot_goal.negative}
-        affects = any(
+        affects = bool(touched) and any(
             touched.intersection(action.add) or touched.intersection(action.delete)
             for action in (self.task.actions[i] for i in self.task.human_actions)
         )
@@ -71,6 +84,20 @@ class Tables:
             return None
         goal = self.encoding.condition(_both(self.task))
         return Alone(self.encoding, goal, self.weights.alone, self.bound, self.clock)
+
+    @property
+    def touches(self) -> Touches:
+        """What the human's ops mention."""
+        return self.encoding.derived(Touches)
+
+    @cached_property
+    def ways(self) -> Ways:
+        """The human's ways to his touches."""
+        return Ways(self.touches, self.bound, self.steps, self.weights.human)
+
+    def providers(self, followed: Sequence[Op] = ()) -> Providers:
+        """What robots need to provide touches, while the human does ``followed``."""
+        return Providers(self.encoding, self.touches, self.weights.robots, followed)
 
     def successors(self, *, idle: bool = False) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing."""

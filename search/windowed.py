@@ -10,13 +10,15 @@ from typing import Protocol
 
 from search.best_first import Incumbent, Node
 from search.encoding import Op, applicable
+from search.help import Bounds, HelpedOnTheWay
 from search.keys import Keys
 from search.labels import Labels
 from search.projection import Projection
 from search.successors import NOTHING, Option, Successors
 from search.suffix import Suffix
 
-PREFIX, WINDOW = 0, 1
+PREFIX, WINDOW, TOUCHED = 0, 1, 2
+"""Phases: before the window; in it, before and after the first touch of the human in it."""
 
 
 class Prefix(Protocol):
@@ -34,6 +36,9 @@ class Prefix(Protocol):
     def bound(self, epoch: int, state: int) -> int:
         """Least key increment from a prefix node after ``epoch``, window included."""
 
+    def opening(self, epoch: int, state: int) -> int:
+        """The same, if the window opens in the next epoch."""
+
 
 class Timetable:
     """Rule 1: in epoch ``t`` the human does exactly ``pi_H[t]`` (Def. 3.0).
@@ -42,13 +47,13 @@ class Timetable:
 
     Args:
         steps: his packed actions and what they do, in order.
-        bounds: least key increment after ``0 .. |pi_H| - 1`` epochs of the prefix.
+        bound: lower bound after ``0 .. |pi_H| - 1`` epochs of the prefix.
     """
 
-    def __init__(self, steps: list[tuple[Op, Option]], bounds: list[int]) -> None:
+    def __init__(self, steps: list[tuple[Op, Option]], bound: HelpedOnTheWay) -> None:
         self.last = len(steps)
         self._steps = steps
-        self._bounds = bounds
+        self._bound = bound
 
     def options(self, epoch: int, state: int) -> Iterable[Option]:
         """See :class:`Prefix`."""
@@ -57,7 +62,11 @@ class Timetable:
 
     def bound(self, epoch: int, state: int) -> int:
         """See :class:`Prefix`."""
-        return self._bounds[epoch]
+        return self._bound.later(epoch, state)
+
+    def opening(self, epoch: int, state: int) -> int:
+        """See :class:`Prefix`."""
+        return self._bound.opening(epoch, state)
 
 
 class AnyOfPlan:
@@ -70,13 +79,15 @@ class AnyOfPlan:
         planned: frozenset[int],
         last: int,
         bound: Projection,
-        opening: int,
+        keys: Keys,
+        horizon: int,
     ) -> None:
         self.last = last
         self._successors = successors
         self._planned = planned
-        self._projection = bound
-        self._opening = opening
+        self._bound = bound
+        self._keys = keys
+        self._horizon = horizon
 
     def options(self, epoch: int, state: int) -> Iterable[Option]:
         """See :class:`Prefix`."""
@@ -85,7 +96,11 @@ class AnyOfPlan:
 
     def bound(self, epoch: int, state: int) -> int:
         """See :class:`Prefix`."""
-        return self._projection(state) + self._opening
+        return self._keys.of_start(self.last, self._horizon) + self._keys.epoch_weight + self._bound(state)
+
+    def opening(self, epoch: int, state: int) -> int:
+        """See :class:`Prefix`."""
+        return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
 
 
 class Windowed:
@@ -98,7 +113,7 @@ class Windowed:
         most_cost: largest scaled cost of an acceptable plan, or None.
         keys: layout of keys.
         successors: what agents can do in an epoch.
-        bound: lower bound on what the human still has to pay.
+        bounds: lower bounds on what still has to be paid.
         prefix: rule 1.
         suffix: rule 3.
         labels: dominance among nodes of the window.
@@ -113,7 +128,7 @@ class Windowed:
         most_cost: int | None,
         keys: Keys,
         successors: Successors,
-        bound: Projection,
+        bounds: Bounds,
         prefix: Prefix,
         suffix: Suffix,
         labels: Labels,
@@ -124,7 +139,7 @@ class Windowed:
         self._most_cost = most_cost
         self._keys = keys
         self._successors = successors
-        self._bound = bound
+        self._bounds = bounds
         self._prefix = prefix
         self._suffix = suffix
         self._labels = labels
@@ -145,7 +160,7 @@ class Windowed:
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node; ends of windows are offered to ``best``."""
-        if node.phase == WINDOW:
+        if node.phase != PREFIX:
             yield from self._inside(node, best)
             return
         yield from self._open(node)
@@ -155,7 +170,7 @@ class Windowed:
     def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
         start = node.epoch + 1
         key = node.key + self._keys.of_start(start, self._horizon)
-        bound = key + self._keys.epoch_weight + self._bound(node.state)
+        bound = node.key + self._prefix.opening(node.epoch, node.state)
         if not self._too_dear(bound) and self._labels.add(node.state, node.epoch, key):
             yield bound, node._replace(key=key, phase=WINDOW, start=start)
 
@@ -179,22 +194,27 @@ class Windowed:
         base = node.key + self._keys.epoch_weight
         again = self._keys.epoch_weight
         goes_on = epoch < self._horizon and epoch - node.start + 1 < self._max_window
-        successors, state = self._successors, node.state
+        successors, bounds, state = self._successors, self._bounds, node.state
         for part in (NOTHING, *successors.human(state), *successors.joint(state)):
-            # Robots don't change the variables that the bound looks at.
-            rest = self._bound(state & part.keep | part.put)
-            if base + part.weight + rest >= best.key:
+            # Robots don't change the variables that the private bound looks at.
+            at = state & part.keep | part.put
+            rest = bounds.private(at)
+            if base + part.weight + rest >= best.key or epoch + bounds.steps(at) > self._horizon:
                 continue
+            touched = node.phase == TOUCHED or bounds.touches(part.actions)
             for option in successors.with_robots(part, state):
                 key = base + option.weight
                 bound = key + rest
                 if bound >= best.key or self._too_dear(bound):
                     break
                 after = state & option.keep | option.put
-                child = Node(key, epoch, after, WINDOW, node.start, node, option.actions)
+                phase = TOUCHED if touched else WINDOW
+                child = Node(key, epoch, after, phase, node.start, node, option.actions)
                 self._end(child, best)
-                bound += again
-                if goes_on and bound < best.key and self._labels.add(after, epoch, key):
+                if not goes_on or bound + again >= best.key:
+                    continue
+                bound = key + again + (rest if touched else max(rest, bounds.untouched(epoch, after)))
+                if bound < best.key and self._labels.add(after, epoch, key):
                     yield bound, child
 
     def _end(self, node: Node, best: Incumbent) -> None:

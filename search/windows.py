@@ -3,18 +3,19 @@
 from collections.abc import Callable
 
 from search.encoding import human_facts
-from search.keys import Keys
+from search.help import Bounds, Helped, HelpedOnTheWay, Openings, Timed, no_bound, survivors
+from search.keys import INFINITE_KEY, Keys
 from search.labels import Labels
 from search.suffix import Preserved, Replan, Subplan, Suffix
-from search.successors import Successors
 from search.tables import Tables
+from search.ways import NEVER
 from search.windowed import AnyOfPlan, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan
 
 
 def window_space(
-    tables: Tables, plan: HumanPlan, horizon: int, most_cost: int | None, *, idle: bool
+    tables: Tables, plan: HumanPlan, horizon: int, most_cost: int | None, limit: int, *, idle: bool
 ) -> Windowed:
     """The space of plans with a window.
 
@@ -23,11 +24,25 @@ def window_space(
         plan: ``pi_H``.
         horizon: ``T``, at least ``|pi_H|``.
         most_cost: largest scaled cost of an acceptable plan, or None.
+        limit: key that a plan has to beat.
         idle: robots do nothing.
     """
     options = tables.options
-    no_worse = _no_worse(tables.keys, options, most_cost)
     successors = tables.successors(idle=idle)
+    prefix: Prefix
+    if options.keep_prefix:
+        untouched: Timed = no_bound
+        prefix = AnyOfPlan(
+            successors=successors,
+            planned=frozenset(plan),
+            last=len(plan),
+            bound=tables.bound,
+            keys=tables.keys,
+            horizon=horizon,
+        )
+    else:
+        on_the_way, untouched = _along(tables, plan, horizon, limit, idle=idle)
+        prefix = Timetable(tables.followed(plan), on_the_way)
     return Windowed(
         initial=tables.encoding.init,
         horizon=horizon,
@@ -35,16 +50,14 @@ def window_space(
         most_cost=most_cost,
         keys=tables.keys,
         successors=successors,
-        bound=tables.bound,
-        prefix=_prefix(tables, plan, horizon, successors),
-        suffix=_suffix(tables, plan),
-        labels=Labels(no_worse),
+        bounds=Bounds(tables.bound, tables.steps, untouched, tables.touches),
+        prefix=prefix,
+        suffix=suffix_rule(tables, plan),
+        labels=Labels(_no_worse(tables.keys, options, most_cost)),
     )
 
 
-def _no_worse(
-    keys: Keys, options: Options, most_cost: int | None
-) -> Callable[[int, int], bool] | None:
+def _no_worse(keys: Keys, options: Options, most_cost: int | None) -> Callable[[int, int], bool] | None:
     """What else the first key must not be worse in, to dominate the second."""
     if most_cost is None and options.max_window is None and options.preservation == "kernel":
         return None
@@ -59,35 +72,67 @@ def _no_worse(
     return no_worse
 
 
-def _prefix(tables: Tables, plan: HumanPlan, horizon: int, successors: Successors) -> Prefix:
-    if tables.options.keep_prefix:
-        opening = tables.keys.epoch_weight + tables.keys.of_start(len(plan), horizon)
-        return AnyOfPlan(
-            successors=successors,
-            planned=frozenset(plan),
-            last=len(plan),
-            bound=tables.bound,
-            opening=opening,
-        )
-    return Timetable(tables.followed(plan), _bounds_along(tables, plan, horizon))
+def _along(
+    tables: Tables, plan: HumanPlan, horizon: int, limit: int, *, idle: bool
+) -> tuple[HelpedOnTheWay, Timed]:
+    """Bounds along ``pi_H`` and off it, up to the first touch that is not on the plan.
 
-
-def _bounds_along(tables: Tables, plan: HumanPlan, horizon: int) -> list[int]:
-    """Least key increment after ``0 .. |pi_H| - 1`` epochs: some window still has to open."""
+    His private fields follow ``pi_H``, so his part of the first is known in advance.
+    """
+    keys, ways = tables.keys, tables.ways
     steps = tables.followed(plan)
-    states = [tables.encoding.init]
-    for op, _ in steps:
-        states.append(states[-1] & op.keep | op.put)
-    bounds = [0] * len(plan)
-    for epoch in range(len(plan) - 1, -1, -1):
-        opening = tables.keys.of_start(epoch + 1, horizon) + tables.keys.epoch_weight
-        bounds[epoch] = opening + tables.bound(states[epoch])
-        if epoch + 1 < len(plan):
-            bounds[epoch] = min(bounds[epoch], steps[epoch][1].weight + bounds[epoch + 1])
-    return bounds
+    providers = tables.providers([op for op, _ in steps])
+    state, cost = tables.encoding.init, 0
+    totals, spent = [], []
+    for epoch, (op, option) in enumerate(steps):
+        base = cost + keys.of_start(epoch + 1, horizon) + keys.epoch_weight
+        without, by_need = ways.totals(state, base, limit)
+        totals.append((without, {providers.at(need, epoch): total for need, total in by_need.items()}))
+        spent.append(cost)
+        state = state & op.keep | op.put
+        cost += option.weight
+
+    def latest(need: int) -> int:
+        return horizon - 1 - ways.steps_after[providers.touched(need)]
+
+    openings = Openings(totals, latest, _reach(tables, horizon, limit))
+    least = {need: row[0] for need, row in openings.later.items()}
+    paying = None if idle else survivors(providers, least, limit, horizon, openings.total)
+    if paying is None:
+        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), no_bound
+    provided = providers.provided(paying, horizon)
+    off_plan = [(providers.touched(need), provided[need]) for need in paying]
+    return HelpedOnTheWay(openings, spent, {**provided}), Helped(tables.bound, ways, off_plan, horizon)
 
 
-def _suffix(tables: Tables, plan: HumanPlan) -> Suffix:
+def _reach(tables: Tables, horizon: int, limit: int) -> int:
+    """The most epochs of a window that can still beat ``limit``."""
+    most = min(horizon, tables.options.max_window or horizon)
+    weight = tables.keys.epoch_weight >> tables.keys.objective_shift
+    return min(most, (limit >> tables.keys.objective_shift) // weight) if weight else most
+
+
+def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) -> Bounds:
+    """Bounds where the human is free from the start."""
+    untouched: Timed = no_bound
+    last = NEVER if horizon is None else horizon
+    if not idle:
+        ways, providers = tables.ways, tables.providers()
+        _, least = ways.totals(tables.encoding.init, 0, limit)
+
+        def total(need: int, cost: int, steps: int) -> int:
+            in_time = steps < last - ways.steps_after[need]
+            return least[need] + cost if in_time else INFINITE_KEY
+
+        paying = survivors(providers, least, limit, last, total)
+        if paying is not None:
+            provided = providers.provided(paying, last)
+            untouched = Helped(tables.bound, ways, list(provided.items()), last)
+    return Bounds(tables.bound, tables.steps, untouched, tables.touches)
+
+
+def suffix_rule(tables: Tables, plan: HumanPlan) -> Suffix:
+    """Rule 3 as the options have it."""
     options, task, packed = tables.options, tables.task, tables.encoding
     weights = [option.weight for _, option in tables.followed(plan)]
     goals = list(tables.goals)

@@ -4,6 +4,7 @@ A *choice* is a state with the supporter to move, a *reply* one with the prime t
 """
 
 from search.assistance.bound import Bound
+from search.assistance.evaluate import Option
 from search.assistance.game import INFINITE, NOOP, Game, Move
 from search.assistance.rules import Rule, Value
 
@@ -65,39 +66,49 @@ class Graph:
             return self._inherited[state]
         return self.rule.add(move.value, low)
 
-    def best(self, state: int) -> tuple[Move, Value]:
-        """The supporter's best move by the present bounds, the reply's bound worked out.
+    def best(self, state: int) -> tuple[Move | None, Value]:
+        """The supporter's best move by the present bounds, its reply expanded; None if there is none.
 
         Of equals the one of ``pick``, then one whose reply is expanded, then the first.
         """
         moves = self._choice(state)
-        pick = self.pick.get(state)
-        while True:
-            best, value, rank = moves[0], None, 3
-            for move in moves:
-                v = self.move_value(state, move)
-                if value is not None and v > value:
-                    continue
-                r = 0 if move is pick else 1 if move.after in self.replies else 2
-                if value is None or v < value or r < rank:
-                    best, value, rank = move, v, r
-            if self.final(best.after) or best.after in self.reply_low:
-                return best, value
-            self.reply_low[best.after] = self.rule.lift(self._bound(best.after))
+        while moves:
+            move, value = self._least(state, moves)
+            at = move.after
+            if self.final(at):
+                return move, value
+            if at not in self.reply_low:
+                self.reply_low[at] = self.rule.lift(self._bound(at))
+                continue
+            risen = at not in self.replies and self._expand_reply(at)
+            if not self._forbidden(state, move) and not risen:
+                return move, value
+        return None, self.rule.infinite
 
-    def expand_reply(self, state: int, move: Move) -> None:
-        """Work out what the prime may do after ``move`` from ``state``."""
-        at = move.after
+    def _least(self, state: int, moves: list[Move]) -> tuple[Move, Value]:
+        pick = self.pick.get(state)
+        best, value, rank = moves[0], None, 3
+        for move in moves:
+            v = self.move_value(state, move)
+            if value is not None and v > value:
+                continue
+            r = 0 if move == pick else 1 if move.after in self.replies else 2
+            if value is None or v < value or r < rank:
+                best, value, rank = move, v, r
+        return best, value
+
+    def _expand_reply(self, at: int) -> bool:
+        """Work out what the prime may do; whether that raised the reply's bound."""
         alone = self.game.alone(at)
         self.idle[at] = self.rule.lift(alone)
         if alone < INFINITE:
             self.replies[at] = self.game.prime(at)
         else:
             self.replies[at] = (Move(0, at, NOOP),)
-        self.back_up_reply(at)
+        return self.back_up_reply(at)
 
-    def forbid_blocking(self, state: int, move: Move) -> bool:
-        """Drop ``move`` if it is not allowed, or if it only repeats the state; whether it was."""
+    def _forbidden(self, state: int, move: Move) -> bool:
+        """Drop ``move`` if it is not allowed, or only repeats the state; whether it was dropped."""
         if self.idle[move.after] != self.rule.infinite:
             return False
         blocks = self._no_block and move.action != NOOP and self.game.alone(state) < INFINITE
@@ -122,6 +133,18 @@ class Graph:
     def settled(self, at: int) -> bool:
         """Whether doing nothing any more after this is as good as can be."""
         return bool(self.idle[at] == self.reply_low[at])
+
+    def option(self, state: int, move: Move) -> Option:
+        """A move of an expanded choice with all that is known of what follows."""
+        at = move.after
+        if self.final(at):
+            return Option(move, self.rule.lift(0), ())
+        if at not in self.replies:
+            low = self.reply_low.get(at)
+            return Option(move, self.rule.lift(self._bound(at)) if low is None else low, ())
+        if self.settled(at):
+            return Option(move, self.idle[at], ())
+        return Option(move, None, self.replies[at])
 
     def _choice(self, state: int) -> list[Move]:
         moves = self.choices.get(state)

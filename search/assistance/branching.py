@@ -1,0 +1,147 @@
+"""Robust and expected: the best policy, by raising lower bounds along the policy that looks best.
+
+A pass follows the policy that is best by the present bounds, expands what it meets and
+backs values up (as in LAO*, Hansen and Zilberstein 2001).  When a pass raises nothing,
+the policy is evaluated exactly; if it is worth its bound, it is optimal.  Where runs may
+return to a state, backing up alone may not get there: then everything looked at is
+solved at once, see :mod:`search.assistance.cycles`.
+"""
+
+from collections.abc import Iterator
+
+from search.assistance.bound import Bound
+from search.assistance.cycles import solve_all
+from search.assistance.evaluate import Option, evaluate
+from search.assistance.game import INFINITE, Game, Move
+from search.assistance.graph import Graph
+from search.assistance.rules import Rule, Value
+from search.assistance.solution import Entry, Solution
+
+_CHECK_EVERY = 32
+
+
+class Branching:
+    """The search.
+
+    Args:
+        game: the game.
+        bound: consistent lower bound.
+        rule: how the prime's optimal actions count.
+        no_block: no move may take the prime's last plan away.
+    """
+
+    def __init__(self, game: Game, bound: Bound, rule: Rule, *, no_block: bool) -> None:
+        self._game = game
+        self._rule = rule
+        self._graph = Graph(game, bound, rule, no_block=no_block)
+        self._policy: dict[int, Option] = {}
+        self._values: dict[int, Value] = {}
+        self._upper: Value = rule.infinite
+        self.expanded = 0
+
+    def run(self) -> Iterator[None]:
+        """Search; yields whenever the best policy known gets better.
+
+        Raises:
+            OutOfTimeError: the clock ran out; the solution so far stands.
+        """
+        graph, game = self._graph, self._game
+        if graph.final(game.init):
+            self._upper = self._rule.lift(0)
+            return
+        graph.choice_value(game.init)
+        alone = game.alone(game.init)
+        if alone < INFINITE:
+            self._upper = self._rule.lift(alone)
+            yield
+        while graph.choice_value(game.init) < self._upper:
+            while self._pass():
+                pass
+            policy = self._best_policy()
+            values = evaluate(policy, self._rule, self._outside, game.clock)
+            value = values.get(game.init, self._rule.infinite)
+            if value < self._upper:
+                self._upper, self._policy, self._values = value, policy, values
+                yield
+            if graph.choice_value(game.init) < self._upper:
+                solve_all(graph, game.clock)
+
+    def _pass(self) -> bool:
+        """Walk once through the best policy; whether a bound rose."""
+        graph = self._graph
+        rose = False
+        seen = {self._game.init}
+        stack = [self._game.init]
+        while stack:
+            state = stack[-1]
+            self._count()
+            step = self._step(state, seen)
+            rose |= step[0]
+            if step[1] is None:
+                stack.pop()
+            else:
+                seen.add(step[1])
+                stack.append(step[1])
+        return rose and graph.low[self._game.init] < self._upper
+
+    def _step(self, state: int, seen: set[int]) -> tuple[bool, int | None]:
+        """Back a choice up; whether it rose, and an outcome that was not visited yet."""
+        graph, rose = self._graph, False
+        while True:
+            move, value = graph.best(state)
+            if value > graph.choice_value(state):
+                graph.low[state] = value
+                rose = True
+            if move is None or graph.final(move.after) or value >= self._rule.infinite:
+                return rose, None
+            if graph.settled(move.after):
+                return rose, None
+            if not graph.back_up_reply(move.after):
+                return rose, self._next(move, seen)
+
+    def _next(self, move: Move, seen: set[int]) -> int | None:
+        for outcome in self._graph.replies[move.after]:
+            if outcome.after not in seen and not self._graph.final(outcome.after):
+                return outcome.after
+        return None
+
+    def _count(self) -> None:
+        self.expanded += 1
+        if not self.expanded % _CHECK_EVERY:
+            self._game.clock.check()
+
+    def _outside(self, state: int) -> Value:
+        """States without a move are final, or lost."""
+        return self._rule.lift(0) if self._graph.final(state) else self._rule.infinite
+
+    def _best_policy(self) -> dict[int, Option]:
+        """What looks best now, from the initial state on."""
+        graph = self._graph
+        policy: dict[int, Option] = {}
+        pending = [self._game.init]
+        while pending:
+            state = pending.pop()
+            if state in policy:
+                continue
+            move, value = graph.best(state)
+            if move is None or value >= self._rule.infinite:
+                continue
+            option = policy[state] = graph.option(state, move)
+            pending.extend(outcome.after for outcome in option.outcomes if not graph.final(outcome.after))
+        return policy
+
+    def solution(self) -> Solution:
+        """The best policy known, and lower bounds on everything looked at."""
+        graph, rule, game = self._graph, self._rule, self._game
+        policy = {}
+        for state, (move, _, _) in self._policy.items():
+            value = rule.costs(game, self._values[state])
+            if value is not None:
+                policy[state] = Entry(value, move.action, move.after)
+        floors = {}
+        for state in graph.choices:
+            low = rule.costs(game, graph.low[state])
+            if low is not None:
+                floors[state] = low
+        lower = graph.choice_value(game.init)
+        return Solution(rule.costs(game, lower), rule.costs(game, self._upper), policy, floors)

@@ -1,0 +1,334 @@
+"""A lower bound that asks who helps: nothing gets cheaper unless robots provide a touch.
+
+Whatever happens after a node, the human either touches nothing outside any more,
+or there is a first touch.  Until then he moves by himself in his private fields,
+and only robots change what lies outside; so the node costs at least what robots
+need to provide the touch, plus his way to it, the touch, and his private rest
+(``search.projection``), and there must be epochs enough for both.  Touches that
+are too dear already from the initial state stay so, since both parts are
+distances: a first pass leaves few of them.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from search.encoding import Encoding, Op
+from search.keys import INFINITE_KEY
+from search.projection import Projection
+from search.provision import Distances, Places, Provision
+from search.touches import Touches
+from search.ways import Ways
+
+_MOST_TOUCHES = 64
+"""More surviving needs than this make the bound dearer than what it saves."""
+
+Timed = Callable[[int, int], int]
+"""Lower bound of the key increment from an epoch and a packed state after it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Provided:
+    """Least key increment, and least number of epochs, for robots to provide a need."""
+
+    cost: Distances
+    steps: Distances
+    unit: int
+    """What ``steps`` counts an epoch as."""
+
+
+class Providers:
+    """The robots' side.
+
+    Args:
+        encoding: the packed task.
+        touches: what the human's ops mention.
+        weights: key increment of a robots' op by the index of its cost.
+        followed: the ops of ``pi_H``, in order, where the human follows it for a while.
+
+    A need that is judged by a field that ``pi_H`` changes counts twice: before that
+    happens, and, under the id ``late(need)``, afterwards.
+    """
+
+    def __init__(
+        self, encoding: Encoding, touches: Touches, weights: Sequence[int], followed: Sequence[Op]
+    ) -> None:
+        self._encoding = encoding
+        self._touches = touches
+        self._weights = weights
+        self._followed = followed
+        self._changes: dict[int, int] = {}
+        self._judges: dict[int, int] = {}
+        for epoch, op in enumerate(followed, start=1):
+            for field in encoding.fields:
+                if field & ~op.keep:
+                    self._changes.setdefault(field, epoch)
+        self._shared = _shared_fields(encoding, touches)
+        used = {weights[index] for index in encoding.derived(_robots_costs)}
+        self._uniform = len(used) <= 1
+        self._unit = max(used, default=1)
+        self._by_cost: dict[tuple[int, bool], Provision] = {}
+        self._by_step: dict[tuple[int, bool], Provision] = {}
+
+    def at(self, need: int, epoch: int) -> int:
+        """The id that a need goes by after ``epoch`` epochs of ``pi_H``."""
+        changed = self._changes.get(self._judged_by(need))
+        return need if changed is None or epoch < changed else self._late(need)
+
+    @staticmethod
+    def touched(need: int) -> int:
+        """The need behind an id of :meth:`at`."""
+        return need if need >= 0 else -1 - need
+
+    @staticmethod
+    def _late(need: int) -> int:
+        return -1 - need
+
+    def costs(self, needs: Sequence[int], limit: int, horizon: int) -> dict[int, int]:
+        """Least cost from the initial state per need, of those below ``limit`` and in time."""
+        if self._uniform:
+            limit = min(limit, horizon * self._unit)
+        return self._explore(self._by_cost, needs, self._weights, limit)
+
+    def epochs(self, cost: int) -> int:
+        """At least so many epochs go into what costs robots a key increment."""
+        return cost // self._unit if self._uniform else 0
+
+    def provided(self, needs: Sequence[int], horizon: int) -> dict[int, Provided]:
+        """Bounds from any packed state, for needs that :meth:`costs` found.
+
+        Args:
+            needs: their ids.
+            horizon: number of epochs; beyond it steps are not told apart.
+        """
+        by_step, unit = self._by_cost, self._unit
+        if not self._uniform:
+            self._explore(self._by_step, needs, [1] * len(self._weights), horizon + 1)
+            by_step, unit = self._by_step, 1
+        found = {}
+        for need in needs:
+            group = self._group(need)
+            cost = self._by_cost[group].distances(need)
+            steps = cost if self._uniform else by_step[group].distances(need)
+            found[need] = Provided(cost, steps, unit)
+        return found
+
+    def _explore(
+        self,
+        provisions: dict[tuple[int, bool], Provision],
+        needs: Sequence[int],
+        weights: Sequence[int],
+        limit: int,
+    ) -> dict[int, int]:
+        groups: dict[tuple[int, bool], list[int]] = {}
+        for need in needs:
+            groups.setdefault(self._group(need), []).append(need)
+        costs: dict[int, int] = {}
+        for (field, late), members in groups.items():
+            listed = [(i, self._touches.needs[self.touched(i)]) for i in members]
+            flips = self._followed if late else ()
+            provision = Provision(self._encoding, field, listed, weights, flips)
+            provision.explore(limit)
+            provisions[field, late] = provision
+            costs.update(provision.cost)
+        return costs
+
+    def _group(self, need: int) -> tuple[int, bool]:
+        """The field that judges a need, and whether ``pi_H`` has changed it by then."""
+        touched = self.touched(need)
+        return self._judged_by(touched), touched != need
+
+    def _judged_by(self, need: int) -> int:
+        """The first shared field that the need asks for; 0: only places matter."""
+        field = self._judges.get(need)
+        if field is None:
+            mask = self._touches.needs[need].mask
+            field = self._judges[need] = next((f for f in self._shared if mask & f), 0)
+        return field
+
+
+def _robots_costs(encoding: Encoding) -> frozenset[int]:
+    return frozenset(op.cost for op in encoding.others)
+
+
+def _shared_fields(encoding: Encoding, touches: Touches) -> list[int]:
+    """Outside fields that are no robot's place, the largest first."""
+    places = set(encoding.derived(Places).field.values())
+    outside = [f for f in encoding.fields if f & touches.outside and f not in places]
+    return sorted(outside, key=lambda f: (-len(encoding.values(f)), f))
+
+
+def survivors(
+    providers: Providers,
+    least: dict[int, int],
+    limit: int,
+    horizon: int,
+    total: Callable[[int, int, int], int],
+) -> list[int] | None:
+    """Needs whose touch may still pay; None if they are too many to look at one by one.
+
+    Args:
+        providers: the robots' side.
+        least: the human's least total by need.
+        limit: what has to be beaten.
+        horizon: number of epochs.
+        total: least total by need, robots' cost and robots' epochs.
+    """
+    if not least:
+        return []
+    costs = providers.costs(sorted(least), limit - min(least.values()), horizon)
+    paying = [n for n, cost in costs.items() if total(n, cost, providers.epochs(cost)) < limit]
+    return paying if len(paying) <= _MOST_TOUCHES else None
+
+
+class Helped:
+    """The bound at any node before the first touch, over the surviving needs.
+
+    Args:
+        bound: private distances to the goal.
+        ways: the human's side.
+        needs: the surviving needs; one may stand there twice, before and after ``pi_H``
+            has changed what it is judged by.
+        horizon: number of epochs.
+    """
+
+    def __init__(
+        self, bound: Projection, ways: Ways, needs: Sequence[tuple[int, Provided]], horizon: int
+    ) -> None:
+        self._mask = bound.mask
+        self._ways = ways
+        self._needs = needs
+        self._horizon = horizon
+        self._without: dict[int, int] | None = None
+        self._pairs: list[tuple[dict[int, int], Provided, int]] = []
+
+    def __call__(self, epoch: int, state: int) -> int:
+        """Lower bound of the key increment from a packed state after an epoch."""
+        if self._without is None:
+            self._prepare()
+        assert self._without is not None
+        at = state & self._mask
+        least = self._without.get(at, INFINITE_KEY)
+        for way, provided, latest in self._pairs:
+            cost = way.get(at, INFINITE_KEY)
+            if cost >= least:
+                continue
+            cost += provided.cost(state)
+            if cost < least and epoch + provided.steps(state) // provided.unit <= latest:
+                least = cost
+        return least
+
+    def _prepare(self) -> None:
+        self._without = self._ways.to_goal()
+        for need, provided in self._needs:
+            latest = self._horizon - 1 - self._ways.steps_after[need]
+            self._pairs.append((self._ways.through(need), provided, latest))
+
+
+def no_bound(_epoch: int, _state: int) -> int:
+    """The bound that is always right."""
+    return 0
+
+
+class Bounds:
+    """Which bound holds at a node.
+
+    The first pass of this module judges the *first* touch only; once there has been one,
+    the private bound is what holds.
+
+    Args:
+        private: distances in the human's private fields.
+        steps: the same, counting actions.
+        untouched: bound before the first touch.
+        touches: tells which actions are touches.
+    """
+
+    def __init__(self, private: Projection, steps: Projection, untouched: Timed, touches: Touches) -> None:
+        self.private = private
+        self.steps = steps
+        self.untouched = untouched
+        self._is_touch = touches.is_touch
+
+    def touches(self, actions: Sequence[int]) -> bool:
+        """Whether the human's part of an epoch (at most one action) is a touch."""
+        return bool(actions) and self._is_touch(actions[0])
+
+
+class Openings:
+    """The human's totals while he follows ``pi_H``: by epoch and by need.
+
+    Args:
+        totals: per epoch the least total without a touch and per need, if a window opens next.
+        latest: last epoch in which robots can provide a need.
+        reach: epochs that a window that still pays can have.
+    """
+
+    def __init__(
+        self, totals: Sequence[tuple[int, dict[int, int]]], latest: Callable[[int], int], reach: int
+    ) -> None:
+        self.now = totals
+        self.reach = reach
+        self.without = [INFINITE_KEY] * len(totals)
+        self.later: dict[int, list[int]] = {}
+        without = INFINITE_KEY
+        for epoch in range(len(totals) - 1, -1, -1):
+            without = self.without[epoch] = min(without, totals[epoch][0])
+        for need in {need for _, by_need in totals for need in by_need}:
+            row = self.later[need] = [INFINITE_KEY] * len(totals)
+            best = INFINITE_KEY
+            for epoch in range(len(totals) - 1, -1, -1):
+                best = row[epoch] = min(best, totals[epoch][1].get(need, INFINITE_KEY))
+        self.latest = {need: latest(need) for need in self.later}
+
+    def total(self, need: int, cost: int, steps: int, epoch: int = 0) -> int:
+        """Least total if robots need a cost and some epochs from ``epoch`` on to provide."""
+        row = self.later[need]
+        opens = max(epoch, epoch + steps - self.reach)
+        if opens >= len(row) or epoch + steps > self.latest[need]:
+            return INFINITE_KEY
+        return row[opens] + cost
+
+
+class HelpedOnTheWay:
+    """The bound while the human follows ``pi_H``; a window has still to open.
+
+    Args:
+        openings: his totals.
+        spent: what following ``pi_H`` has cost by each epoch.
+        needs: the surviving needs; None where robots may provide them for nothing.
+    """
+
+    def __init__(self, openings: Openings, spent: Sequence[int], needs: dict[int, Provided | None]) -> None:
+        self._openings = openings
+        self._spent = spent
+        self._needs = [(need, provided, openings.later[need]) for need, provided in needs.items()]
+
+    def opening(self, epoch: int, state: int) -> int:
+        """Least key increment if the window opens right after ``epoch``."""
+        openings = self._openings
+        least, by_need = openings.now[epoch]
+        for need, provided, _ in self._needs:
+            total = by_need.get(need, INFINITE_KEY)
+            if total >= least:
+                continue
+            if provided is not None:
+                total += provided.cost(state)
+                if total >= least:
+                    continue
+                steps = provided.steps(state) // provided.unit
+                if steps > openings.reach or epoch + steps > openings.latest[need]:
+                    continue
+            least = total
+        return least - self._spent[epoch]
+
+    def later(self, epoch: int, state: int) -> int:
+        """Least key increment if it opens then or later."""
+        openings = self._openings
+        least = openings.without[epoch]
+        for need, provided, row in self._needs:
+            if row[epoch] >= least:
+                continue
+            cost, steps = 0, 0
+            if provided is not None:
+                cost, steps = provided.cost(state), provided.steps(state) // provided.unit
+            least = min(least, openings.total(need, cost, steps, epoch))
+        return least - self._spent[epoch]

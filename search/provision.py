@@ -1,0 +1,321 @@
+"""What it costs robots, at least, to provide what a touch needs.
+
+One outside field is looked at together with the place of one robot at a time:
+the robot that is *tracked*.  It walks (ops on its place), it acts on the field,
+and where the next op on the field has other actors, tracking passes on: to a
+robot that takes part in both ops, from where the first one left it, or, where
+there is none, to any robot, anywhere, for nothing.  All other conditions are
+dropped, so distances are admissible for any number of robots that relay.
+
+Glossary: *place* - the value of the field that most of a robot's own ops ask
+for; *label* - value of the field, team of the last op on it (0 at the start).
+"""
+
+from collections.abc import Iterable, Sequence
+from heapq import heappop, heappush
+
+from search.encoding import Encoding, Op
+from search.keys import INFINITE_KEY
+from search.touches import Need
+
+Spot = tuple[int, int, int, int]
+"""Value of the field, team of the last op on it, tracked robot's bit, its place.
+Robot 0 stands for "any robot that did not take part in the last op"."""
+
+Edge = tuple[int, Spot]
+"""Weight, and where it leads (or, backward, where it came from)."""
+
+
+class Places:
+    """The place field of each robot, and what moves it; kept with the packed task."""
+
+    def __init__(self, encoding: Encoding) -> None:
+        self.field: dict[int, int] = {}
+        self.moves: dict[int, dict[int, list[tuple[int, Op]]]] = {}
+        changers = (*encoding.own, *encoding.joint, *encoding.others)
+        for robot in encoding.task.robots:
+            bit = 1 << robot
+            mine = [op for op in encoding.others if op.agents & bit]
+            foreign = encoding.changed_by(op for op in changers if not op.agents & bit)
+            counts = {f: 0 for f in encoding.fields if f & encoding.changed_by(mine) and not f & foreign}
+            for op in mine:
+                for field in counts:
+                    counts[field] += op.need_mask & field != 0
+            field = max(counts, key=lambda f: counts[f], default=0)
+            self.field[bit] = field
+            moves: dict[int, list[tuple[int, Op]]] = {}
+            for op in mine:
+                if field & ~op.keep and op.need >= 0:
+                    # Without a condition on the place it can be done from anywhere: key -1.
+                    origin = op.need & field if op.need_mask & field else -1
+                    moves.setdefault(origin, []).append((op.put & field, op))
+            self.moves[bit] = moves
+
+
+class Acts:
+    """Robots' ops as one outside field sees them; kept with the packed task.
+
+    Attributes:
+        on: ops that mention the field, by its values.
+        walks: per robot and place what leads elsewhere without mentioning the field: the
+            place, and the index of the cost.  Walks that are possible anywhere stand under -1.
+    """
+
+    def __init__(self, encoding: Encoding, field: int) -> None:
+        values = encoding.values(field)
+        places = encoding.derived(Places)
+        self.on = _by_value(field, (op for op in encoding.others if _mentions(op, field)), values)
+        self.walks: dict[int, dict[int, list[tuple[int, int]]]] = {}
+        for robot, moves in places.moves.items():
+            walks = self.walks[robot] = {}
+            for origin, ops in moves.items():
+                walks[origin] = [(there, op.cost) for there, op in ops if not _mentions(op, field)]
+
+    def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
+        """Where a robot can walk from a place, with the index of the cost."""
+        walks = self.walks[robot]
+        anywhere = walks.get(-1)
+        known = walks.get(place, [])
+        return known + anywhere if anywhere else known
+
+
+class AllActs:
+    """:class:`Acts` by field, made when first asked for."""
+
+    def __init__(self, encoding: Encoding) -> None:
+        self._encoding = encoding
+        self._known: dict[int, Acts] = {}
+
+    def on(self, field: int) -> Acts:
+        """What robots' ops are to a field."""
+        if field not in self._known:
+            self._known[field] = Acts(self._encoding, field)
+        return self._known[field]
+
+
+class Provision:
+    """Distances in the automaton of one outside field.
+
+    Args:
+        encoding: the packed task.
+        field: the outside field.
+        needs: ids of the needs that are judged by this field, with the needs.
+        weights: key increment of a robots' op by the index of its cost.
+        flips: ops of the human that may change the field on his way, for nothing.
+    """
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        field: int,
+        needs: Sequence[tuple[int, Need]],
+        weights: Sequence[int],
+        flips: Iterable[Op] = (),
+    ) -> None:
+        self._places = encoding.derived(Places)
+        self._field = field
+        self._weights = weights
+        self._initial = encoding.init
+        self._encoding = encoding
+        self._acts = encoding.derived(AllActs).on(field)
+        self._flips = _by_value(field, (op for op in flips if field & ~op.keep), encoding.values(field))
+        self._needs = [(i, need, self._robots_of(need)) for i, need in needs]
+        self._entries: dict[Spot, list[Edge]] = {}
+        self._accepted: dict[int, list[Spot]] = {}
+        self._stopped: set[tuple[int, int, int]] = set()
+        self.cost: dict[int, int] = {}
+
+    def explore(self, limit: int) -> None:
+        """Forward from the initial state, up to a cost; fills ``cost`` per need id."""
+        queue: list[tuple[int, Spot]] = []
+        value = self._initial & self._field
+        for robot, place in self._places.field.items():
+            heappush(queue, (0, (value, 0, robot, self._initial & place)))
+        settled: dict[Spot, int] = {}
+        open_exits: dict[tuple[int, int, int], set[tuple[int, int]]] = {}
+        while queue:
+            cost, spot = heappop(queue)
+            if spot in settled:
+                continue
+            settled[spot] = cost
+            self._accept(spot, cost)
+            value, team, robot, place = spot
+            for weight, after in self._changes(spot):
+                self._relax(queue, settled, spot, cost, weight, after, limit)
+            if not robot:
+                continue
+            exits = open_exits.get((value, team, robot))
+            if exits is None:
+                exits = open_exits[value, team, robot] = self._exits(value, robot)
+            exits -= {exit_ for exit_ in exits if place & exit_[0] == exit_[1]}
+            if not exits:
+                self._stopped.add((value, team, robot))
+                continue
+            for there, index in self._acts.from_place(robot, place):
+                after = (value, team, robot, there)
+                self._relax(queue, settled, spot, cost, self._weights[index], after, limit)
+
+    def _relax(
+        self,
+        queue: list[tuple[int, Spot]],
+        settled: dict[Spot, int],
+        spot: Spot,
+        cost: int,
+        weight: int,
+        after: Spot,
+        limit: int,
+    ) -> None:
+        self._entries.setdefault(after, []).append((weight, spot))
+        if after not in settled and cost + weight < limit:
+            heappush(queue, (cost + weight, after))
+
+    def _changes(self, spot: Spot) -> list[Edge]:
+        """Edges that set the field, or hand over tracking."""
+        value, team, robot, place = spot
+        edges: list[Edge] = []
+        for op in self._acts.on.get(value, ()):
+            if robot:
+                if not op.agents & robot or not self._at(op, robot, place):
+                    continue
+            elif op.agents & team:
+                continue
+            after = op.put & self._field if self._field & ~op.keep else value
+            weight = self._weights[op.cost]
+            for other, field in self._places.field.items():
+                if op.agents & other:
+                    here = place if other == robot else -1
+                    edges += [
+                        (weight, (after, op.agents, other, p)) for p in self._after(op, other, field, here)
+                    ]
+        for op in self._flips.get(value, ()):
+            edges.append((0, (op.put & self._field, team, robot, place)))
+        if robot and team and len(self._places.field) > 1:
+            edges.append((0, (value, team, 0, 0)))
+        return edges
+
+    def _at(self, op: Op, robot: int, place: int) -> bool:
+        field = self._places.field[robot]
+        return place & op.need_mask & field == op.need & field
+
+    def _after(self, op: Op, robot: int, field: int, place: int) -> list[int]:
+        """Where a robot can be after an op: known, set by it, asked for by it, or anywhere."""
+        if field & ~op.keep:
+            return [op.put & field]
+        if place >= 0:
+            return [place]
+        if op.need_mask & field:
+            return [op.need & field]
+        return self._encoding.values(field)
+
+    def _exits(self, value: int, robot: int) -> set[tuple[int, int]]:
+        """Conditions on the robot's place under which something can happen to the value."""
+        field = self._places.field[robot]
+        exits = {
+            (op.need_mask & field, op.need & field)
+            for op in self._acts.on.get(value, ())
+            if op.agents & robot
+        }
+        for _, need, robots in self._needs:
+            if robots & robot and need.value & self._field == value & need.mask:
+                exits.add((need.mask & field, need.value & field))
+        return exits
+
+    def _accept(self, spot: Spot, cost: int) -> None:
+        value, team, robot, place = spot
+        for i, need, robots in self._needs:
+            if value & need.mask != need.value & self._field:
+                continue
+            if not robots:
+                fits = True
+            elif robots & robot:
+                field = self._places.field[robot]
+                fits = place & need.mask == need.value & field
+            else:
+                fits = not robot and not robots & team
+            if fits:
+                self._accepted.setdefault(i, []).append(spot)
+                self.cost.setdefault(i, cost)
+
+    def _robots_of(self, need: Need) -> int:
+        """Robots whose place a need asks for."""
+        return sum(robot for robot, field in self._places.field.items() if need.mask & field)
+
+    def distances(self, need: int) -> "Distances":
+        """Backward from a need, over what :meth:`explore` has seen."""
+        queue = [(0, spot) for spot in self._accepted.get(need, ())]
+        found: dict[Spot, int] = {}
+        while queue:
+            cost, spot = heappop(queue)
+            if spot in found:
+                continue
+            found[spot] = cost
+            for weight, before in self._entries.get(spot, ()):
+                if before not in found:
+                    heappush(queue, (cost + weight, before))
+        return Distances(self._field, self._places.field, found, self._stopped)
+
+
+class Distances:
+    """Least robots' weight from a packed state to provide one need; 0 where it is not known.
+
+    What :meth:`Provision.explore` has not reached is too dear for a state in which robots
+    have paid for getting there.  Where it stopped walking, since all that can happen to the
+    field is within reach, the least of what it knows stands for the rest.
+    """
+
+    def __init__(
+        self,
+        field: int,
+        places: dict[int, int],
+        found: dict[Spot, int],
+        stopped: set[tuple[int, int, int]],
+    ) -> None:
+        self._field = field
+        self._tables = [(field | place, dict[int, int]()) for place in places.values()]
+        self._fallback: dict[tuple[int, int], int] = {}
+        table_of = dict(zip(places, self._tables, strict=True))
+        open_ended: set[tuple[int, int]] = set()
+        for (value, team, robot, place), weight in found.items():
+            if not robot:
+                continue
+            mask, table = table_of[robot]
+            spot = value | place
+            table[spot] = min(weight, table.get(spot, weight))
+            if (value, team, robot) in stopped:
+                known = self._fallback.get((mask, value), weight)
+                self._fallback[mask, value] = min(weight, known)
+            else:
+                open_ended.add((mask, value))
+        for label in open_ended:
+            self._fallback.pop(label, None)
+
+    def __call__(self, state: int) -> int:
+        """The bound from a packed state."""
+        best = INFINITE_KEY
+        for mask, table in self._tables:
+            weight = table.get(state & mask)
+            if weight is None:
+                weight = self._fallback.get((mask, state & self._field), 0)
+            if weight < best:
+                best = weight
+        return best
+
+
+def _mentions(op: Op, field: int) -> bool:
+    if (op.need_mask | ~op.keep) & field:
+        return True
+    return bool(op.forbidden) and any(f & field for f, _ in op.forbidden)
+
+
+def _by_value(field: int, ops: Iterable[Op], values: Sequence[int]) -> dict[int, list[Op]]:
+    """Ops by the values of a field under which they are possible."""
+    found: dict[int, list[Op]] = {value: [] for value in values}
+    for op in ops:
+        if op.need < 0:
+            continue
+        if op.need_mask & field:
+            found[op.need & field].append(op)
+        else:
+            for value in values:
+                found[value].append(op)
+    return found

@@ -1,0 +1,92 @@
+"""How the human depends on others: his touches, and what each of them needs.
+
+Fields fall apart into the human's *private* ones (no op changes them without
+him), and *outside* ones, which robots change.  A *touch* is an op of his that
+mentions an outside field, or a joint one.  Between touches he is by himself in
+his private fields, and nothing outside changes but by robots.  A *need* is the
+outside part of the condition of a touch.
+"""
+
+from typing import NamedTuple
+
+from search.encoding import Encoding, Op, OpIndex
+from search.projection import human_graph
+
+
+class Need(NamedTuple):
+    """Outside fields that a touch asks for, and their values."""
+
+    mask: int
+    value: int
+
+
+class Seen(NamedTuple):
+    """An op of his in the projection onto his private fields."""
+
+    need_mask: int
+    need: int
+    keep: int
+    put: int
+    cost: int
+    """Index of its cost."""
+    touch: int
+    """Id of its need; -1 if it is no touch."""
+
+
+class Touches:
+    """The human's ops, split at what they mention; kept with the packed task.
+
+    Attributes:
+        mask: the private fields that the projection keeps.
+        outside: the fields that some op without him changes.
+        needs: the needs met so far; a need's id is its index.
+    """
+
+    def __init__(self, encoding: Encoding) -> None:
+        self.mask = encoding.derived(human_graph).mask
+        self.needs: list[Need] = []
+        self._ids: dict[Need, int] = {}
+        self._encoding = encoding
+        self.outside = encoding.outside
+        self._indices = [encoding.own_index, encoding.joint_index]
+        self._seen: list[dict[int, list[Seen]]] = [{}, {}]
+
+    def seen(self, state: int) -> list[Seen]:
+        """Moves and touches that are possible in a projected state."""
+        found = []
+        for index, known in zip(self._indices, self._seen, strict=True):
+            value = state & index.field
+            ops = known.get(value)
+            if ops is None:
+                ops = known[value] = self._look(index, value)
+            found += [op for op in ops if state & op.need_mask == op.need]
+        return found
+
+    def is_touch(self, action: int) -> bool:
+        """Whether an action of the human's is a touch."""
+        op = self._encoding.op(action)
+        return op.agents != self._encoding.human_bit or bool(self._mentioned(op) & self.outside)
+
+    def _look(self, index: OpIndex, value: int) -> list[Seen]:
+        """The ops under a value of an index; under every value, if the field is not his own."""
+        hidden = index.field & ~self.mask
+        ops = (
+            (op for ops in index.by_value.values() for op in ops) if hidden else index.by_value.get(value, ())
+        )
+        return [self._project(op) for op in (*ops, *index.always) if op.need >= 0]
+
+    def _project(self, op: Op) -> Seen:
+        mask = self.mask
+        touch = -1
+        if op.agents != self._encoding.human_bit or self._mentioned(op) & self.outside:
+            need = Need(op.need_mask & self.outside, op.need & self.outside)
+            touch = self._ids.setdefault(need, len(self.needs))
+            if touch == len(self.needs):
+                self.needs.append(need)
+        return Seen(op.need_mask & mask, op.need & mask, op.keep, op.put & mask, op.cost, touch)
+
+    def _mentioned(self, op: Op) -> int:
+        mentioned = op.need_mask | self._encoding.all_ones & ~op.keep
+        for field, _ in op.forbidden:
+            mentioned |= field
+        return mentioned
