@@ -4,7 +4,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test check bench fuzz requirements clean
+.PHONY: help .venv demo test test-browser check bench fuzz requirements clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z.]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -33,6 +33,19 @@ demo: $(READY)  ## the paper's example III-C: the robot helps a person who did n
 test: $(READY)  ## run the tests
 	@$(BIN)/python -m pytest
 
+test-browser: $(READY)  ## play the page of `show` in a headless Chromium, which it installs where it may
+	@command -v chromium >/dev/null 2>&1 \
+	  || { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1 && DEBIAN_FRONTEND=noninteractive \
+	       apt-get install -y --no-install-recommends chromium >/dev/null 2>&1; } \
+	  || echo "No chromium, and it can't be installed here: its tests are skipped."
+	@$(BIN)/python -c 'import playwright' 2>/dev/null \
+	  || { if command -v uv >/dev/null 2>&1; then \
+	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-browser.txt; \
+	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+	         -r requirements-browser.txt; fi; } \
+	  || echo "No playwright, and it can't be installed here: its tests are skipped."
+	@$(BIN)/python -m pytest -m browser -rs tests/show
+
 check: $(READY)  ## what has to hold before a commit: tests, ruff, mypy, import contracts
 	@.ci/run
 
@@ -47,6 +60,8 @@ requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	  --no-emit-index-url --upgrade pyproject.toml -o requirements.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	  --no-emit-index-url --extra dev -c requirements.txt pyproject.toml -o requirements-dev.txt
+	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
+	  --no-emit-index-url --extra browser -c requirements-dev.txt pyproject.toml -o requirements-browser.txt
 
 clean:  ## remove the environment and all caches
 	@rm -rf .venv .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache build dist *.egg-info

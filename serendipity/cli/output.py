@@ -55,17 +55,17 @@ def as_json(value: dict[str, Any]) -> str:
     return json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def write_answer(text: str, output: Path | None) -> None:
-    """Write an answer to ``output``, or to stdout where that is None.
+def write_answer(answer: str | bytes, output: Path | None) -> None:
+    """Write an answer to ``output``; a text to stdout where that is None.
 
     Raises:
         UsageError: the file can't be written, with the system's reason.
     """
     if output is None:
-        _print(text)
+        _print(answer if isinstance(answer, str) else answer.decode())
         return
     try:
-        _write_whole(output.resolve(), text)
+        _write_whole(output.resolve(), answer.encode() if isinstance(answer, str) else answer)
     except OSError as error:
         raise UsageError(f"-o: {output} can't be written: {error.strerror}") from None
 
@@ -79,14 +79,14 @@ def _print(text: str) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _write_whole(path: Path, text: str) -> None:
+def _write_whole(path: Path, content: bytes) -> None:
     if path.exists() and not stat.S_ISREG(path.stat().st_mode):  # a device or a pipe: nothing to replace
-        path.write_text(text, encoding="utf-8")
+        path.write_bytes(content)
         return
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
         Path(name).chmod(path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask())
         Path(name).replace(path)
     except BaseException:

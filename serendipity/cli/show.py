@@ -1,0 +1,65 @@
+"""``serendipity show``: a result as a page that plays it, or as a still."""
+
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from serendipity.cli import naming, output
+from serendipity.cli.reading import read_json
+from serendipity.model import InputError, Result, UsageError
+
+SUFFIXES: Final = (".html", ".svg", ".png")
+
+
+def show(
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="TASK RESULT.json",
+            help="The task, named as for `plan`; then the result.",
+            show_default=False,
+        ),
+    ],
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    epoch: Annotated[
+        int | None,
+        typer.Option(
+            "--epoch", metavar="N", help="The epoch of a still; by default that of the first hand-over."
+        ),
+    ] = None,
+    output_file: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="A page .html, or a still .svg or .png."),
+    ] = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> None:
+    """Show who is where when, and what changes hands: a page that plays the plan, or a still."""
+    output.start_logging(verbose)
+    if output_file is None or output_file.suffix not in SUFFIXES:
+        got = "none" if output_file is None else str(output_file)
+        raise UsageError(f"-o: expected a file that ends in {', '.join(SUFFIXES)}, got {got}")
+    if epoch is not None and output_file.suffix == ".html":
+        raise UsageError("--epoch: is for stills (.svg, .png) only; a page shows every epoch")
+    output.check_output(output_file)
+    *named, answer = files
+    if answer.suffix == ".pddl" or answer.is_dir():
+        raise UsageError(f"show: expected TASK and then RESULT.json, got {answer} last")
+    result = Result.from_dict(read_json(answer), answer)
+    name = naming.TaskName(
+        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    from serendipity.show import build_scene, draw
+
+    try:
+        scene = build_scene(task, result)
+    except InputError as error:
+        raise InputError(error.message, answer) from None
+    output.write_answer(draw(scene, output_file.suffix, epoch), output_file)

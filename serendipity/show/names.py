@@ -1,0 +1,66 @@
+"""Names as people read them: the parts of facts and actions, with or without blanks.
+
+Ground files write ``at_commx_hall1`` where lifted ones write ``at commx hall1``; pictures
+treat both alike.
+"""
+
+from collections.abc import Sequence
+
+Parts = tuple[str, ...]
+
+
+def parts(name: str) -> Parts:
+    """The words of a fact's or action's name; ``_`` separates them where there is no blank."""
+    return tuple(part for part in (name.split() if " " in name else name.split("_")) if part)
+
+
+def find(needle: Parts, haystack: Parts) -> int:
+    """Where ``needle`` begins in ``haystack``, or -1."""
+    last = len(haystack) - len(needle)
+    return next((i for i in range(last + 1) if haystack[i : i + len(needle)] == needle), -1)
+
+
+def common_start(several: Sequence[Parts]) -> Parts:
+    """The parts that all of several names begin with."""
+    first, last = min(several), max(several)
+    same = next((i for i, (a, b) in enumerate(zip(first, last, strict=False)) if a != b), len(first))
+    return first[:same]
+
+
+def without(needles: Sequence[Parts], haystack: Parts) -> Parts:
+    """``haystack`` without the first occurrence of each of ``needles``."""
+    for needle in needles:
+        at = find(needle, haystack)
+        if at >= 0:
+            haystack = haystack[:at] + haystack[at + len(needle) :]
+    return haystack
+
+
+def spellings(name: str) -> tuple[Parts, ...]:
+    """How a name can occur among parts: whole, or split at ``_`` in a ground file."""
+    whole, split = (name,), tuple(part for part in name.split("_") if part)
+    return (whole,) if split == whole else (whole, split)
+
+
+def verb_and_rest(action: str, agents: Sequence[str]) -> tuple[str, str]:
+    """An action in two short lines, without the agents: ``("hand over", "mk2 hall4")``."""
+    words = parts(action)
+    named = [spelling for agent in agents for spelling in spellings(agent)]
+    first = min((at for at in (find(name, words) for name in named) if at > 0), default=1)
+    return " ".join(words[:first]).replace("_", " "), " ".join(without(named, words[first:]))
+
+
+def shortened(text: str, length: int) -> str:
+    """``text``, or its beginning and an ellipsis, in at most ``length`` characters."""
+    return text if len(text) <= length else text[: max(1, length - 1)] + "…"
+
+
+def natural(text: str) -> tuple[tuple[int, str], ...]:
+    """A key that sorts ``room2`` before ``room10``."""
+    runs: list[str] = []
+    for letter in text:
+        if runs and runs[-1].isdigit() == letter.isdigit():
+            runs[-1] += letter
+        else:
+            runs.append(letter)
+    return tuple((int(run), "") if run.isdecimal() else (-1, run) for run in runs)
