@@ -7,15 +7,19 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from verify.certify import certify
     from verify.rules import Checker, RuleReport, Violation, check
+    from verify.solve import solve
 
-__all__ = ["Checker", "RuleReport", "Violation", "check"]
+__all__ = ["Checker", "RuleReport", "Violation", "certify", "check", "solve"]
 
 _HOMES = {
     "Checker": "verify.rules",
     "RuleReport": "verify.rules",
     "Violation": "verify.rules",
+    "certify": "verify.certify",
     "check": "verify.rules",
+    "solve": "verify.solve",
 }
 
 
