@@ -50,11 +50,23 @@ def _answers(
     chosen = options_from(options)
     clock = Clock(chosen.time_limit)
     given = None if human_plan is None else task.plan_from_names(human_plan)
+    if chosen.mode == "assistance":
+        if given is not None:
+            raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")
+        yield from _assistance(task, chosen, clock)
+        return
     if chosen.ties != "fixed" and given is None and _depends_on_ties(chosen):
         yield partial(_over_ties, task, chosen, clock)
         return
     for outcome in _solver(chosen)(task, chosen, human_plan=given, clock=clock):
         yield partial(to_result, task, chosen, outcome, clock)
+
+
+def _assistance(task: Task, options: Options, clock: Clock) -> Iterator[Callable[[], Result]]:
+    # Loaded only here: the other modes have nothing to do with it.
+    from serendipity.assistance import assistance_answers
+
+    return assistance_answers(task, options, clock)
 
 
 def _solver(options: Options) -> Callable[..., Iterator[Outcome]]:
@@ -72,8 +84,6 @@ def options_from(given: dict[str, Any]) -> Options:
         if name not in known:
             raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
     chosen = Options(**given)
-    if chosen.mode == "assistance":
-        raise UsageError("mode 'assistance' is not available yet")
     if chosen.human_model != "omniscient" and chosen.mode != "serendipity":
         raise UsageError(
             f"human_model: '{chosen.human_model}' is for serendipity mode only, not for {chosen.mode}"

@@ -15,7 +15,7 @@ from search.assistance.evaluate import Option, evaluate
 from search.assistance.game import INFINITE, Game, Move
 from search.assistance.graph import Graph
 from search.assistance.rules import Rule, Value
-from search.assistance.solution import Entry, Solution
+from search.assistance.solution import Costs, Entry, Solution
 
 _CHECK_EVERY = 32
 
@@ -130,7 +130,7 @@ class Branching:
             pending.extend(outcome.after for outcome in option.outcomes if not graph.final(outcome.after))
         return policy
 
-    def solution(self) -> Solution:
+    def solution(self, *, floors: bool = True) -> Solution:
         """The best policy known, and lower bounds on everything looked at."""
         graph, rule, game = self._graph, self._rule, self._game
         policy = {}
@@ -138,10 +138,10 @@ class Branching:
             value = rule.costs(game, self._values[state])
             if value is not None:
                 policy[state] = Entry(value, move.action, move.after)
-        floors = {}
-        for state in graph.choices:
+        proof: dict[int, Costs] = {}
+        for state in graph.choices if floors else ():
             low = rule.costs(game, graph.low[state])
             if low is not None:
-                floors[state] = low
+                proof[state] = low
         lower = graph.choice_value(game.init)
-        return Solution(rule.costs(game, lower), rule.costs(game, self._upper), policy, floors)
+        return Solution(rule.costs(game, lower), rule.costs(game, self._upper), policy, proof)

@@ -56,9 +56,7 @@ class Closure:
         clock: asked for time.
     """
 
-    def __init__(
-        self, arcs: list[Arc], goal: Goal, fields: Sequence[int], limit: int, clock: Clock
-    ) -> None:
+    def __init__(self, arcs: list[Arc], goal: Goal, fields: Sequence[int], limit: int, clock: Clock) -> None:
         self._arcs = [arc for arc in arcs if arc.condition.need >= 0]
         self._goal = goal
         self._fields = fields
@@ -66,7 +64,7 @@ class Closure:
         self._clock = clock
         self._known: dict[int, int] = {}
         self._by_field = _by_field(self._arcs, fields)
-        self._layers: "list[Layers]" = []
+        self._layers: list[Layers] = []
 
     def key(self, state: int) -> int:
         """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
@@ -125,9 +123,7 @@ class Closure:
                         found.append((after, weight))
         return found
 
-    def _spread(
-        self, seeds: list[tuple[int, int]], predecessors: dict[int, list[tuple[int, int]]]
-    ) -> None:
+    def _spread(self, seeds: list[tuple[int, int]], predecessors: dict[int, list[tuple[int, int]]]) -> None:
         distances: dict[int, int] = {}
         queue = [seed for seed in seeds if seed[0] < INFINITE_KEY]
         heapify(queue)

@@ -16,6 +16,8 @@ from search.clock import Clock
 
 Model = dict[int, list[Option]]
 
+_CHECK_EVERY = 256
+
 
 def solve_all(graph: Graph, clock: Clock) -> None:
     """Raise all bounds to the values of what has been looked at, and set ``graph.pick``."""
@@ -36,48 +38,63 @@ Solved = tuple[dict[int, Value], dict[int, Option]]
 
 
 def _worst(graph: Graph, model: Model, clock: Clock) -> Solved:
-    rule = graph.rule
-    waiting: dict[int, list[tuple[int, Option]]] = {}
-    missing: dict[tuple[int, Option], int] = {}
-    candidates: dict[int, tuple[Value, Option]] = {}
-    queue: list[tuple[Value, int]] = []
-    values: dict[int, Value] = {}
+    return _Settling(graph, model).run(clock)
 
-    def value_of(state: int) -> Value:
-        return values[state] if state in model else graph.choice_value(state)
 
-    def offer(state: int, option: Option) -> None:
-        value = option_value(option, rule, value_of)
-        if value < rule.infinite and (state not in candidates or value < candidates[state][0]):
-            candidates[state] = (value, option)
-            heappush(queue, (value, state))
+class _Settling:
+    """AND-OR Dijkstra: an option counts when all its outcomes are settled."""
 
-    for state, options in model.items():
-        for option in options:
-            inside = {move.after for move in option.outcomes if move.after in model}
-            if not inside:
-                offer(state, option)
-            for after in inside:
-                waiting.setdefault(after, []).append((state, option))
-            missing[state, option] = len(inside)
-    while queue:
-        value, state = heappop(queue)
-        if state in values:
-            continue
-        if not len(values) % 256:
-            clock.check()
-        values[state] = value
-        for parent in waiting.get(state, ()):
-            missing[parent] -= 1
-            if not missing[parent] and parent[0] not in values:
-                offer(*parent)
-    return values, {state: candidates[state][1] for state in values}
+    def __init__(self, graph: Graph, model: Model) -> None:
+        self._graph = graph
+        self._model = model
+        self._values: dict[int, Value] = {}
+        self._chosen: dict[int, Option] = {}
+        self._candidates: dict[int, Value] = {}
+        self._queue: list[tuple[Value, int]] = []
+        self._waiting: dict[int, list[tuple[int, int]]] = {}
+        self._missing: dict[tuple[int, int], int] = {}
+
+    def run(self, clock: Clock) -> Solved:
+        """Values and options of all states from which the end can be forced."""
+        for state, options in self._model.items():
+            for i, option in enumerate(options):
+                self._enter(state, i, {move.after for move in option.outcomes if move.after in self._model})
+        while self._queue:
+            value, state = heappop(self._queue)
+            if state in self._values:
+                continue
+            if not len(self._values) % _CHECK_EVERY:
+                clock.check()
+            self._values[state] = value
+            for before, i in self._waiting.get(state, ()):
+                self._missing[before, i] -= 1
+                if not self._missing[before, i] and before not in self._values:
+                    self._offer(before, self._model[before][i])
+        return self._values, {state: self._chosen[state] for state in self._values}
+
+    def _enter(self, state: int, i: int, inside: set[int]) -> None:
+        self._missing[state, i] = len(inside)
+        for after in inside:
+            self._waiting.setdefault(after, []).append((state, i))
+        if not inside:
+            self._offer(state, self._model[state][i])
+
+    def _offer(self, state: int, option: Option) -> None:
+        infinite = self._graph.rule.infinite
+        value = option_value(option, self._graph.rule, self._value_of)
+        if value < self._candidates.get(state, infinite):
+            self._candidates[state] = value
+            self._chosen[state] = option
+            heappush(self._queue, (value, state))
+
+    def _value_of(self, state: int) -> Value:
+        return self._values[state] if state in self._model else self._graph.choice_value(state)
 
 
 def _mean(graph: Graph, model: Model, clock: Clock) -> Solved:
     rule = graph.rule
     model = _certain(graph, model, clock)
-    policy = _attracted(graph, model)
+    policy = _attracted(model)
     while True:
         clock.check()
         values = evaluate(policy, rule, graph.choice_value, clock)
@@ -103,7 +120,7 @@ def _certain(graph: Graph, model: Model, clock: Clock) -> Model:
             state: [option for option in options if _stays(graph, model, option)]
             for state, options in model.items()
         }
-        reached = _attracted(graph, kept)
+        reached = _attracted(kept)
         if len(reached) == len(model):
             return kept
         model = {state: kept[state] for state in reached}
@@ -123,7 +140,7 @@ def _finite(graph: Graph, state: int) -> bool:
     return bool(graph.choice_value(state) < graph.rule.infinite)
 
 
-def _attracted(graph: Graph, model: Model) -> dict[int, Option]:
+def _attracted(model: Model) -> dict[int, Option]:
     """States that may end under some policy, each with an option that brings the end nearer."""
     waiting: dict[int, list[tuple[int, Option]]] = {}
     policy: dict[int, Option] = {}

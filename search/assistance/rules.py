@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any, Final, Protocol
+from typing import Any, Protocol
 
 from search.assistance.game import INFINITE, UNIT_BITS, Game
 from search.assistance.solution import Costs
@@ -33,7 +33,7 @@ class Rule(Protocol):
 class Worst:
     """Robust: the lexicographically greatest."""
 
-    infinite: Final = INFINITE
+    infinite: Value = INFINITE
 
     def lift(self, value: int) -> Value:
         """See :class:`Rule`."""
@@ -55,7 +55,7 @@ class Worst:
 class Mean:
     """Expected: the mean of each cost, all actions alike likely."""
 
-    infinite: Final = (math.inf, math.inf)
+    infinite: Value = (math.inf, math.inf)
 
     def lift(self, value: int) -> Value:
         """See :class:`Rule`."""

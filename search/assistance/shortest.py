@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from search.assistance.bound import Bound
 from search.assistance.game import INFINITE, NOOP, Game, Move
-from search.assistance.solution import Entry, Solution
+from search.assistance.solution import Costs, Entry, Solution
 
 _CHECK_EVERY = 16
 
@@ -147,7 +147,7 @@ class Shortest:
         self._count -= 1
         heappush(self._queue, (f, self._count, ready, node))
 
-    def solution(self) -> Solution:
+    def solution(self, *, floors: bool = True) -> Solution:
         """The best run as a policy, and lower bounds on what was expanded."""
         game, best = self._game, self._best
         policy: dict[int, Entry] = {}
@@ -157,10 +157,12 @@ class Shortest:
                 value = game.pair(best.value - node.parent.cost)
                 policy[node.parent.state] = Entry(value, node.action, node.state)
             node = node.parent
-        floors = {s: game.pair(max(0, self.lower - cost)) for s, cost in self._closed.items()}
+        proof: dict[int, Costs] = {}
+        if floors and self.lower < INFINITE:
+            proof = {s: game.pair(max(0, self.lower - cost)) for s, cost in self._closed.items()}
         return Solution(
             lower=None if self.lower >= INFINITE else game.pair(self.lower),
             upper=None if best.value >= INFINITE else game.pair(best.value),
             policy=dict(reversed(policy.items())),
-            floors=floors if self.lower < INFINITE else {},
+            floors=proof,
         )

@@ -3,10 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 Costs = tuple[Fraction, Fraction]
 """The prime's and the supporter's, compared in this order."""
+
+ZERO: Final[Costs] = (Fraction(0), Fraction(0))
 
 
 class Entry(NamedTuple):

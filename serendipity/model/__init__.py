@@ -12,6 +12,7 @@ from serendipity.model.errors import InputError, PlanError, SerendipityError, Us
 from serendipity.model.numbers import exact
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.plans import Step, Window
+from serendipity.model.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
 from serendipity.model.trace import Trace, TraceEpoch, TraceSkip
@@ -22,14 +23,18 @@ __all__ = [
     "Certificate",
     "Claim",
     "Condition",
+    "Decision",
+    "Floor",
     "GroundAction",
     "HumanPlan",
     "InputError",
     "Options",
     "PlanError",
     "PlanStep",
+    "Policy",
     "Result",
     "SerendipityError",
+    "StateDelta",
     "Step",
     "Surroundings",
     "Task",

@@ -7,6 +7,7 @@ from typing import Any, Final
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.options import Options
 from serendipity.model.plans import Window
+from serendipity.model.policy import Policy
 
 SCHEMA: Final = "serendipity.result/1"
 STATUSES: Final = ("optimal", "feasible", "infeasible", "unknown")
@@ -67,6 +68,7 @@ class Result:
     agent_costs: dict[str, float] = field(default_factory=dict)
     realised: dict[str, bool] = field(default_factory=dict)
     statistics: dict[str, Any] = field(default_factory=dict)
+    policy: Policy | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
@@ -93,6 +95,7 @@ class Result:
             "realised": dict(self.realised),
             "options": self.options.to_dict(),
             "statistics": dict(self.statistics),
+            "policy": None if self.policy is None else self.policy.to_dict(),
         }
 
     @classmethod
@@ -146,6 +149,7 @@ class _Reader:
             agent_costs=self._costs("agent_costs"),
             realised=self._mapping("realised"),
             statistics=self._mapping("statistics"),
+            policy=self._policy(),
         )
 
     def _error(self, message: str) -> InputError:
@@ -227,6 +231,10 @@ class _Reader:
         if start >= end:
             raise self._error(f"window: expected start < end, got [{start}, {end})")
         return Window(start, end)
+
+    def _policy(self) -> Policy | None:
+        value = self.data.get("policy")  # only answers of mode assistance need to have one
+        return None if value is None else Policy.from_dict(value, self.file)
 
     def _plan(self) -> tuple[PlanStep, ...] | None:
         value = self._field("plan")
