@@ -121,6 +121,7 @@ def _minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimu
     encoding = ENCODINGS[effort.encoding](question)
     best: Found | None = None
     bound: int | None = None
+    cut: set[tuple[int, State]] = set()
     while encoding.model is not None:
         effort.note(encoding.model.size)
         outcome = optimise(encoding.model, solver=effort.solver, seconds=effort.seconds_left)
@@ -143,6 +144,9 @@ def _minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimu
             return Minimum("found", best, best.objective)
         assert window is not None, "only suffixes are mended"
         state = states[window.end - 1]
+        if (window.end, state) in cut:
+            return Minimum("undecided", best, bound, "the solver ignores a row")
+        cut.add((window.end, state))
         encoding.bound_suffix(window.end, state, _suffix_least(question, state, window.end, plans))
     return Minimum("none") if best is None else Minimum("found", best, best.objective)
 

@@ -388,7 +388,7 @@ class Program:
             self.model.add("(8)", literals, "<=", -1 - constant)
         else:
             scaled = {x: -least * c for x, c in literals.items()}
-            self.model.add("(8)", _plus(scaled, self._suffix_weights()), ">=", least * constant)
+            self.model.add("(8)", _plus(scaled, self._suffix_weights()), ">=", least * (constant + 1))
 
     def _suffix_starts(self, xi2: int, state: frozenset[int]) -> tuple[_Sum, int]:
         """Minus 1 unless the suffix starts at ``xi2`` with his private facts as in ``state``."""
