@@ -142,10 +142,12 @@ def test_a_suffix_that_saves_talk_is_no_optimal_plan(encoding: str, weight: str)
         "one h": "z -> m @ 2",
         "two h": "m -> p @ 1.5",
         "short h": "z k -> p @ 3",
-        "help r": "-> z k @ 0.5",
+        "help h r": "-> z k @ 0.5",
     }
     task = build(goal="p", actions=actions)
-    options = Options(mode="communication", keep_prefix=True, communication_weight=Fraction(weight))
+    options = Options(
+        mode="communication", keep_prefix=True, communication_weight=Fraction(weight), max_window=1
+    )
     answer, expected = solve(task, options, encoding=encoding), best(task, options)
     assert (answer.cost, answer.opportunity) == (float(expected.cost or 0), expected.opportunity)
     assert answer.objective == float(expected.objective or 0)
