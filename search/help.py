@@ -11,6 +11,7 @@ distances: a first pass leaves few of them.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
 
 from search.encoding import Encoding, Op
 from search.keys import INFINITE_KEY
@@ -73,6 +74,12 @@ class Providers:
         """The id that a need goes by after ``epoch`` epochs of ``pi_H``."""
         changed = self._changes.get(self._judged_by(need))
         return need if changed is None or epoch < changed else self._late(need)
+
+    def phases(self, epochs: int) -> list[tuple[int, int]]:
+        """Stretches of ``0 .. epochs - 1`` between which ``pi_H`` changes something outside."""
+        shared = (change for field, change in self._changes.items() if field in self._shared)
+        cuts = sorted({0, epochs, *(change for change in shared if change < epochs)})
+        return list(pairwise(cuts))
 
     @staticmethod
     def touched(need: int) -> int:
@@ -157,26 +164,15 @@ def _shared_fields(encoding: Encoding, touches: Touches) -> list[int]:
     return sorted(outside, key=lambda f: (-len(encoding.values(f)), f))
 
 
-def survivors(
-    providers: Providers,
-    least: dict[int, int],
-    limit: int,
-    horizon: int,
-    total: Callable[[int, int, int], int],
-) -> list[int] | None:
+def survivors(costs: dict[int, int], limit: int, total: Callable[[int, int], int]) -> list[int] | None:
     """Needs whose touch may still pay; None if they are too many to look at one by one.
 
     Args:
-        providers: the robots' side.
-        least: the human's least total by need.
+        costs: what it costs robots, at least, to provide each.
         limit: what has to be beaten.
-        horizon: number of epochs.
-        total: least total by need, robots' cost and robots' epochs.
+        total: least total by need and robots' cost.
     """
-    if not least:
-        return []
-    costs = providers.costs(sorted(least), limit - min(least.values()), horizon)
-    paying = [n for n, cost in costs.items() if total(n, cost, providers.epochs(cost)) < limit]
+    paying = [need for need, cost in costs.items() if total(need, cost) < limit]
     return paying if len(paying) <= _MOST_TOUCHES else None
 
 
@@ -254,30 +250,37 @@ class Bounds:
 
 
 class Openings:
-    """The human's totals while he follows ``pi_H``: by epoch and by need.
+    """The human's totals while he follows ``pi_H``, by need and by the epoch before the window.
 
     Args:
-        totals: per epoch the least total without a touch and per need, if a window opens next.
-        latest: last epoch in which robots can provide a need.
+        epochs: length of ``pi_H``.
         reach: epochs that a window that still pays can have.
+
+    Attributes:
+        without: least total without a touch, if the window opens after an epoch or later.
+        now: least total by need, if it opens right after an epoch.
+        later: the same, if it opens then or later.
+        latest: last epoch in which robots can provide a need.
     """
 
-    def __init__(
-        self, totals: Sequence[tuple[int, dict[int, int]]], latest: Callable[[int], int], reach: int
-    ) -> None:
-        self.now = totals
+    def __init__(self, epochs: int, reach: int) -> None:
         self.reach = reach
-        self.without = [INFINITE_KEY] * len(totals)
+        self.without = [INFINITE_KEY] * epochs
+        self.now: dict[int, list[int]] = {}
         self.later: dict[int, list[int]] = {}
-        without = INFINITE_KEY
-        for epoch in range(len(totals) - 1, -1, -1):
-            without = self.without[epoch] = min(without, totals[epoch][0])
-        for need in {need for _, by_need in totals for need in by_need}:
-            row = self.later[need] = [INFINITE_KEY] * len(totals)
-            best = INFINITE_KEY
-            for epoch in range(len(totals) - 1, -1, -1):
-                best = row[epoch] = min(best, totals[epoch][1].get(need, INFINITE_KEY))
-        self.latest = {need: latest(need) for need in self.later}
+        self.latest: dict[int, int] = {}
+
+    def add(self, first: int, end: int, without: int, totals: dict[int, int]) -> None:
+        """Totals that hold wherever the window opens after epochs ``first .. end - 1``."""
+        self.without[:end] = [min(known, without) for known in self.without[:end]]
+        for need, total in totals.items():
+            self.refine(need, first, [total] * (end - first))
+
+    def refine(self, need: int, first: int, totals: Sequence[int]) -> None:
+        """Totals of a need from the epoch ``first`` on, one by one."""
+        now = self.now.setdefault(need, [INFINITE_KEY] * len(self.without))
+        now[first : first + len(totals)] = totals
+        self.later[need] = list(accumulate(reversed(now), min))[::-1]
 
     def total(self, need: int, cost: int, steps: int, epoch: int = 0) -> int:
         """Least total if robots need a cost and some epochs from ``epoch`` on to provide."""
@@ -305,9 +308,9 @@ class HelpedOnTheWay:
     def opening(self, epoch: int, state: int) -> int:
         """Least key increment if the window opens right after ``epoch``."""
         openings = self._openings
-        least, by_need = openings.now[epoch]
+        least = openings.without[epoch]
         for need, provided, _ in self._needs:
-            total = by_need.get(need, INFINITE_KEY)
+            total = openings.now[need][epoch]
             if total >= least:
                 continue
             if provided is not None:

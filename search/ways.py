@@ -1,6 +1,6 @@
 """The human's side of help: his way to each touch, and on to the goal, in his private fields."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from heapq import heapify, heappop, heappush
 
 from search.keys import INFINITE_KEY
@@ -9,6 +9,35 @@ from search.touches import Touches
 
 NEVER = 1 << 40
 """An epoch after every horizon."""
+
+
+class Corridor:
+    """What the human can do from some states before a first touch, within a limit.
+
+    Attributes:
+        without: least total to the goal without a touch.
+        totals: least total by the need of the first touch.
+    """
+
+    def __init__(self) -> None:
+        self.without = INFINITE_KEY
+        self.totals: dict[int, int] = {}
+        self._before: dict[int, list[tuple[int, int]]] = {}
+        self._entries: dict[int, list[tuple[int, int]]] = {}
+
+    def move(self, at: int, weight: int, after: int) -> None:
+        """Record a move."""
+        self._before.setdefault(after, []).append((weight, at))
+
+    def touch(self, at: int, spent: int, need: int, rest: int) -> None:
+        """Record a touch and what it costs to the goal, it included."""
+        self._entries.setdefault(need, []).append((rest, at))
+        if spent + rest < self.totals.get(need, INFINITE_KEY):
+            self.totals[need] = spent + rest
+
+    def through(self, need: int) -> dict[int, int]:
+        """Least key to the goal with a first touch of a need, by projected state."""
+        return backward(self._entries.get(need, ()), self._before)
 
 
 class Ways:
@@ -22,7 +51,7 @@ class Ways:
 
     Attributes:
         steps_after: least number of actions to the goal after a touch, by its need, over
-            the touches that :meth:`totals` has met.
+            the touches that :meth:`explore` has met.
     """
 
     def __init__(
@@ -36,20 +65,18 @@ class Ways:
         self._entries: dict[int, list[tuple[int, int]]] = {}
         self.steps_after: dict[int, int] = {}
 
-    def totals(self, state: int, base: int, limit: int) -> tuple[int, dict[int, int]]:
-        """From a packed state: least total without a touch, and by the first touch's need.
+    def explore(self, sources: Sequence[tuple[int, int]], limit: int) -> Corridor:
+        """From some states at once, in order of what has been spent.
 
         Args:
-            state: where he starts.
-            base: what has been spent.
-            limit: totals at or above it are left out.
+            sources: what has been spent, and where he is then (a packed state).
+            limit: what costs as much or more is left out.
         """
-        start = state & self._touches.mask
+        found = Corridor()
         bound, weights = self._bound.distances, self._weights
-        queue = [(base, start)]
+        queue = [(spent, state & self._touches.mask) for spent, state in sources]
+        heapify(queue)
         seen: set[int] = set()
-        without = INFINITE_KEY
-        totals: dict[int, int] = {}
         while queue:
             spent, at = heappop(queue)
             if at in seen:
@@ -59,31 +86,33 @@ class Ways:
             if spent + rest >= limit:
                 continue
             if rest == 0:
-                without = min(without, spent)
+                found.without = min(found.without, spent)
             for op in self._touches.seen(at):
                 after = at & op.keep | op.put
+                weight = weights[op.cost]
                 if op.touch < 0:
+                    found.move(at, weight, after)
                     if after not in seen:
-                        heappush(queue, (spent + weights[op.cost], after))
+                        heappush(queue, (spent + weight, after))
                     continue
-                total = spent + weights[op.cost] + bound.get(after, INFINITE_KEY)
-                if total < limit:
+                rest = weight + bound.get(after, INFINITE_KEY)
+                if spent + rest < limit:
+                    found.touch(at, spent, op.touch, rest)
                     steps = self._steps(after)
                     if steps < self.steps_after.get(op.touch, NEVER):
                         self.steps_after[op.touch] = steps
-                    if total < totals.get(op.touch, limit):
-                        totals[op.touch] = total
-        return without, totals
+        return found
 
     def to_goal(self) -> dict[int, int]:
         """Least key to the goal without a touch, by projected state."""
         self._prepare()
-        return self._backward([(0, at) for at, rest in self._bound.distances.items() if rest == 0])
+        goals = [(0, at) for at, rest in self._bound.distances.items() if rest == 0]
+        return backward(goals, self._before)
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
         self._prepare()
-        return self._backward(list(self._entries.get(need, ())))
+        return backward(self._entries.get(need, ()), self._before)
 
     def _prepare(self) -> None:
         """Moves backward, and where touches of each need are possible, with the key from there."""
@@ -99,15 +128,18 @@ class Ways:
                     entry = (self._weights[op.cost] + rest, at)
                     self._entries.setdefault(op.touch, []).append(entry)
 
-    def _backward(self, queue: list[tuple[int, int]]) -> dict[int, int]:
-        heapify(queue)
-        found: dict[int, int] = {}
-        while queue:
-            cost, at = heappop(queue)
-            if at in found:
-                continue
-            found[at] = cost
-            for weight, earlier in self._before.get(at, ()):
-                if earlier not in found:
-                    heappush(queue, (cost + weight, earlier))
-        return found
+
+def backward(sources: Iterable[tuple[int, int]], before: dict[int, list[tuple[int, int]]]) -> dict[int, int]:
+    """Dijkstra against the direction of moves."""
+    queue = list(sources)
+    heapify(queue)
+    found: dict[int, int] = {}
+    while queue:
+        cost, at = heappop(queue)
+        if at in found:
+            continue
+        found[at] = cost
+        for weight, earlier in before.get(at, ()):
+            if earlier not in found:
+                heappush(queue, (cost + weight, earlier))
+    return found

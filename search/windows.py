@@ -83,23 +83,37 @@ def _along(
     steps = tables.followed(plan)
     providers = tables.providers([op for op, _ in steps])
     state, cost = tables.encoding.init, 0
-    totals, spent = [], []
+    sources, spent = [], []
     for epoch, (op, option) in enumerate(steps):
-        base = cost + keys.of_start(epoch + 1, horizon) + keys.epoch_weight
-        without, by_need = ways.totals(state, base, limit)
-        totals.append((without, {providers.at(need, epoch): total for need, total in by_need.items()}))
+        sources.append((cost + keys.of_start(epoch + 1, horizon) + keys.epoch_weight, state))
         spent.append(cost)
         state = state & op.keep | op.put
         cost += option.weight
+    openings = Openings(len(plan), _reach(tables, horizon, limit))
+    corridors = []
+    for first, end in providers.phases(len(plan)):
+        corridor = ways.explore(sources[first:end], limit)
+        ids = {providers.at(need, first): need for need in corridor.totals}
+        openings.add(first, end, corridor.without, {i: corridor.totals[need] for i, need in ids.items()})
+        corridors.append((first, end, corridor, ids))
+    openings.latest = {i: horizon - 1 - ways.steps_after[providers.touched(i)] for i in openings.later}
+    least = {i: row[0] for i, row in openings.later.items()}
+    if idle or not least:
+        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), no_bound
 
-    def latest(need: int) -> int:
-        return horizon - 1 - ways.steps_after[providers.touched(need)]
+    def total(need: int, cost: int) -> int:
+        return openings.total(need, cost, providers.epochs(cost))
 
-    openings = Openings(totals, latest, _reach(tables, horizon, limit))
-    least = {need: row[0] for need, row in openings.later.items()}
-    paying = None if idle else survivors(providers, least, limit, horizon, openings.total)
+    costs = providers.costs(sorted(least), limit - min(least.values()), horizon)
+    paying = survivors(costs, limit, total)
     if paying is None:
         return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), no_bound
+    for first, end, corridor, ids in corridors:
+        for i in ids.keys() & paying:
+            rest = corridor.through(ids[i])
+            at = [(base, state & tables.touches.mask) for base, state in sources[first:end]]
+            openings.refine(i, first, [base + rest.get(place, INFINITE_KEY) for base, place in at])
+    paying = [i for i in paying if total(i, costs[i]) < limit]
     provided = providers.provided(paying, horizon)
     off_plan = [(providers.touched(need), provided[need]) for need in paying]
     return HelpedOnTheWay(openings, spent, {**provided}), Helped(tables.bound, ways, off_plan, horizon)
@@ -118,16 +132,16 @@ def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) 
     last = NEVER if horizon is None else horizon
     if not idle:
         ways, providers = tables.ways, tables.providers()
-        _, least = ways.totals(tables.encoding.init, 0, limit)
+        least = ways.explore([(0, tables.encoding.init)], limit).totals
 
-        def total(need: int, cost: int, steps: int) -> int:
-            in_time = steps < last - ways.steps_after[need]
+        def total(need: int, cost: int) -> int:
+            in_time = providers.epochs(cost) < last - ways.steps_after[need]
             return least[need] + cost if in_time else INFINITE_KEY
 
-        paying = survivors(providers, least, limit, last, total)
+        room = limit - min(least.values(), default=limit)
+        paying = survivors(providers.costs(sorted(least), room, last), limit, total)
         if paying is not None:
-            provided = providers.provided(paying, last)
-            untouched = Helped(tables.bound, ways, list(provided.items()), last)
+            untouched = Helped(tables.bound, ways, list(providers.provided(paying, last).items()), last)
     return Bounds(tables.bound, tables.steps, untouched, tables.touches)
 
 
