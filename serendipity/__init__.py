@@ -16,6 +16,7 @@ from serendipity._siblings import require_siblings
 
 if TYPE_CHECKING:
     from serendipity.certify import check, verify
+    from serendipity.explanation import Explanation, explain
     from serendipity.interruptibility import interruptions
     from serendipity.model import (
         Certificate,
@@ -40,6 +41,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Certificate",
+    "Explanation",
     "InputError",
     "Options",
     "PlanError",
@@ -53,6 +55,7 @@ __all__ = [
     "__version__",
     "check",
     "example",
+    "explain",
     "generate_usar",
     "interruptions",
     "load",
@@ -78,6 +81,8 @@ _HOMES: Final = {
     "verify": "serendipity.certify",
     "reproduce": "serendipity.reproduction",
     "interruptions": "serendipity.interruptibility",
+    "explain": "serendipity.explanation",
+    "Explanation": "serendipity.explanation",
 }
 """Where the public functions live; the public classes live in ``serendipity.model``."""
 
@@ -85,6 +90,7 @@ _NEED_SIBLINGS: Final = (
     "serendipity.planning",
     "serendipity.certify",
     "serendipity.interruptibility",
+    "serendipity.explanation",
     "serendipity.reproduction",
     "serendipity.simulation",
 )

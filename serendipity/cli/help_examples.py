@@ -14,6 +14,8 @@ EXAMPLES: Final = (
     "serendipity plan building --discount 0.9",
     "serendipity generate usar --preset figure2 --seed 7 --layout pair -o figure2",
     "serendipity plan figure2/domain.pddl figure2/problem.pddl --human commx --robot robot",
+    "serendipity explain --example room2 --discount 0.6",
+    "serendipity explain --example room7 help.json",
     "serendipity interruptions --example room2 --discount 0.6 --heat-map windows.svg",
     "serendipity generate usar --preset room2 -o suite/test1",
     "serendipity reproduce suite --modes serendipity,communication --discounts 0,0.6 --report suite.html",

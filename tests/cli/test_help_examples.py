@@ -18,7 +18,7 @@ def test_examples_of_help_run(run: Callable[[str], Run]) -> None:
 
 
 @pytest.mark.parametrize(
-    "command", ["", "plan", "verify", "examples", "interruptions", "reproduce", "generate usar"]
+    "command", ["", "plan", "verify", "examples", "explain", "interruptions", "reproduce", "generate usar"]
 )
 def test_help_shows_its_examples(command: str, run: Callable[[str], Run]) -> None:
     done = run(f"{command} --help")

@@ -32,9 +32,14 @@ WORST = {"0": ("9.82", 1), "0.1": ("9.8135", 5), "0.3": ("9.8005", 5)} | {
 def published(folder: Path) -> dict[tuple[str, str, Fraction], Fraction]:
     with (folder / "published_1_100.csv").open() as file:
         return {
-            (row["test"], row["mode"], Fraction(row["discount_percent"]) / 100): Fraction(row["cost"])
+            (row["test"], row["mode"], Fraction(row["discount_percent"]) / 100): _rounded(row["cost"])
             for row in csv.DictReader(file)
         }
+
+
+def _rounded(cost: str) -> Fraction:
+    """The authors' solver wrote 13.9999999998 for 14."""
+    return round(Fraction(cost), 6)
 
 
 def test_the_first_ten(usar200: Path, tmp_path: Path) -> None:

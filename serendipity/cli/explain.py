@@ -1,0 +1,106 @@
+"""``serendipity explain``: why this help, or why none."""
+
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+import serendipity
+from serendipity.cli import naming, output, plan_options
+from serendipity.cli.exit_codes import OF_STATUS
+from serendipity.cli.human_plan import read_human_plan
+from serendipity.cli.reading import read_json
+from serendipity.model import InputError, Result, Task
+
+if TYPE_CHECKING:
+    from serendipity.explanation import Explanation
+
+
+def explain(
+    files: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            metavar="TASK [RESULT.json]",
+            help="The task, named as for `plan`; then the result, or options.",
+            show_default=False,
+        ),
+    ] = None,
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    mode: plan_options.Mode = None,
+    discount: plan_options.Discount = None,
+    horizon: plan_options.Horizon = None,
+    human_plan: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
+    ] = None,
+    window_weight: plan_options.WindowWeight = None,
+    max_window: plan_options.MaxWindow = None,
+    suffix: plan_options.Suffix = None,
+    preservation: plan_options.Preservation = None,
+    interference: plan_options.Interference = None,
+    max_cost: plan_options.MaxCost = None,
+    communication_weight: plan_options.CommunicationWeight = None,
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Explain an answer: what changes, why then, from which discount on; or what stands in the way."""
+    output.start_logging(verbose)
+    form = output.choose_format(format, output_file)
+    output.check_output(output_file)
+    named = list(files or ())
+    answer = named.pop() if named and named[-1].suffix == ".json" else None
+    name = naming.TaskName(
+        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    options = plan_options.given(
+        mode=mode,
+        discount=discount,
+        horizon=horizon,
+        window_weight=window_weight,
+        max_window=max_window,
+        suffix=suffix,
+        preservation=preservation,
+        interference=interference,
+        max_cost=max_cost,
+        communication_weight=communication_weight,
+    )
+    if human_plan is not None:
+        options["human_plan"] = read_human_plan(human_plan).checked(task)
+    found = serendipity.explain(task, None if answer is None else _read(task, answer), **options)
+    output.write_answer(_shown(found, form), output_file)
+    return OF_STATUS[found.answer.status]
+
+
+def _read(task: Task, path: Path) -> Result:
+    """A result that the rules do not refute for the task."""
+    result = Result.from_dict(read_json(path), path)
+    try:
+        certificate = serendipity.check(task, result)
+    except InputError as error:
+        raise InputError(error.message, path) from None
+    wrong = certificate.refuted
+    if wrong is not None:
+        raise InputError(f"is no answer to this task: {wrong.claim}: {wrong.reason}", path)
+    return result
+
+
+def _shown(found: "Explanation", form: str) -> str:
+    if form == "json":
+        return output.as_json(found.to_dict())
+    from serendipity.cli.render import Grid, Line, rendered
+
+    parts: list[Any] = []
+    for topic, several in groupby(found.sentences, key=lambda sentence: sentence[0]):
+        parts += [Line()] if parts else []
+        parts += [Line(topic, "bold"), *(Line(f"  {text}") for _, text in several)]
+    grids: list[Line | Grid] = parts
+    return rendered(grids)

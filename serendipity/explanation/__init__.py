@@ -1,0 +1,5 @@
+"""Why this help, why now, why at this price - or why none: each statement backed by a planning call."""
+
+from serendipity.explanation.explain import Explanation, explain
+
+__all__ = ["Explanation", "explain"]

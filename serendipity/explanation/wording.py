@@ -1,0 +1,200 @@
+"""Explanations in words: for each topic some sentences, each of a fact found by planning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from serendipity.explanation.break_even import Threshold
+from serendipity.explanation.misses import RULES, Miss
+from serendipity.explanation.moments import WHY, Moment
+from serendipity.model import Result, Window
+
+if TYPE_CHECKING:
+    from serendipity.explanation.explain import Explanation
+
+Sentence = tuple[str, str]
+"""A topic and a sentence."""
+
+
+def sentences(found: Explanation) -> Iterator[Sentence]:
+    """Topic by topic: the help, its moment, its price, the announcement, what misses."""
+    answer = found.answer
+    if answer.human_plan is None:
+        yield from _without_a_plan(answer)
+        return
+    yield from _help(found) if answer.opportunity else _no_help(found)
+    yield from _alone(answer)
+    for topic, part in (
+        ("moment", _moments(found)),
+        ("discount", _discount(found)),
+        ("announcement", _announcement(found)),
+        ("miss", _misses(found)),
+    ):
+        for text in part:
+            yield topic, text
+
+
+def _without_a_plan(answer: Result) -> Iterator[Sentence]:
+    yield "help", f"{answer.human} can't reach his goal alone, so there is no plan of his to make cheaper."
+    if answer.cost is not None:
+        yield "help", f"Together they can: for {number(answer.cost)}."
+
+
+def _help(found: Explanation) -> Iterator[Sentence]:
+    answer, gone, parts = found.answer, found.removal, found.parts
+    assert gone is not None
+    assert parts is not None
+    if gone.removed:
+        yield (
+            "help",
+            f"Of the plan of {answer.human}, {_steps(gone.first, gone.last)} disappear: "
+            f"{_listed(gone.removed)}.",
+        )
+    if gone.replacement:
+        yield "help", f"Instead: {_listed(gone.replacement)}."
+    elif gone.removed:
+        yield "help", "Nothing has to take their place."
+    theirs = [step for step in answer.plan or () if answer.human not in step.agents]
+    if theirs:
+        done = _listed(tuple(f"{step.action} (epoch {step.epoch})" for step in theirs))
+        yield "help", f"Robots do: {done}."
+    yield (
+        "help",
+        f"{answer.human} pays {number(parts.human)} instead of {number(answer.human_cost or 0)}; "
+        f"the robots' work costs {number(parts.discounted(answer.options))}; "
+        f"together {number(answer.cost or 0)}, "
+        f"{number(answer.saving or 0)} less.",
+    )
+
+
+def _no_help(found: Explanation) -> Iterator[Sentence]:
+    answer = found.answer
+    yield (
+        "help",
+        f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "
+        f"{number(answer.human_cost or 0)} that {answer.human} pays alone.",
+    )
+
+
+def _alone(answer: Result) -> Iterator[Sentence]:
+    if answer.saving_alone:
+        yield "help", f"{answer.human} could save {number(answer.saving_alone)} without any robot."
+
+
+def _moments(found: Explanation) -> Iterator[str]:
+    for _, group in groupby(found.moments, key=lambda moment: (moment.why, moment.cost, moment.saving)):
+        several = list(group)
+        first, last = several[0], several[-1]
+        starts = f"epoch {first.start}" if len(several) == 1 else f"epochs {first.start} to {last.start}"
+        yield f"Starting in {starts}: {_why(found, last)}."
+
+
+def _why(found: Explanation, moment: Moment) -> str:
+    words = WHY[moment.why]
+    saved = number(moment.saving or 0)
+    if moment.why == "saves-less":
+        return f"it {words}: {number(moment.cost or 0)} for the team"
+    if moment.why == "not-in-time":
+        assert moment.instead is not None
+        needed = f"the window would have to be {_window(moment.instead)}"
+        return f"{words}; to save {saved} from epoch {moment.start} on, {needed}"
+    if moment.why == "costs-more":
+        return f"help {words}: {found.answer.human} would save {saved}, the team nothing"
+    return f"it {words}" if moment.why == "as-good" else words
+
+
+def _discount(found: Explanation) -> Iterator[str]:
+    threshold = found.discount
+    if threshold is None:
+        return
+    if threshold.value is None:
+        yield "At no discount does help pay, not even if robots are free."
+    elif threshold.value == 0 and threshold.included:
+        yield "Help pays at every discount, even if robots cost as much as the human."
+    else:
+        where = "from" if threshold.included else "above"
+        yield f"Help pays {where} a discount of {exact(threshold.value)} on ({_confirmed(threshold)})."
+
+
+def _confirmed(threshold: Threshold) -> str:
+    calls = (
+        f"at {number(c.value)} {number(c.cost or 0) if c.opportunity else 'none'}"
+        for c in threshold.confirmed
+    )
+    return "planned: " + ", ".join(calls)
+
+
+def _announcement(found: Explanation) -> Iterator[str]:
+    told, answer = found.announcement, found.answer
+    if told is None or told.cost is None or answer.cost is None:
+        return
+    gain = Fraction(str(answer.cost)) - Fraction(str(told.cost))
+    if gain > 0:
+        yield (
+            f"One sentence in advance would gain {number(gain)}: {number(told.cost)} instead of "
+            f"{number(answer.cost)}."
+        )
+    else:
+        yield f"Telling {answer.human} in advance would gain nothing: also then it is {number(told.cost)}."
+
+
+def _misses(found: Explanation) -> Iterator[str]:
+    for i, miss in enumerate(found.misses):
+        if i == 0:
+            yield from _cheapest_miss(found, miss)
+        yield f"It is found by {RULES[miss.rule]}." if i == 0 else _other_miss(found.misses[0], miss)
+    weight = found.window_weight
+    if weight is not None and weight.value is not None:
+        yield (
+            f"A longer interruption would help at a window weight up to {exact(weight.value)}, "
+            f"against the {number(found.answer.options.window_weight)} in force ({_confirmed(weight)})."
+        )
+    if not found.misses and not found.answer.opportunity and found.discount is not None:
+        yield "No rule stands in the way: within these epochs and at this discount no plan is cheaper."
+
+
+def _cheapest_miss(found: Explanation, miss: Miss) -> Iterator[str]:
+    yield f"The cheapest plan that misses costs {number(miss.cost)}, {number(miss.saving)} less."
+    gone = miss.removal
+    if gone.removed or gone.replacement:
+        instead = _listed(gone.replacement) if gone.replacement else "nothing"
+        removed = _listed(gone.removed) if gone.removed else "nothing"
+        yield f"In it, {found.answer.human} leaves out {removed}; instead he does: {instead}."
+    if miss.window is not None and len(miss.window) > 1:
+        start = miss.window.start
+        yield (
+            f"It breaks the rule of the prefix, or needs {len(miss.window)} epochs of interruption: "
+            f"he would have to leave his plan in epoch {start}, and robots are busy until "
+            f"epoch {miss.window.end - 1} (window {_window(miss.window)})."
+        )
+
+
+def _other_miss(first: Miss, miss: Miss) -> str:
+    same = "The same cost is" if miss.cost == first.cost else f"A cost of {number(miss.cost)} is"
+    return f"{same} found by {RULES[miss.rule]}."
+
+
+def _steps(first: int, last: int) -> str:
+    return f"step {first}" if first == last else f"steps {first} to {last}"
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return "; ".join(names)
+
+
+def _window(window: Window) -> str:
+    return f"[{window.start}, {window.end})"
+
+
+def number(value: Fraction | float) -> str:
+    """A number as people write it."""
+    return f"{float(value):.10g}"
+
+
+def exact(value: Fraction) -> str:
+    """A rational, exact: as a decimal where it has a short one."""
+    shown = number(value)
+    return shown if Fraction(shown) == value else f"{value} (about {float(value):.4g})"

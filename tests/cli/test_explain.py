@@ -1,0 +1,57 @@
+"""``serendipity explain`` on the command line."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run, assert_one_line
+
+Runs = Callable[[str], Run]
+
+
+def test_text_and_json_say_the_same(run: Runs) -> None:
+    shown = run("explain --example room2 --discount 0.6")
+    assert (shown.code, shown.err) == (0, "")
+    data = json.loads(run("explain --example room2 --discount 0.6 --format json").out)
+    assert data["schema"] == "serendipity.explanation/1"
+    lines = [line.strip() for line in shown.out.splitlines() if line.startswith("  ")]
+    assert lines == [sentence["text"] for sentence in data["sentences"]]
+    topics = [line for line in shown.out.splitlines() if line and not line.startswith(" ")]
+    assert topics == list(dict.fromkeys(sentence["topic"] for sentence in data["sentences"]))
+    assert data["break_even_discount"]["exact"] == "1/2"
+    assert (data["human_part"], data["robot_part"], data["cost"]) == (11, 1.6, 12.6)
+
+
+def test_a_result_is_explained(run: Runs) -> None:
+    assert run("plan --example room7 --discount 0.6 -o answer.json").code == 0
+    from_file = run("explain --example room7 answer.json")
+    assert from_file.code == 0
+    assert from_file.out == run("explain --example room7 --discount 0.6").out
+
+
+def test_a_doctored_result_is_refused(run: Runs, tmp_path: Path) -> None:
+    run("plan --example room2 --discount 0.6 -o answer.json")
+    answer = json.loads((tmp_path / "answer.json").read_text())
+    answer["cost"] = 12
+    (tmp_path / "answer.json").write_text(json.dumps(answer))
+    assert_one_line(run("explain --example room2 answer.json"), "answer.json", "no answer to this task")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--mode individual", ("explain", "individual")),
+        ("--horizon 3", ("horizon", "13")),
+        ("absent.json", ("absent.json", "can't be read")),
+        ("-o absent/file", ("no folder",)),
+    ],
+)
+def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
+    assert_one_line(run(f"explain --example room2 {options}"), *words)
+
+
+def test_options_beside_a_result(run: Runs) -> None:
+    run("plan --example room2 --discount 0.6 -o answer.json")
+    assert_one_line(run("explain --example room2 answer.json --discount 0.6"), "got both")
