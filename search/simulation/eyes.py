@@ -114,9 +114,22 @@ def doubtful_encoding(task: Task) -> Encoding:
     return task.derived(_doubtful)
 
 
+def complete_encoding(task: Task) -> Encoding:
+    """The same with every fact packed, for callers who say what is visible; kept with it."""
+    return task.derived(_complete)
+
+
 def _doubtful(task: Task) -> Encoding:
+    return Encoding(_doubted(task), frozenset(surroundings(task).located))
+
+
+def _complete(task: Task) -> Encoding:
+    return Encoding(_doubted(task), frozenset(range(len(task.facts))))
+
+
+def _doubted(task: Task) -> Doubtful:
     values: dict[str, Any] = {field.name: getattr(task, field.name) for field in fields(Task)}
-    return Encoding(Doubtful(**values), frozenset(surroundings(task).located))
+    return Doubtful(**values)
 
 
 def _naming(encoding: Encoding, places: Surroundings) -> dict[str, int]:

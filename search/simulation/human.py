@@ -8,7 +8,7 @@ from search.clock import Clock
 from search.encoding import Encoding, Op, applicable, encoding
 from search.keys import INFINITE_KEY, Weights
 from search.projection import human_projection
-from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, doubtful_encoding
+from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan, Task
@@ -58,7 +58,8 @@ class Human:
         visible: Visible | None = None,
     ) -> None:
         local = human_model == "local"
-        self.encoding = _encoding(task, actions, local=local)
+        told = local and visible is not None
+        self.encoding = complete_encoding(task) if told else _encoding(task, actions, local=local)
         self.weights = Weights(self.encoding, options, None)
         self.keys = self.weights.keys
         self.bound = human_projection(self.encoding, self.encoding.goal, self.weights.human, clock)

@@ -15,10 +15,16 @@ from serendipity.model.errors import UsageError
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.task import HumanPlan, Task
+from serendipity.model.visibility import Visible
 
 
 def solve_for_human(
-    task: Task, options: Options, *, human_plan: HumanPlan | None = None, clock: Clock | None = None
+    task: Task,
+    options: Options,
+    *,
+    human_plan: HumanPlan | None = None,
+    visible: Visible | None = None,
+    clock: Clock | None = None,
 ) -> Iterator[Outcome]:
     """Answers with falling cost and rising lower bound; the last one is the best known.
 
@@ -30,6 +36,7 @@ def solve_for_human(
         task: the task.
         options: options in force; ``human_model`` is not ``omniscient``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
+        visible: what a local human sees; None for the default.
         clock: deadline and cancellation.
 
     Raises:
@@ -37,7 +44,14 @@ def solve_for_human(
     """
     clock = clock or Clock(options.time_limit)
     try:
-        human = Human(task, options, clock, human_model=options.human_model, actions=human_plan or ())
+        human = Human(
+            task,
+            options,
+            clock,
+            human_model=options.human_model,
+            actions=human_plan or (),
+            visible=visible,
+        )
         plan = human.plan_alone() if human_plan is None else human_plan
     except OutOfTimeError:
         yield Outcome("unknown", reason="time-limit")
@@ -130,9 +144,7 @@ class _Call:
         )
 
     def _successors(self, *, idle: bool) -> Successors:
-        return Successors(
-            self.human.encoding, self.human.weights.team, strict=self.options.strict, idle=idle
-        )
+        return Successors(self.human.encoding, self.human.weights.team, strict=self.options.strict, idle=idle)
 
     def _most_cost(self) -> int | None:
         """``max_cost`` (eq. 11), scaled and rounded down."""

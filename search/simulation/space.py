@@ -188,4 +188,3 @@ class Reactive:
 
     def _too_dear(self, key: int) -> bool:
         return self._most_cost is not None and self._human.keys.scaled_cost(key) > self._most_cost
-

@@ -55,9 +55,7 @@ def surroundings(task: Task) -> Surroundings:
 
 def _find(task: Task) -> Surroundings:
     words = [name.split() if " " in name else name.split("_") for name in task.facts]
-    parts = tuple(
-        frozenset(w[1:] if " " in name else w) for name, w in zip(task.facts, words, strict=True)
-    )
+    parts = tuple(frozenset(w[1:] if " " in name else w) for name, w in zip(task.facts, words, strict=True))
     return Surroundings(task.agents, parts, dict(_location_facts(task, words)))
 
 

@@ -1,0 +1,21 @@
+"""The simulator of the search and the one of the verifier tell the same story."""
+
+from hypothesis import given
+
+from search.simulation import simulate
+from tests.simulation.strategies import Played, played
+from verify.simulator import play
+
+
+@given(played())
+def test_simulators_agree(case: Played) -> None:
+    asked = {"human_model": case.human_model, "horizon": case.horizon, "visible": case.visible}
+    ours = simulate(case.task, case.options, case.human_plan, case.steps, **asked)
+    theirs = play(case.task, case.options, case.human_plan, case.steps, **asked)
+    assert list(ours.steps) == theirs.steps
+    assert ours.cost == theirs.cost
+    assert ours.goals_hold == theirs.goals_hold
+    for promised in (ours.cost, ours.cost - 1):
+        assert ours.realised(promised) == theirs.realised(promised)
+    skipped = [(e.epoch, s.action) for e in ours.epochs for s in e.skipped]
+    assert sorted(skipped) == [(t, i) for t, deed in enumerate(theirs.deeds, 1) for i in deed.skipped]
