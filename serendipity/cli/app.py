@@ -9,7 +9,17 @@ from typing import Annotated
 import typer
 
 from serendipity import __version__
-from serendipity.cli import examples, explain, generate, interruptions, plan, reproduce, show, verify
+from serendipity.cli import (
+    examples,
+    explain,
+    generate,
+    interruptions,
+    plan,
+    reproduce,
+    show,
+    simulate,
+    verify,
+)
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.help_examples import epilog
 from serendipity.model import SerendipityError
@@ -28,6 +38,7 @@ app = typer.Typer(
 )
 app.command("plan", epilog=epilog("plan"))(plan.plan)
 app.command("verify", epilog=epilog("verify"))(verify.verify)
+app.command("simulate", epilog=epilog("simulate"))(simulate.simulate)
 app.command("explain", epilog=epilog("explain"))(explain.explain)
 app.command("interruptions", epilog=epilog("interruptions"))(interruptions.interruptions)
 app.command("reproduce", epilog=epilog("reproduce"))(reproduce.reproduce)

@@ -8,6 +8,8 @@ EXAMPLES: Final = (
     "serendipity plan --example room2 --discount 0.6",
     "serendipity plan --example room7 --discount 0.6 --mode communication --format json -o help.json",
     "serendipity verify --example room7 help.json",
+    "serendipity simulate --example room7 help.json --human-model local",
+    "serendipity plan --example room2 --discount 0.9 --human-model observant",
     "serendipity show --example room7 help.json -o help.html",
     "serendipity show --example room7 help.json --epoch 6 -o help.svg",
     "serendipity generate usar --rooms 30 --medkits 3 --seed 7 -o building",

@@ -1,0 +1,54 @@
+"""``serendipity simulate``: what becomes of a plan that nobody told the human of."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import serendipity
+from serendipity.cli import naming, output
+from serendipity.cli.reading import read_json
+from serendipity.model import InputError, Result, UsageError
+
+
+def simulate(
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="TASK RESULT.json",
+            help="The task, named as for `plan`; then the result.",
+            show_default=False,
+        ),
+    ],
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    human_model: Annotated[
+        str, typer.Option(metavar="observant|local", help="Sees everything, or only what is where he is.")
+    ] = "observant",
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Play a plan, epoch by epoch, against a human who looks up and replans."""
+    output.start_logging(verbose)
+    form = output.choose_format(format, output_file)
+    output.check_output(output_file)
+    *named, answer = files
+    if answer.suffix == ".pddl" or answer.is_dir():
+        raise UsageError(f"simulate: expected TASK and then RESULT.json, got {answer} last")
+    result = Result.from_dict(read_json(answer), answer)
+    name = naming.TaskName(
+        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    try:
+        trace = serendipity.simulate(task, result, human_model)
+    except InputError as error:
+        raise InputError(error.message, answer) from None
+    output.write_answer(output.as_json(trace.to_dict()) if form == "json" else trace.text(), output_file)
+    return 0
