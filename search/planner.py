@@ -127,15 +127,15 @@ class _Call:
         try:
             self._leave_alone()
             self._improve_alone()
-            if self.best.key < INFINITE_KEY:
+            if self._answer().key < INFINITE_KEY:
                 yield self._outcome("feasible")
-            if self.epochs != 0 or self.best.key == INFINITE_KEY:
+            if self.epochs != 0 or self._answer().key == INFINITE_KEY:
                 for _ in best_first(self._space(), self.best, self.progress, self.clock):
                     yield self._outcome("feasible")
             self.progress.bound = self.best.key
-            status = "optimal" if self.best.key < INFINITE_KEY else "infeasible"
+            status = "optimal" if self._answer().key < INFINITE_KEY else "infeasible"
         except OutOfTimeError:
-            status = "feasible" if self.best.key < INFINITE_KEY else "unknown"
+            status = "feasible" if self._answer().key < INFINITE_KEY else "unknown"
         yield self._outcome(status)
 
     def _leave_alone(self) -> None:
@@ -146,9 +146,11 @@ class _Call:
                 self.baseline.key = sum(option.weight for _, option in self.tables.followed(plan))
             else:
                 self._pursue_robot_goal(plan)
-        if self.baseline.key < INFINITE_KEY:
-            self.best = replace(self.baseline, key=self.baseline.key + self._window_of_nothing())
-        self.idle = replace(self.best)
+        self.idle = replace(self.baseline, key=self.baseline.key + self._window_of_nothing())
+        # With a goal of the robots' own, leaving him alone is what a plan with a window is
+        # compared with, but it is not itself one that fits every window (SPEC 3.1).
+        if not (self.options.windowed and self.task.robot_goal):
+            self.best = replace(self.idle)
 
     def _pursue_robot_goal(self, plan: HumanPlan) -> None:
         space = Followed(
@@ -164,6 +166,8 @@ class _Call:
     def _window_of_nothing(self) -> int:
         """Doing nothing fits every window; its best is the shortest and latest (SPEC 3.1)."""
         if not self.options.windowed or not self.plan or self.epochs is None:
+            return 0
+        if self.baseline.key == INFINITE_KEY:
             return 0
         return self.keys.epoch_weight + self.keys.of_start(len(self.plan), self.epochs)
 
@@ -204,15 +208,17 @@ class _Call:
 
     def _helps(self) -> bool:
         """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""
-        if self.best.key >= self.idle.key or self.plan is None:
+        if self.best.key == INFINITE_KEY or self.plan is None:
             return False
         return self.idle.key == INFINITE_KEY or self.keys.cost(self.best.key) < self.keys.cost(self.idle.key)
 
+    def _answer(self) -> Incumbent:
+        """What is answered: with windows the baseline, where there is no opportunity."""
+        return self.baseline if self.options.windowed and not self._helps() else self.best
+
     def _outcome(self, status: str) -> Outcome:
         helps = self._helps()
-        answer = self.best
-        if self.options.windowed and not helps and self.baseline.key < INFINITE_KEY:
-            answer = self.baseline
+        answer = self._answer()
         has_plan = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
         saving_alone = Fraction(0)
         if self.baseline.key < INFINITE_KEY:
@@ -248,6 +254,8 @@ class _Call:
         bound = self.keys.objective(min(self.progress.bound, self.best.key))
         if self.options.windowed and not answer.end:
             bound -= self.options.window_weight
+        if answer.key < INFINITE_KEY:
+            bound = min(bound, self.keys.objective(answer.key))
         return max(bound, Fraction(0))
 
     def _steps(self, answer: Incumbent) -> tuple[Step, ...]:
