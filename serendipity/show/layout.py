@@ -3,6 +3,7 @@
 Trees, and graphs that are nearly one, become floor plans; other graphs are laid out by networkx.
 """
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
@@ -19,6 +20,8 @@ CELL: Final = 100.0
 """Side of a cell in the picture's units."""
 _SPREAD: Final = 1.45  # distance of the closest places of a graph, in cells
 _MOST_PASSAGES: Final = 0.1  # connections beyond a tree for each place of a floor plan
+_GRID: Final = 1.25  # distance of neighbouring cells of a grid, in cells
+_MOSTLY: Final = 0.8  # share of the ways that have to join neighbours in a grid
 _GAP: Final = 0.5  # between parts that no way connects, in cells
 
 Point = tuple[float, float]
@@ -72,6 +75,9 @@ def lay_out(places: Places) -> Layout:
     graph: nx.Graph[str] = nx.Graph()
     graph.add_nodes_from(places.names)
     graph.add_edges_from(places.links)
+    cells = _named_cells(graph)
+    if cells:
+        return _grid(places, cells)
     boxes: dict[str, Box] = {}
     doors: list[tuple[str, str]] = []
     right = 0.0
@@ -104,11 +110,38 @@ def _plan_boxes(tree: "nx.Graph[str]") -> dict[str, Box]:
 
 
 def _graph_boxes(graph: "nx.Graph[str]") -> dict[str, Box]:
-    """Positions by a spring layout that starts from the graph's spectrum; no chance is involved."""
+    """A spring layout that starts from the graph's spectrum; no chance is involved."""
     start = nx.spectral_layout(graph) if len(graph) > 3 else nx.circular_layout(graph)
     found = nx.spring_layout(graph, pos=start, iterations=200, seed=0, k=None)
     points = _spread(_level(np.array([found[place] for place in graph])))
     return {place: Box(float(x) * CELL, float(y) * CELL) for place, (x, y) in zip(graph, points, strict=True)}
+
+
+def _grid(places: Places, cells: dict[str, tuple[int, int]]) -> Layout:
+    left, top = (min(axis) for axis in zip(*cells.values(), strict=True))
+    step = _GRID * CELL
+    boxes = {
+        place: Box((x - left) * step + CELL / 2, (y - top) * step + CELL / 2)
+        for place, (x, y) in cells.items()
+    }
+    return Layout(boxes, places.links, frozenset(), *_extent(boxes.values()))
+
+
+def _named_cells(graph: "nx.Graph[str]") -> dict[str, tuple[int, int]]:
+    """Coordinates from names like ``pos2-7``, where ways join neighbours; empty otherwise."""
+    if not graph.edges:
+        return {}
+    found = {place: tuple(map(int, re.findall(r"[0-9]+", place))) for place in graph}
+    if any(len(cell) != 2 for cell in found.values()) or len(set(found.values())) < len(found):
+        return {}
+    cells = {place: (cell[0], cell[1]) for place, cell in found.items()}
+    steps = [abs(cells[a][0] - cells[b][0]) + abs(cells[a][1] - cells[b][1]) == 1 for a, b in graph.edges]
+    if sum(steps) < _MOSTLY * len(steps):
+        return {}
+    xs, ys = zip(*cells.values(), strict=True)
+    if max(xs) - min(xs) >= max(ys) - min(ys):
+        return cells
+    return {place: (y, x) for place, (x, y) in cells.items()}  # screens are wider than high
 
 
 def _level(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -51,7 +51,7 @@ from serendipity.show.trails import trail
 MARGIN: Final = 14.0
 _DOOR: Final = 40.0
 _ROOM: Final = 4.0  # between a lone place's outline and its cell
-_LABEL_SIZE: Final = 20.0
+_LABEL_SIZE: Final = 23.0
 _LABEL_AT: Final = -33.0
 _TAG: Final = 19.0
 _TAG_AT: Final = 40.0
@@ -115,7 +115,7 @@ def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
     """Above the paths, on the colour of the floor so that both can be read."""
     for place, box in layout.boxes.items():
         goal = place in scene.goals
-        label, size = fitted(place, box.width - (40 if goal else 10), _LABEL_SIZE, 13)
+        label, size = fitted(place, box.width - (36 if goal else 8), _LABEL_SIZE, 13)
         x, y, width = box.x + (10 if goal else 0), box.y + _LABEL_AT, len(label) * size * LETTER
         floor = Style(CORRIDOR if box.corridor else FLOOR, opacity=0.85)
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)
@@ -176,7 +176,7 @@ def _meetings(scene: Scene, layout: Layout) -> Iterator[Shape]:
         text = f"epoch {meeting.epoch}"
         middle = box.y + _TAG_AT
         tag = Rect(box.x - 38, middle - _TAG / 2, 76, _TAG, Style(MEETING), round=_TAG / 2)
-        words = Text(box.x, middle, text, 15, INK, bold=True)
+        words = Text(box.x, middle, text, 16, INK, bold=True)
         yield Group((frame, tag, words), data={"meeting": str(index)}, title=meeting.text)
 
 

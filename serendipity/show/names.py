@@ -27,6 +27,13 @@ def common_start(several: Sequence[Parts]) -> Parts:
     return first[:same]
 
 
+def common_ends(several: Sequence[Parts]) -> tuple[Parts, Parts]:
+    """The parts that all of several names begin with, and those that they end with."""
+    start = common_start(several)
+    rests = [name[len(start) :][::-1] for name in several]
+    return start, common_start(rests)[::-1]
+
+
 def without(needles: Sequence[Parts], haystack: Parts) -> Parts:
     """``haystack`` without the first occurrence of each of ``needles``."""
     for needle in needles:

@@ -83,11 +83,12 @@ def _data(scene: Scene) -> dict[str, Any]:
 
 
 def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
+    last = scene.frames[-1]
     return {
         "caption": frame.caption,
         "tokens": {key: _token(token) for key, token in tokens(scene, frame).items()},
-        "cost": number(frame.cost),
-        "former": number(frame.former_spent),
+        "cost": f"{number(frame.cost)} of {number(last.cost)}",
+        "former": f"{number(frame.former_spent)} of {number(last.former_spent)}",
         "formerValue": float(frame.former_spent),
         "spent": [float(frame.spent[agent]) for agent in scene.lanes],
         "window": frame.in_window,

@@ -272,9 +272,15 @@ class _Builder:
         found = {}
         for agent, places in self.places.positions.items():
             place = next((place for f, place in places.items() if f in state), None)
+            if place is None and agent in self.places.riding:
+                place = self._vehicle_at(self.places.riding[agent], state)
             if place is not None:
                 found[agent] = place
         return found
+
+    def _vehicle_at(self, riding: dict[int, str], state: frozenset[int]) -> str | None:
+        told = next((self.places.objects[name] for f, name in riding.items() if f in state), {})
+        return next((where.place for f, where in told.items() if f in state), None)
 
     def _objects(self, state: frozenset[int]) -> dict[str, Whereabouts]:
         return {

@@ -11,8 +11,8 @@ from serendipity.show.scene import Frame, Scene
 
 FORMER: Final = "former"
 RADIUS: Final = 16.0
-PILL_SIZE: Final = 18.0
-PILL_HEIGHT: Final = 22.0
+PILL_SIZE: Final = 20.0
+PILL_HEIGHT: Final = 24.0
 _AGENTS_AT: Final = -7.0  # below the middle of a box
 _OBJECTS_AT: Final = 20.0
 

@@ -101,6 +101,7 @@
   }
 
   function play() {
+    if (last === 0) return;
     if (epoch === last) show(0);
     timer = setInterval(() => show(epoch + 1), pace);
     showPlaying();
@@ -143,6 +144,7 @@
     keys[event.key]();
   });
   addEventListener("resize", () => followTokens(scene.frames[epoch]));
+  id("play").disabled = last === 0;
   showPlaying();
   show(epoch);
 })();

@@ -1,0 +1,30 @@
+"""Scenes that several tests look at."""
+
+from dataclasses import replace
+
+import pytest
+
+import serendipity
+from serendipity.model import Task
+from serendipity.show import Scene, build_scene
+from tests import cases
+
+
+def ground(task: Task) -> Task:
+    """The same task as ground files write it: one word for each fact and action."""
+    actions = tuple(replace(action, name=action.name.replace(" ", "_")) for action in task.actions)
+    return replace(task, facts=tuple(f.replace(" ", "_") for f in task.facts), actions=actions)
+
+
+@pytest.fixture(scope="session")
+def room2() -> Scene:
+    """The paper's example III-C at discount 0.6."""
+    task = serendipity.example("room2")
+    return build_scene(task, serendipity.plan(task, discount="0.6"))
+
+
+@pytest.fixture(scope="session")
+def no_map() -> Scene:
+    """SPEC 9, case 10: two robots lift something, nobody is anywhere."""
+    task = cases.case_10()
+    return build_scene(task, serendipity.plan(task, discount="0.5", horizon=2))

@@ -1,0 +1,123 @@
+"""Frames tell what happens: states by replay, costs as in the result, meetings where they are."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+import serendipity
+from serendipity.model import InputError, PlanStep, Window
+from serendipity.show import Scene, build_scene
+from serendipity.show.places import Whereabouts
+from tests import cases
+from tests.cases import WORKED, Worked
+from tests.show.conftest import ground
+
+
+@pytest.mark.parametrize("worked", WORKED, ids=str)
+def test_the_costs_run_up_to_those_of_the_result(worked: Worked) -> None:
+    task = worked.task()
+    result = serendipity.plan(task, human_plan=worked.human_plan, **worked.options)
+    scene = build_scene(task, result)
+    last = scene.frames[-1]
+    if result.plan is not None:
+        assert last.cost == Fraction(str(result.cost))
+        for agent, cost in result.agent_costs.items():
+            assert last.spent[task.agents.index(agent)] == Fraction(str(cost))
+    if result.human_cost is not None:
+        assert last.former_spent == Fraction(str(result.human_cost))
+    costs = [frame.cost for frame in scene.frames]
+    assert costs == sorted(costs)
+    assert [frame.epoch for frame in scene.frames] == list(range(len(scene.frames)))
+    shaded = [frame.epoch for frame in scene.frames if frame.in_window]
+    window = result.window or Window(1, 2)
+    assert shaded == (list(range(window.start, window.end)) if result.window else [])
+
+
+def test_agents_and_objects_move(room2: Scene) -> None:
+    human, robot = 0, 1
+    start, met, end = room2.frames[0], room2.frames[6], room2.frames[11]
+    assert start.at == {human: "room13", robot: "room4"}
+    assert start.objects == {"mk1": Whereabouts("room2"), "mk2": Whereabouts("room3")}
+    assert room2.frames[5].objects["mk2"] == Whereabouts(holder=robot)
+    assert met.at == {human: "hall4", robot: "hall4"}
+    assert met.objects["mk2"] == Whereabouts(holder=human)
+    assert (met.former_at, met.cost, met.former_spent) == ("hall3", Fraction("7.6"), 6)
+    assert end.at[human] == "room1"
+    assert "conducted_triage commx room1" in end.made
+    assert room2.goals == ("room1",)
+    assert len(room2.frames) == 14  # to the end of the former plan
+
+
+def test_the_hand_over_is_a_meeting(room2: Scene) -> None:
+    (meeting,) = room2.meetings
+    assert (meeting.epoch, meeting.place, meeting.objects) == (6, "hall4", ("mk2",))
+    assert meeting.text == "robot gives mk2 to commx in hall4"
+    assert room2.key_epoch == 6
+
+
+def test_a_kit_that_is_left_and_taken_is_a_meeting_too() -> None:
+    task = serendipity.example("room2")
+    moves = [
+        ("robot", "move_reverse robot room4 room3"),
+        ("robot", "pick_up_medkit robot mk2 room3"),
+        ("robot", "drop_off robot mk2 room3"),
+    ]
+    steps = [PlanStep(i, (who,), action, 1.0) for i, (who, action) in enumerate(moves, 1)]
+    human = ["move commx room13 hall8"] + [f"move_reverse commx hall{i} hall{i - 1}" for i in (8, 7, 6, 5)]
+    human += [
+        "move_reverse commx hall4 room4",
+        "move_reverse commx room4 room3",
+        "pick_up_medkit commx mk2 room3",
+    ]
+    steps += [PlanStep(i, ("commx",), action, 1.0) for i, action in enumerate(human, 1)]
+    result = replace(serendipity.plan(task, discount="0.6"), plan=tuple(steps))
+    (meeting,) = build_scene(task, result).meetings
+    assert (meeting.epoch, meeting.place, meeting.objects) == (8, "room3", ("mk2",))
+    assert meeting.text == "commx takes mk2, which robot left"
+
+
+def test_ground_files_give_the_same_frames(room2: Scene) -> None:
+    task = ground(serendipity.example("room2"))
+    scene = build_scene(task, serendipity.plan(task, discount="0.6"))
+    assert [frame.at for frame in scene.frames] == [frame.at for frame in room2.frames]
+    assert [frame.objects for frame in scene.frames] == [frame.objects for frame in room2.frames]
+    assert [frame.caption for frame in scene.frames] == [frame.caption for frame in room2.frames]
+    assert [meeting.text for meeting in scene.meetings] == [meeting.text for meeting in room2.meetings]
+
+
+def test_without_a_map_there_are_the_facts(no_map: Scene) -> None:
+    assert no_map.layout is None
+    assert [(change.label, change.goal) for change in no_map.changes] == [("p", True), ("q", False)]
+    goal, lifted = no_map.changes
+    assert [(span.first, span.last) for span in goal.spans] == [(2, 2)]
+    assert [(span.first, span.last) for span in lifted.spans] == [(1, 2)]
+    assert no_map.meetings[0].text == "r1 and r2: lift"
+
+
+def test_where_no_help_pays_the_human_does_not_deviate() -> None:
+    task = cases.case_1()
+    scene = build_scene(task, serendipity.plan(task, discount="0.5"))
+    assert not scene.deviates
+    assert scene.meetings == ()
+    assert all(frame.former_at == frame.at[task.human] for frame in scene.frames)
+
+
+def test_without_a_plan_there_is_the_start() -> None:
+    task = cases.case_8()
+    scene = build_scene(task, serendipity.plan(task))
+    assert len(scene.frames) == 1
+
+
+def test_a_plan_that_does_not_fit_the_task_is_refused() -> None:
+    task = serendipity.example("room2")
+    result = serendipity.plan(task, discount="0.6")
+    wrong = replace(result, plan=(PlanStep(1, ("robot",), "move robot room4 hall9", 1.0),))
+    with pytest.raises(InputError, match="hall9"):
+        build_scene(task, wrong)
+    late = replace(result, plan=(PlanStep(1, ("robot",), "pick_up_medkit robot mk2 room3", 1.0),))
+    with pytest.raises(InputError, match="not applicable"):
+        build_scene(task, late)
+    stranger = replace(result, plan=(PlanStep(1, ("commx",), "move robot room4 hall4", 1.0),))
+    with pytest.raises(InputError, match="commx"):
+        build_scene(task, stranger)
