@@ -5,7 +5,10 @@ What a solver says is believed only as follows (PuLP 3.3):
 
 * ``(status, sol_status) == (1, 1)`` is an optimum; a time limit also comes back as
   ``status == 1``, with ``sol_status == 2``, and proves nothing;
-* ``status == -1`` is a proof that nothing satisfies the rows, since every column is bounded;
+* ``status == -1`` is a proof that nothing satisfies the rows, since every column is bounded.
+  HiGHS gives it without its presolve only: that of 1.14 calls feasible programs infeasible
+  (ERGO-Code/HiGHS #3090 and others; a test has one).  These programs of flows are solved
+  faster without, too;
 * values are rounded; whoever asked re-checks the plan they stand for against the task.
 """
 
@@ -164,7 +167,9 @@ def _solver(solver: str, seconds: float | None) -> Any:
         return pulp.COIN_CMD(
             path=_cbc_path(), msg=False, timeLimit=seconds, threads=1, gapRel=0, gapAbs=0.5, options=options
         )
-    return pulp.HiGHS(msg=False, timeLimit=seconds, threads=1, gapRel=0, gapAbs=0.5, random_seed=0)
+    return pulp.HiGHS(
+        msg=False, timeLimit=seconds, threads=1, gapRel=0, gapAbs=0.5, random_seed=0, presolve="off"
+    )
 
 
 def _cbc_path() -> str:
