@@ -109,7 +109,12 @@ def _over_ties(task: Task, options: Options, clock: Clock) -> Result:
         )
     answers = [_last(task, options, human_plan, clock) for human_plan in graph.plans()]
     ties = [
-        {"human_plan": list(answer.human_plan or ()), "cost": answer.cost, "opportunity": answer.opportunity}
+        {
+            "human_plan": list(answer.human_plan or ()),
+            "cost": answer.cost,
+            "opportunity": answer.opportunity,
+            "realised": answer.realised,
+        }
         for answer in answers
     ]
     chosen = _mean(answers) if options.ties == "expected" else _extreme(answers, options.ties)
@@ -152,6 +157,7 @@ def _mean(answers: list[Result]) -> Result:
         window=None,
         plan=None,
         agent_costs={},
+        realised={},
     )
 
 

@@ -23,6 +23,7 @@ from verify.minimise import Effort
 from verify.rules import Checker, RuleReport
 from verify.rules.alone import Alone
 from verify.rules.replay import replay, replay_human
+from verify.simulator import realised_claim
 from verify.solver import solver_version
 
 _REPLAYED = {
@@ -93,8 +94,7 @@ class _Certifier:
         result = self.result
         report = self.checker.check(result)
         yield from self._rule_claims(report, given)
-        if result.realised:
-            yield Claim("realised", "not_in_scope", "simulations are not examined")
+        yield from self._realised(report)
         wanted = self._wanted()
         out = self._out_of_scope() if report.ok else "the result breaks a rule already"
         if out is None:
@@ -102,6 +102,16 @@ class _Certifier:
         else:
             refuted = {violation.claim for violation in report.violations}
             yield from (Claim(name, "not_in_scope", out) for name in wanted if name not in refuted)
+
+    def _realised(self, report: RuleReport) -> Iterator[Claim]:
+        """The verdicts on humans who replan: the plan is played again."""
+        if report.of("replay") is not None:
+            if self.result.realised:
+                yield Claim("realised", "not_in_scope", "the plan can't be replayed")
+            return
+        claim = realised_claim(self.task, self.result, self.plans)
+        if claim is not None:
+            yield claim
 
     def _wanted(self) -> list[str]:
         """The claims of the result that need an optimiser; the bound comes last."""

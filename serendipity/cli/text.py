@@ -116,7 +116,8 @@ def _closing(result: Result) -> Iterator[str]:
         helped = sum(bool(tie["opportunity"]) for tie in ties)
         yield f"{len(ties)} optimal plans of the human, an opportunity with {helped} ({result.options.ties})"
     for model, realised in sorted(result.realised.items()):
-        yield f"with an {model} human the plan {'works out' if realised else 'does not work out'}"
+        article = "an" if model[0] in "aeiou" else "a"
+        yield f"with {article} {model} human the plan {'works out' if realised else 'does not work out'}"
     elapsed = result.statistics.get("elapsed_seconds")
     if isinstance(elapsed, int | float) and math.isfinite(elapsed):
         expanded = result.statistics.get("expanded")

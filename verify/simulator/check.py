@@ -5,7 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, PlanError, Result, Step, Task
-from verify.alone import TooManyStatesError
+from verify.alone import OptimalPlans, TooManyStatesError
 from verify.rules.replay import replay_human
 from verify.simulator.person import Person
 from verify.simulator.run import Played, play
@@ -14,11 +14,16 @@ _TOO_LARGE = "the human's own problem is too large"
 _MODELS = ("observant", "local")
 
 
-def realised_claim(task: Task, result: Result) -> Claim | None:
+def realised_claim(task: Task, result: Result, plans: OptimalPlans | None = None) -> Claim | None:
     """The ``realised`` claim of a result, or None where it makes none.
 
     It stands for every verdict that the result carries and, where it was planned under a
     human model, for the plan being what robots and human do then.
+
+    Args:
+        task: the task.
+        result: a result whose plan can be replayed.
+        plans: what is known of the human alone, from other questions.
     """
     if result.plan is None or result.cost is None:
         return None
@@ -26,11 +31,11 @@ def realised_claim(task: Task, result: Result) -> Claim | None:
         return None
     started = perf_counter()
     try:
-        fault = next(_Examination(task, result).faults(), None)
+        fault = next(_Examination(task, result, plans or OptimalPlans(task)).faults(), None)
     except TooManyStatesError:
         return Claim("realised", "undecided", _TOO_LARGE, seconds=perf_counter() - started)
     except PlanError as error:
-        fault = f"human plan: {error}"
+        fault = str(error)
     seconds = perf_counter() - started
     if fault is not None:
         return Claim("realised", "refuted", fault, seconds=seconds)
@@ -39,10 +44,10 @@ def realised_claim(task: Task, result: Result) -> Claim | None:
 
 
 class _Examination:
-    def __init__(self, task: Task, result: Result) -> None:
+    def __init__(self, task: Task, result: Result, plans: OptimalPlans) -> None:
         self.task = task
         self.result = result
-        self.person = Person(task)
+        self.person = Person(task, plans)
         self.human_plan = replay_human(task, result.human_plan or ())
         self.steps = [Step(step.epoch, _action(task, step.action, step.agents)) for step in result.plan or ()]
 

@@ -14,9 +14,9 @@ class Person:
     his own problem is too large.
     """
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, plans: OptimalPlans) -> None:
         self._task = task
-        self._plans = OptimalPlans(task)
+        self._plans = plans
 
     def cost(self, state: State) -> Fraction | None:
         """``h``: his optimal cost alone; None for infinity."""

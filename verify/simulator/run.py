@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from serendipity.model import Options, Step, Task, Visible, surroundings
 from serendipity.model.actions import conflicting
+from verify.alone import OptimalPlans
 from verify.alone import State as Facts
 from verify.simulator.person import Person
 
@@ -80,7 +81,9 @@ def play(
         if task.actions[step.action].participants != (task.human,):
             orders.setdefault(step.epoch, []).append(step.action)
     sees = (visible or surroundings(task).visible) if human_model == "local" else None
-    return _Game(task, options, person or Person(task), sees, orders).play(list(human_plan), horizon)
+    return _Game(task, options, person or Person(task, OptimalPlans(task)), sees, orders).play(
+        list(human_plan), horizon
+    )
 
 
 class _Game:
