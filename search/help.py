@@ -90,11 +90,14 @@ class Providers:
     def _late(need: int) -> int:
         return -1 - need
 
-    def costs(self, needs: Sequence[int], limit: int, horizon: int) -> dict[int, int]:
-        """Least cost from the initial state per need, of those below ``limit`` and in time."""
-        if self._uniform:
-            limit = min(limit, horizon * self._unit)
-        return self._explore(self._by_cost, needs, self._weights, limit)
+    def costs(self, needs: Sequence[int], pays: Callable[[int], bool]) -> dict[int, int]:
+        """Least cost from the initial state per need, as far as it can pay.
+
+        Args:
+            needs: their ids.
+            pays: whether anything can pay for which robots need this cost, or more.
+        """
+        return self._explore(self._by_cost, needs, self._weights, pays)
 
     def epochs(self, cost: int) -> int:
         """At least so many epochs go into what costs robots a key increment."""
@@ -109,7 +112,7 @@ class Providers:
         """
         by_step, unit = self._by_cost, self._unit
         if not self._uniform:
-            self._explore(self._by_step, needs, [1] * len(self._weights), horizon + 1)
+            self._explore(self._by_step, needs, [1] * len(self._weights), horizon.__ge__)
             by_step, unit = self._by_step, 1
         found = {}
         for need in needs:
@@ -124,7 +127,7 @@ class Providers:
         provisions: dict[tuple[int, bool], Provision],
         needs: Sequence[int],
         weights: Sequence[int],
-        limit: int,
+        pays: Callable[[int], bool],
     ) -> dict[int, int]:
         groups: dict[tuple[int, bool], list[int]] = {}
         for need in needs:
@@ -134,7 +137,7 @@ class Providers:
             listed = [(i, self._touches.needs[self.touched(i)]) for i in members]
             flips = self._followed if late else ()
             provision = Provision(self._encoding, field, listed, weights, flips)
-            provision.explore(limit)
+            provision.explore(pays)
             provisions[field, late] = provision
             costs.update(provision.cost)
         return costs
@@ -258,29 +261,41 @@ class Openings:
 
     Attributes:
         without: least total without a touch, if the window opens after an epoch or later.
-        now: least total by need, if it opens right after an epoch.
+        floor: least total at all, if it opens after an epoch or later.
+        least: least total by need.
+        now: total by need, if it opens right after an epoch; for needs that were refined.
         later: the same, if it opens then or later.
         latest: last epoch in which robots can provide a need.
     """
 
-    def __init__(self, epochs: int, reach: int) -> None:
+    def __init__(self, epochs: int, reach: int, floor: Sequence[int]) -> None:
         self.reach = reach
         self.without = [INFINITE_KEY] * epochs
+        self.floor = list(accumulate(reversed(floor), min))[::-1]
+        self.least: dict[int, int] = {}
         self.now: dict[int, list[int]] = {}
         self.later: dict[int, list[int]] = {}
         self.latest: dict[int, int] = {}
+        self._until: dict[int, int] = {}
 
-    def add(self, first: int, end: int, without: int, totals: dict[int, int]) -> None:
-        """Totals that hold wherever the window opens after epochs ``first .. end - 1``."""
+    def add(self, end: int, without: int, totals: dict[int, int]) -> None:
+        """Least totals if the window opens before epoch ``end`` is over."""
         self.without[:end] = [min(known, without) for known in self.without[:end]]
         for need, total in totals.items():
-            self.refine(need, first, [total] * (end - first))
+            self.least[need] = min(total, self.least.get(need, total))
+            self._until[need] = end
 
     def refine(self, need: int, first: int, totals: Sequence[int]) -> None:
         """Totals of a need from the epoch ``first`` on, one by one."""
         now = self.now.setdefault(need, [INFINITE_KEY] * len(self.without))
         now[first : first + len(totals)] = totals
         self.later[need] = list(accumulate(reversed(now), min))[::-1]
+
+    def rough(self, need: int, cost: int, steps: int) -> int:
+        """Least total of a need that was not refined (see :meth:`total`)."""
+        if steps - self.reach >= self._until[need] or steps > self.latest[need]:
+            return INFINITE_KEY
+        return self.least[need] + cost
 
     def total(self, need: int, cost: int, steps: int, epoch: int = 0) -> int:
         """Least total if robots need a cost and some epochs from ``epoch`` on to provide."""
@@ -289,6 +304,11 @@ class Openings:
         if opens >= len(row) or epoch + steps > self.latest[need]:
             return INFINITE_KEY
         return row[opens] + cost
+
+    def least_after(self, steps: int) -> int:
+        """Least total at all, if robots need some epochs to provide what he touches."""
+        opens = max(0, steps - self.reach)
+        return self.floor[opens] if opens < len(self.floor) else INFINITE_KEY
 
 
 class HelpedOnTheWay:
@@ -303,6 +323,9 @@ class HelpedOnTheWay:
     def __init__(self, openings: Openings, spent: Sequence[int], needs: dict[int, Provided | None]) -> None:
         self._openings = openings
         self._spent = spent
+        for need in needs:
+            if need not in openings.later:
+                openings.refine(need, 0, [openings.least[need]] * len(spent))
         self._needs = [(need, provided, openings.later[need]) for need, provided in needs.items()]
 
     def opening(self, epoch: int, state: int) -> int:

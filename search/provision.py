@@ -11,8 +11,9 @@ Glossary: *place* - the value of the field that most of a robot's own ops ask
 for; *label* - value of the field, team of the last op on it (0 at the start).
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from heapq import heappop, heappush
+from typing import TypeVar
 
 from search.encoding import Encoding, Op
 from search.keys import INFINITE_KEY
@@ -21,6 +22,8 @@ from search.touches import Need
 Spot = tuple[int, int, int, int]
 """Value of the field, team of the last op on it, tracked robot's bit, its place.
 Robot 0 stands for "any robot that did not take part in the last op"."""
+
+Item = TypeVar("Item")
 
 Edge = tuple[int, Spot]
 """Weight, and where it leads (or, backward, where it came from)."""
@@ -65,6 +68,8 @@ class Acts:
         values = encoding.values(field)
         places = encoding.derived(Places)
         self.on = _by_value(field, (op for op in encoding.others if _mentions(op, field)), values)
+        self._places = places.field
+        self._here: dict[tuple[int, int], dict[int, list[Op]]] = {}
         self.walks: dict[int, dict[int, list[tuple[int, int]]]] = {}
         for robot, moves in places.moves.items():
             walks = self.walks[robot] = {}
@@ -73,10 +78,18 @@ class Acts:
 
     def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
         """Where a robot can walk from a place, with the index of the cost."""
-        walks = self.walks[robot]
-        anywhere = walks.get(-1)
-        known = walks.get(place, [])
-        return known + anywhere if anywhere else known
+        return _with_anywhere(self.walks[robot], place)
+
+    def by_place(self, value: int, robot: int) -> dict[int, list[Op]]:
+        """What a robot can do to a value of the field, by its place (-1: anywhere)."""
+        found = self._here.get((value, robot))
+        if found is None:
+            found = self._here[value, robot] = {}
+            place = self._places[robot]
+            for op in self.on.get(value, ()):
+                if op.agents & robot:
+                    found.setdefault(op.need & place if op.need_mask & place else -1, []).append(op)
+        return found
 
 
 class AllActs:
@@ -119,20 +132,24 @@ class Provision:
         self._encoding = encoding
         self._acts = encoding.derived(AllActs).on(field)
         self._flips = _by_value(field, (op for op in flips if field & ~op.keep), encoding.values(field))
-        self._needs = [(i, need, self._robots_of(need)) for i, need in needs]
+        self._anyhow: dict[int, list[int]] = {}
+        self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
+        self._detached: dict[int, list[tuple[int, int]]] = {}
+        for i, need in needs:
+            self._index(i, need)
         self._entries: dict[Spot, list[Edge]] = {}
         self._accepted: dict[int, list[Spot]] = {}
         self._stopped: set[tuple[int, int, int]] = set()
         self.cost: dict[int, int] = {}
 
-    def explore(self, limit: int) -> None:
-        """Forward from the initial state, up to a cost; fills ``cost`` per need id."""
+    def explore(self, pays: Callable[[int], bool]) -> None:
+        """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
         queue: list[tuple[int, Spot]] = []
         value = self._initial & self._field
         for robot, place in self._places.field.items():
             heappush(queue, (0, (value, 0, robot, self._initial & place)))
         settled: dict[Spot, int] = {}
-        open_exits: dict[tuple[int, int, int], set[tuple[int, int]]] = {}
+        open_exits: dict[tuple[int, int, int], set[int]] = {}
         while queue:
             cost, spot = heappop(queue)
             if spot in settled:
@@ -141,19 +158,20 @@ class Provision:
             self._accept(spot, cost)
             value, team, robot, place = spot
             for weight, after in self._changes(spot):
-                self._relax(queue, settled, spot, cost, weight, after, limit)
+                self._relax(queue, settled, spot, cost, weight, after, pays)
             if not robot:
                 continue
             exits = open_exits.get((value, team, robot))
             if exits is None:
                 exits = open_exits[value, team, robot] = self._exits(value, robot)
-            exits -= {exit_ for exit_ in exits if place & exit_[0] == exit_[1]}
+            exits.discard(place)
+            exits.discard(-1)
             if not exits:
                 self._stopped.add((value, team, robot))
                 continue
             for there, index in self._acts.from_place(robot, place):
                 after = (value, team, robot, there)
-                self._relax(queue, settled, spot, cost, self._weights[index], after, limit)
+                self._relax(queue, settled, spot, cost, self._weights[index], after, pays)
 
     def _relax(
         self,
@@ -163,22 +181,21 @@ class Provision:
         cost: int,
         weight: int,
         after: Spot,
-        limit: int,
+        pays: Callable[[int], bool],
     ) -> None:
         self._entries.setdefault(after, []).append((weight, spot))
-        if after not in settled and cost + weight < limit:
+        if after not in settled and pays(cost + weight):
             heappush(queue, (cost + weight, after))
 
     def _changes(self, spot: Spot) -> list[Edge]:
         """Edges that set the field, or hand over tracking."""
         value, team, robot, place = spot
         edges: list[Edge] = []
-        for op in self._acts.on.get(value, ()):
-            if robot:
-                if not op.agents & robot or not self._at(op, robot, place):
-                    continue
-            elif op.agents & team:
-                continue
+        if robot:
+            ops = _with_anywhere(self._acts.by_place(value, robot), place)
+        else:
+            ops = [op for op in self._acts.on.get(value, ()) if not op.agents & team]
+        for op in ops:
             after = op.put & self._field if self._field & ~op.keep else value
             weight = self._weights[op.cost]
             for other, field in self._places.field.items():
@@ -193,10 +210,6 @@ class Provision:
             edges.append((0, (value, team, 0, 0)))
         return edges
 
-    def _at(self, op: Op, robot: int, place: int) -> bool:
-        field = self._places.field[robot]
-        return place & op.need_mask & field == op.need & field
-
     def _after(self, op: Op, robot: int, field: int, place: int) -> list[int]:
         """Where a robot can be after an op: known, set by it, asked for by it, or anywhere."""
         if field & ~op.keep:
@@ -207,38 +220,33 @@ class Provision:
             return [op.need & field]
         return self._encoding.values(field)
 
-    def _exits(self, value: int, robot: int) -> set[tuple[int, int]]:
-        """Conditions on the robot's place under which something can happen to the value."""
-        field = self._places.field[robot]
-        exits = {
-            (op.need_mask & field, op.need & field)
-            for op in self._acts.on.get(value, ())
-            if op.agents & robot
-        }
-        for _, need, robots in self._needs:
-            if robots & robot and need.value & self._field == value & need.mask:
-                exits.add((need.mask & field, need.value & field))
-        return exits
+    def _index(self, i: int, need: Need) -> None:
+        """By value and place, where a need is provided."""
+        value = need.value & self._field
+        robots = [robot for robot, field in self._places.field.items() if need.mask & field]
+        for robot in robots:
+            spots = self._at_place.setdefault((value, robot), {})
+            spots.setdefault(need.value & self._places.field[robot], []).append(i)
+        if robots:
+            self._detached.setdefault(value, []).append((i, sum(robots)))
+        else:
+            self._anyhow.setdefault(value, []).append(i)
+
+    def _exits(self, value: int, robot: int) -> set[int]:
+        """Places in which something can happen to the value (-1: anywhere)."""
+        return {*self._acts.by_place(value, robot), *self._at_place.get((value, robot), ())}
 
     def _accept(self, spot: Spot, cost: int) -> None:
+        """Note the needs that are provided at a spot."""
         value, team, robot, place = spot
-        for i, need, robots in self._needs:
-            if value & need.mask != need.value & self._field:
-                continue
-            if not robots:
-                fits = True
-            elif robots & robot:
-                field = self._places.field[robot]
-                fits = place & need.mask == need.value & field
-            else:
-                fits = not robot and not robots & team
-            if fits:
-                self._accepted.setdefault(i, []).append(spot)
-                self.cost.setdefault(i, cost)
-
-    def _robots_of(self, need: Need) -> int:
-        """Robots whose place a need asks for."""
-        return sum(robot for robot, field in self._places.field.items() if need.mask & field)
+        found = list(self._anyhow.get(value, ()))
+        if robot:
+            found += self._at_place.get((value, robot), {}).get(place, ())
+        else:
+            found += [i for i, robots in self._detached.get(value, ()) if not robots & team]
+        for i in found:
+            self._accepted.setdefault(i, []).append(spot)
+            self.cost.setdefault(i, cost)
 
     def distances(self, need: int) -> "Distances":
         """Backward from a need, over what :meth:`explore` has seen."""
@@ -299,6 +307,12 @@ class Distances:
             if weight < best:
                 best = weight
         return best
+
+
+def _with_anywhere(by_place: dict[int, list[Item]], place: int) -> list[Item]:
+    anywhere = by_place.get(-1)
+    known = by_place.get(place, [])
+    return known + anywhere if anywhere else known
 
 
 def _mentions(op: Op, field: int) -> bool:

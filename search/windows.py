@@ -89,23 +89,24 @@ def _along(
         spent.append(cost)
         state = state & op.keep | op.put
         cost += option.weight
-    openings = Openings(len(plan), _reach(tables, horizon, limit))
+    floor = [base + tables.bound(at) for base, at in sources]
+    openings = Openings(len(plan), _reach(tables, horizon, limit), floor)
     corridors = []
     for first, end in providers.phases(len(plan)):
         corridor = ways.explore(sources[first:end], limit)
         ids = {providers.at(need, first): need for need in corridor.totals}
-        openings.add(first, end, corridor.without, {i: corridor.totals[need] for i, need in ids.items()})
+        openings.add(end, corridor.without, {i: corridor.totals[need] for i, need in ids.items()})
         corridors.append((first, end, corridor, ids))
-    openings.latest = {i: horizon - 1 - ways.steps_after[providers.touched(i)] for i in openings.later}
-    least = {i: row[0] for i, row in openings.later.items()}
+    least = openings.least
+    openings.latest = {i: horizon - 1 - ways.steps_after[providers.touched(i)] for i in least}
     if idle or not least:
         return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), no_bound
 
-    def total(need: int, cost: int) -> int:
-        return openings.total(need, cost, providers.epochs(cost))
+    def pays(cost: int) -> bool:
+        return cost + openings.least_after(providers.epochs(cost)) < limit
 
-    costs = providers.costs(sorted(least), limit - min(least.values()), horizon)
-    paying = survivors(costs, limit, total)
+    costs = providers.costs(sorted(least), pays)
+    paying = survivors(costs, limit, lambda i, cost: openings.rough(i, cost, providers.epochs(cost)))
     if paying is None:
         return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), no_bound
     for first, end, corridor, ids in corridors:
@@ -113,7 +114,7 @@ def _along(
             rest = corridor.through(ids[i])
             at = [(base, state & tables.touches.mask) for base, state in sources[first:end]]
             openings.refine(i, first, [base + rest.get(place, INFINITE_KEY) for base, place in at])
-    paying = [i for i in paying if total(i, costs[i]) < limit]
+    paying = [i for i in paying if openings.total(i, costs[i], providers.epochs(costs[i])) < limit]
     provided = providers.provided(paying, horizon)
     off_plan = [(providers.touched(need), provided[need]) for need in paying]
     return HelpedOnTheWay(openings, spent, {**provided}), Helped(tables.bound, ways, off_plan, horizon)
@@ -138,8 +139,12 @@ def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) 
             in_time = providers.epochs(cost) < last - ways.steps_after[need]
             return least[need] + cost if in_time else INFINITE_KEY
 
-        room = limit - min(least.values(), default=limit)
-        paying = survivors(providers.costs(sorted(least), room, last), limit, total)
+        start = min(least.values(), default=limit)
+
+        def pays(cost: int) -> bool:
+            return start + cost < limit and providers.epochs(cost) < last
+
+        paying = survivors(providers.costs(sorted(least), pays), limit, total)
         if paying is not None:
             untouched = Helped(tables.bound, ways, list(providers.provided(paying, last).items()), last)
     return Bounds(tables.bound, tables.steps, untouched, tables.touches)
