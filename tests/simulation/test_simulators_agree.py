@@ -1,12 +1,17 @@
 """The simulator of the search and the one of the verifier tell the same story."""
 
-from hypothesis import given
+from hypothesis import given, settings
 
 from search.simulation import simulate
 from tests.simulation.strategies import Played, played
 from verify.simulator import play
 
 
+EXAMPLES = 10_000 if settings().max_examples > 1000 else 300
+"""More than other tests take: the stories differ in many ways, and each is quick to tell."""
+
+
+@settings(max_examples=EXAMPLES)
 @given(played())
 def test_simulators_agree(case: Played) -> None:
     asked = {"human_model": case.human_model, "horizon": case.horizon, "visible": case.visible}

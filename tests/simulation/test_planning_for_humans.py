@@ -1,0 +1,96 @@
+"""Options, edge cases and proofs of planning under a human model."""
+
+import pytest
+
+import serendipity
+from serendipity import UsageError
+from tests.builders import task
+from tests.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8
+
+MODELS = ["observant", "local"]
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_no_plan_alone_is_infeasible(model: str) -> None:
+    result = serendipity.plan(case_8(), human_model=model)
+    assert (result.status, result.reason) == ("infeasible", "no-human-plan")
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_goal_that_holds_already(model: str) -> None:
+    built = task(goal="p", init="p", actions={"do h": "-> q"})
+    result = serendipity.plan(built, human_model=model)
+    assert (result.status, result.cost, result.horizon, result.plan) == ("optimal", 0.0, 0, ())
+    assert result.realised["observant"] is True
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_given_plan_that_he_would_drop(model: str) -> None:
+    """He takes the short way as soon as he looks up, without any help."""
+    built = task(
+        goal="p", init="a", actions={"do1 h": "a -> b !a @ 2", "do2 h": "b -> p", "short h": "a -> p"}
+    )
+    result = serendipity.plan(built, human_model=model, human_plan=["do1 h", "do2 h"])
+    assert result.saving_alone == 2.0
+    assert not result.opportunity
+    assert result.plan is not None
+    assert [step.action for step in result.plan] == ["do1 h", "do2 h"]
+    assert serendipity.verify(built, result).verdict != "refuted"
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_robots_see_to_their_own_goal_beside_him(model: str) -> None:
+    built = task(goal="p", robot_goal="q", actions={"do h": "-> p", "x r": "-> q"})
+    result = serendipity.plan(built, human_model=model)
+    assert (result.status, result.cost, result.opportunity) == ("optimal", 2.0, False)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_robots_goal_out_of_reach(model: str) -> None:
+    built = task(goal="p", robot_goal="z", actions={"do h": "-> p", "x r": "-> q", "y r": "q -> z"})
+    result = serendipity.plan(built, human_model=model)
+    assert (result.status, result.reason) == ("infeasible", "no-plan-within-horizon")
+
+
+def test_case_3_both_ways_are_as_long_so_he_keeps_to_his() -> None:
+    result = serendipity.plan(case_3(), discount=0.9, human_model="observant", human_plan=CASE_3_PLAN)
+    assert not result.opportunity
+
+
+def test_ties_under_a_local_human_are_those_of_the_paper() -> None:
+    """He does not see that the kit is gone, so via r he is met; via s he is not."""
+    costs = {
+        ties: serendipity.plan(case_4(), discount=0.9, human_model="local", ties=ties).cost
+        for ties in ("fixed", "optimistic", "robust", "expected")
+    }
+    assert costs == {"fixed": 6.2, "optimistic": 6.2, "robust": 8.0, "expected": 7.1}
+
+
+def test_max_cost_leaves_doing_nothing() -> None:
+    result = serendipity.plan(case_1(), discount=0.9, human_model="observant", max_cost=8)
+    assert (result.status, result.cost, result.opportunity) == ("optimal", 10.0, False)
+
+
+def test_time_limit_of_nothing_says_so() -> None:
+    result = serendipity.plan(case_1(), human_model="observant", time_limit=0)
+    assert (result.status, result.reason) == ("unknown", "time-limit")
+
+
+def test_answers_get_better_and_bounds_rise() -> None:
+    answers = list(serendipity.plan_anytime(case_1(), discount=0.9, human_model="observant"))
+    assert [answer.status for answer in answers[:-1]] == ["feasible"] * (len(answers) - 1)
+    costs = [answer.cost for answer in answers if answer.cost is not None]
+    bounds = [answer.lower_bound for answer in answers if answer.lower_bound is not None]
+    assert costs == sorted(costs, reverse=True)
+    assert bounds == sorted(bounds)
+    assert bounds[-1] == costs[-1] == 8.4
+
+
+def test_other_modes_refuse_a_human_model() -> None:
+    with pytest.raises(UsageError, match="human_model: 'local' is for serendipity mode only"):
+        serendipity.plan(case_1(), mode="composite", human_model="local")
+
+
+def test_horizon_shorter_than_his_plan() -> None:
+    with pytest.raises(UsageError, match="horizon: expected at least 10"):
+        serendipity.plan(case_1(), human_model="observant", horizon=9)
