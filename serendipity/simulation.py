@@ -100,6 +100,9 @@ class _Story:
         self.human_model = human_model
         self.simulated = simulated
         self.promised = result.cost
+        self.his_steps = {
+            step.epoch: step.action for step in result.plan or () if result.human in step.agents
+        }
         # Rounding keeps the order, so a plan that costs no more never seems to.
         self.cost = float(simulated.cost)
 
@@ -120,9 +123,23 @@ class _Story:
         for epoch in self.simulated.epochs:
             for skip in epoch.skipped:
                 return f"epoch {epoch.epoch}: {self._name(skip.action)} does not happen, {WHY[skip.why]}"
-        if not self.simulated.goals_hold:
-            return "the goals do not hold at the end"
-        return "it costs more" if self.cost > self.promised else None
+        if self.simulated.goals_hold and self.cost <= self.promised:
+            return None
+        miss = "it costs more" if self.simulated.goals_hold else "the goals do not hold at the end"
+        return f"{self._departure()}{miss}"
+
+    def _departure(self) -> str:
+        """The first epoch in which he does not do what the plan wants of him."""
+        for epoch in self.simulated.epochs:
+            did, wanted = (
+                epoch.own if epoch.accepted is None else epoch.accepted,
+                self.his_steps.get(epoch.epoch),
+            )
+            done = None if did is None else self._name(did)
+            if done != wanted:
+                deed, wish = done or "nothing", wanted or "nothing"
+                return f"epoch {epoch.epoch}: he does {deed}, where the plan has {wish}; "
+        return ""
 
     def _epochs(self) -> Iterator[TraceEpoch]:
         for epoch in self.simulated.epochs:
