@@ -92,6 +92,8 @@ def trails(scene: Scene) -> dict[str, Steps]:
         found[FORMER_TOKEN] = trail(layout, [frame.former_at for frame in scene.frames], 2)
     for n, agent in enumerate(scene.lanes):
         stops = [frame.at.get(agent) for frame in scene.frames]
+        if not layout.boxes.keys() >= set(stops) - {None}:
+            continue
         found[agent_key(agent)] = trail(layout, stops, 1 if n == 0 else n + 2)
     return found
 
@@ -121,7 +123,7 @@ def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)
         yield Text(x, y, label, size, FAINT_INK)
         if goal:
-            yield _flag(box.x - width / 2 - 18, box.y + _LABEL_AT)
+            yield _flag(x - width / 2 - 18, box.y + _LABEL_AT)
 
 
 def _outline(box: Box, *, in_plan: bool) -> Rect:
@@ -196,12 +198,18 @@ def _tokens(scene: Scene, epoch: int) -> Iterator[Shape]:
             paint = _person if agent == scene.human else _machine
             yield _token(agent_key(agent), now, paint(letters[agent], colours[agent]), scene.agents[agent])
     for index, name in enumerate(frame.objects):
-        if object_key(index) in ever:
-            text, width = pill(name)
-            box = Rect(
-                -width / 2, -PILL_HEIGHT / 2, width, PILL_HEIGHT, Style(PAPER, INK, 2), round=PILL_HEIGHT / 2
-            )
-            yield _token(object_key(index), now, (box, Text(0, 0, text, PILL_SIZE, INK)), name)
+        key = object_key(index)
+        if key in ever:
+            holder = now[key].holder if key in now else None
+            yield _token(key, now, _pill(name, None if holder is None else colours[holder]), name)
+
+
+def _pill(name: str, holder: str | None) -> tuple[Shape, ...]:
+    """An object; its outline takes the colour of who holds it."""
+    text, width = pill(name)
+    style = Style(PAPER, INK, 2) if holder is None else Style(PAPER, holder, 3.5)
+    half = PILL_HEIGHT / 2
+    return Rect(-width / 2, -half, width, PILL_HEIGHT, style, round=half), Text(0, 0, text, PILL_SIZE, INK)
 
 
 def _token(key: str, now: dict[str, Token], shapes: tuple[Shape, ...], title: str) -> Group:

@@ -17,7 +17,7 @@ from serendipity.show.timeline_picture import COLUMN, cursor, lane_labels, timel
 from serendipity.show.tokens import Token, agent_key, tokens
 
 _WIDE: Final = 1200.0
-_SMALLEST: Final = 0.4  # a building of nine cells on a phone
+_SMALLEST: Final = 0.46  # nearly all of a building of nine cells on a phone
 _SMALLEST_WIDE: Final = 0.65
 _LARGEST: Final = 1.35
 

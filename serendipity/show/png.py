@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _DPI = 72  # one unit of a picture is a point, so font sizes need no conversion
+_MOST_PIXELS = 10_000
 
 
 def png(picture: Picture, scale: float = 2.0) -> bytes:
@@ -17,7 +18,7 @@ def png(picture: Picture, scale: float = 2.0) -> bytes:
 
     Args:
         picture: what to paint.
-        scale: pixels per unit.
+        scale: pixels per unit; less where the picture would have more than 10,000 a side.
 
     Raises:
         UsageError: matplotlib is not installed.
@@ -27,6 +28,7 @@ def png(picture: Picture, scale: float = 2.0) -> bytes:
         from matplotlib.figure import Figure
     except ImportError:
         raise UsageError("PNG pictures need matplotlib: pip install serendipity[plot]") from None
+    scale = min(scale, _MOST_PIXELS / max(picture.width, picture.height))
     figure = Figure(figsize=(picture.width / _DPI, picture.height / _DPI), dpi=_DPI * scale)
     FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))

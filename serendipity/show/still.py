@@ -1,6 +1,7 @@
 """A still: title, the map at one epoch, the timeline in rows that fit below it, and a legend."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final
 
 from serendipity.show.drawing import Circle, Group, Line, Picture, Rect, Shape, Style, Text
@@ -13,6 +14,7 @@ from serendipity.show.timeline_picture import COLUMN, LABELS, columns, lane_labe
 _MARGIN: Final = 20.0
 _LEAST: Final = 1000.0
 _MOST_COLUMNS: Final = 15
+_WIDEST_MAP: Final = 2000.0
 
 
 def still(scene: Scene, epoch: int | None = None) -> Picture:
@@ -23,8 +25,12 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
         epoch: from 0 to the last frame's; None for the one that says most.
     """
     now = scene.key_epoch if epoch is None else epoch
+    visited = _visited(scene)
+    if scene.layout is not None and scene.layout.width > _WIDEST_MAP and visited:
+        scene = replace(scene, layout=scene.layout.around(visited))
     city = map_picture(scene, now)
-    per_row = min(columns(scene), _MOST_COLUMNS)
+    fitting = 0 if city is None else int((city.width - LABELS) / COLUMN)
+    per_row = min(columns(scene), max(_MOST_COLUMNS, fitting))
     wide = max(LABELS + per_row * COLUMN, 0 if city is None else city.width, _LEAST)
     shapes: list[Shape] = [
         Text(0, 14, headline(scene), 24, INK, "start", bold=True),
@@ -44,6 +50,14 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
         y += row.height + 14
     body = Group(tuple(shapes), _MARGIN, _MARGIN)
     return Picture(wide + 2 * _MARGIN, y + _MARGIN, (body,), f"{headline(scene)}. {subtitle(scene)}")
+
+
+def _visited(scene: Scene) -> set[str]:
+    """Where the human is, would have been, and where those are who do anything."""
+    acting = {scene.human, *(agent for act in scene.acts for agent in act.agents)}
+    found = {place for frame in scene.frames for agent, place in frame.at.items() if agent in acting}
+    former = {frame.former_at for frame in scene.frames if frame.former_at is not None}
+    return found | former | set(scene.goals)
 
 
 def _legend(scene: Scene) -> Iterator[Shape]:

@@ -62,6 +62,8 @@ def tokens(scene: Scene, frame: Frame) -> dict[str, Token]:
         crowd[str(frame.former_at)].append(FORMER)
     found: dict[str, Token] = {}
     for place, keys in crowd.items():
+        if place not in scene.layout.boxes:  # of a picture that shows a part of the map
+            continue
         box = scene.layout.boxes[place]
         for key, x in zip(keys, _row(box, len(keys), 2 * RADIUS + 10), strict=True):
             found[key] = Token((x, box.y + _AGENTS_AT))
@@ -73,9 +75,9 @@ def _objects(scene: Scene, frame: Frame, layout: Layout) -> dict[str, Token]:
     heaps: dict[str, list[tuple[int, int, str, int | None]]] = defaultdict(list)
     for index, (name, where) in enumerate(frame.objects.items()):
         place = where.place if where.holder is None else frame.at.get(where.holder)
-        if place is not None:
+        if place in layout.boxes:
             order = len(scene.lanes) if where.holder is None else scene.lanes.index(where.holder)
-            heaps[place].append((order, index, name, where.holder))
+            heaps[str(place)].append((order, index, name, where.holder))
     found = {}
     for place, heap in heaps.items():
         box = layout.boxes[place]

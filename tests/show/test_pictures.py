@@ -5,6 +5,7 @@ import re
 import sys
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -139,3 +140,14 @@ def test_labels_fit() -> None:
     assert size == 10
     assert wrapped("pick up medkit", 60, 13) == ("pick up", "medkit")
     assert wrapped("conducted_triage commx room1", 130, 12) == ("conducted_triage", "commx room1")
+
+
+def test_a_still_of_a_large_building_shows_the_part_that_matters(tmp_path: Path) -> None:
+    serendipity.generate_usar(tmp_path, rooms=84, medkits=4, robots=2, seed=3)
+    task = serendipity.load(tmp_path)
+    scene = build_scene(task, serendipity.plan(task, discount="0.9"))
+    assert scene.layout is not None
+    root = ET.fromstring(str(draw(scene, ".svg")))
+    assert float(root.attrib["width"]) < scene.layout.width
+    texts = {element.text for element in root.iter(f"{SVG}text")}
+    assert {place for frame in scene.frames for place in (frame.at[scene.human], frame.former_at)} <= texts

@@ -58,20 +58,31 @@
     id("slider").setAttribute("aria-valuetext", `${name}. ${met.join("; ")} ${frame.caption}`);
   }
 
-  function follow(scroller, middle) {
-    if (scroller.scrollWidth <= scroller.clientWidth) return;
-    scroller.scrollTo({ left: middle - scroller.clientWidth / 2, behavior: calm.matches ? "auto" : "smooth" });
+  const calmly = () => (calm.matches ? "auto" : "smooth");
+
+  function followLanes() {
+    const scroller = id("lane-scroller");
+    scroller.scrollTo({ left: (epoch + 0.5) * scene.column - scroller.clientWidth / 2, behavior: calmly() });
   }
 
   function followTokens(frame) {
     const map = id("map");
-    const spots = Object.entries(frame.tokens).filter(([key]) => key.startsWith("agent-")).map(([, spot]) => spot[0]);
-    if (!map || !spots.length) return;
+    const scroller = id("map-scroller");
+    const agents = Object.keys(frame.tokens).filter((key) => key.startsWith("agent-"));
+    if (!map || !agents.length) return;
+    const scrolls = scroller.scrollWidth > scroller.clientWidth || scroller.scrollHeight > scroller.clientHeight;
+    if (scrolls) scroller.tabIndex = 0;
+    else scroller.removeAttribute("tabindex");
     const scale = map.getBoundingClientRect().width / map.viewBox.baseVal.width;
-    const human = frame.tokens[scene.human] || [spots[0]];
-    const wide = (Math.max(...spots) - Math.min(...spots)) * scale > id("map-scroller").clientWidth * 0.8;
-    const middle = wide ? human[0] : (Math.max(...spots) + Math.min(...spots)) / 2;
-    follow(id("map-scroller"), (middle + scene.margin) * scale);
+    // All agents, where they fit; else the human, or whoever there is.
+    const centre = (axis, room) => {
+      const at = agents.map((key) => (frame.tokens[key][axis] + scene.margin) * scale);
+      const [least, most] = [Math.min(...at), Math.max(...at)];
+      const one = at[Math.max(0, agents.indexOf(scene.human))];
+      return (most - least < room * 0.8 ? (least + most) / 2 : one) - room / 2;
+    };
+    const left = centre(0, scroller.clientWidth);
+    scroller.scrollTo({ left, top: centre(1, scroller.clientHeight), behavior: calmly() });
   }
 
   function show(wanted) {
@@ -89,7 +100,7 @@
     all("tbody tr").forEach((row, i) => row.classList.toggle("now", i + 1 === epoch));
     for (const name of ["first", "back"]) id(name).disabled = epoch === 0;
     for (const name of ["forward", "end"]) id(name).disabled = epoch === last;
-    follow(id("lane-scroller"), (epoch + 0.5) * scene.column);
+    followLanes();
     followTokens(frame);
     if (epoch === last) pause();
   }
