@@ -22,8 +22,8 @@ class Change:
 
     Attributes:
         label: the fact, or what its values share.
-        goal: whether the human's goal names it.
-        spans: when it has which value; a fact by itself has spans only while it is true.
+        goal: whether it is a literal of the human's goal.
+        spans: when it has which value; a fact by itself, and a goal, only while it is true.
     """
 
     label: str
@@ -42,30 +42,42 @@ def find_changes(
         last: epoch up to which lanes are drawn; the last state lasts till then.
         hidden: facts that the map shows already.
     """
-    goals = {*task.goal.positive, *task.goal.negative}
+    lanes = [_goal(task, states, last, fact, wanted=True) for fact in task.goal.positive]
+    lanes += [_goal(task, states, last, fact, wanted=False) for fact in task.goal.negative]
+    shown = {*task.goal.positive, *task.goal.negative, *hidden}
     found = []
     for variable in task.variables:
-        goal = not goals.isdisjoint(variable.facts)
-        if not goal and not hidden.isdisjoint(variable.facts):
+        if (variable.boolean and variable.facts[0] in shown) or not hidden.isdisjoint(variable.facts):
             continue
         values = [tuple(f for f in variable.facts if f in state) for state in states]
         changes = [epoch for epoch in range(1, len(values)) if values[epoch] != values[epoch - 1]]
-        if changes or goal:
-            found.append((not goal, changes[:1], _lane(task, variable, goal, values, last)))
-    return tuple(change for *_, change in sorted(found, key=lambda entry: entry[:2]))
+        if changes:
+            names = [", ".join(task.facts[f] for f in value) for value in values]
+            found.append((changes[0], Change(_label(task, variable), False, _spans(names, last))))
+    found.sort(key=lambda entry: entry[0])
+    return (*lanes, *(change for _, change in found))
 
 
-def _lane(task: Task, variable: Variable, goal: bool, values: Sequence[tuple[int, ...]], last: int) -> Change:
+def _goal(task: Task, states: Sequence[frozenset[int]], last: int, fact: int, *, wanted: bool) -> Change:
+    """The lane of one literal of the goal: when it holds."""
+    name = task.facts[fact] if wanted else f"not {task.facts[fact]}"
+    return Change(name, True, _spans([name if (fact in state) == wanted else "" for state in states], last))
+
+
+def _spans(names: Sequence[str], last: int) -> tuple[Span, ...]:
+    """Runs of equal values; an empty one has no span."""
     spans: list[Span] = []
-    names = [", ".join(task.facts[f] for f in value) for value in values]
     for epoch, name in enumerate(names):
         end = last if epoch == len(names) - 1 else epoch
         if spans and spans[-1].last == epoch - 1 and spans[-1].value == name:
             spans[-1] = Span(spans[-1].first, end, name)
         elif name:
             spans.append(Span(epoch, end, name))
-    label = task.facts[variable.facts[0]] if variable.boolean else _shared(task, variable)
-    return Change(label, goal, tuple(spans))
+    return tuple(spans)
+
+
+def _label(task: Task, variable: Variable) -> str:
+    return task.facts[variable.facts[0]] if variable.boolean else _shared(task, variable)
 
 
 def _shared(task: Task, variable: Variable) -> str:

@@ -3,6 +3,7 @@
 Units are pixels at natural size, ``y`` grows downwards.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
@@ -108,11 +109,11 @@ def fitted(text: str, width: float, size: float, least: float, *, bold: bool = F
 
 
 def wrapped(text: str, width: float, size: float, lines: int = 2) -> tuple[str, ...]:
-    """A text in at most ``lines`` lines of a width, broken at blanks and after ``_``."""
+    """A text in at most ``lines`` lines of a width, broken at blanks and after ``_`` and ``-``."""
     most = max(1, int(width / size / LETTER))
     found = [""]
-    for word in text.replace("_", "_ ").split(" "):
-        gap = " " if found[-1] and not found[-1].endswith("_") else ""
+    for word in re.split(r" |(?<=[_-])", text):
+        gap = " " if found[-1] and found[-1][-1] not in "_-" else ""
         if found[-1] and len(found[-1]) + len(gap) + len(word) > most and len(found) < lines:
             found.append(word)
         else:

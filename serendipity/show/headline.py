@@ -28,9 +28,10 @@ def subtitle(scene: Scene) -> str:
     """Task, mode, options, costs and window."""
     result = scene.result
     words = [scene.name, result.mode]
-    if result.options.discount:
+    turns = result.mode == "assistance"
+    if result.options.discount and not turns:
         words.append(f"discount {number(float(result.options.discount))}")
-    if result.cost is not None and result.human_cost is not None:
+    if result.cost is not None and result.human_cost is not None and not turns:
         words.append(f"cost {number(result.human_cost)} → {number(result.cost)}")
     if result.window is not None:
         first, last = result.window.start, result.window.end - 1
@@ -47,6 +48,12 @@ def number(value: float | Fraction) -> str:
 
 def _saved(scene: Scene) -> str:
     result = scene.result
+    if result.mode == "assistance":
+        human = scene.agents[scene.human]
+        own = result.agent_costs.get(human, 0)
+        others = sum(Fraction(str(c)) for name, c in result.agent_costs.items() if name != human)
+        before = "" if result.human_cost is None else f"{number(result.human_cost)} → "
+        return f"{before}{number(own)} for {human}, {number(others)} for the others"
     if result.saving is None or result.human_cost is None or result.cost is None:
         return "a plan together"
     return f"cost {number(result.human_cost)} → {number(result.cost)}, {number(result.saving)} saved"

@@ -117,7 +117,7 @@ def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
     """Above the paths, on the colour of the floor so that both can be read."""
     for place, box in layout.boxes.items():
         goal = place in scene.goals
-        label, size = fitted(place, box.width - (36 if goal else 8), _LABEL_SIZE, 13)
+        label, size = fitted(place, box.width - (38 if goal else 14), _LABEL_SIZE, 13)
         x, y, width = box.x + (10 if goal else 0), box.y + _LABEL_AT, len(label) * size * LETTER
         floor = Style(CORRIDOR if box.corridor else FLOOR, opacity=0.85)
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)

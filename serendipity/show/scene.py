@@ -158,7 +158,7 @@ def build_scene(task: Task, result: Result) -> Scene:
         former_acts=tuple(chain.from_iterable(builder.acts(moment) for moment in former)),
         meetings=tuple(builder.meetings(moments)),
         window=result.window,
-        changes=find_changes(task, [moment.state for moment in moments], last, hidden.difference(goal)),
+        changes=find_changes(task, [moment.state for moment in moments], last, hidden),
         result=result,
     )
 

@@ -6,10 +6,12 @@ from fractions import Fraction
 import pytest
 
 import serendipity
-from serendipity.model import InputError, PlanStep, Window
+from serendipity.model import Condition, InputError, PlanStep, Window
 from serendipity.show import Scene, build_scene
+from serendipity.show.headline import headline
 from serendipity.show.places import Whereabouts
 from tests import cases
+from tests.builders import task
 from tests.cases import WORKED, Worked
 from tests.show.conftest import ground
 
@@ -121,3 +123,34 @@ def test_a_plan_that_does_not_fit_the_task_is_refused() -> None:
     stranger = replace(result, plan=(PlanStep(1, ("commx",), "move robot room4 hall4", 1.0),))
     with pytest.raises(InputError, match="commx"):
         build_scene(task, stranger)
+
+
+def test_goals_are_lanes_that_end_when_they_are_destroyed() -> None:
+    actions = {"do h": "-> p !q", "undo h": "p -> !p", "rest r": "-> q"}
+    built = task(init="q", goal="p !q", actions=actions)
+    result = serendipity.plan(built, mode="individual")
+    steps = [
+        PlanStep(i, (who,), f"{verb} {who}", 1.0)
+        for i, (verb, who) in enumerate([("do", "h"), ("undo", "h"), ("rest", "r"), ("do", "h")], 1)
+    ]
+    scene = build_scene(built, replace(result, plan=tuple(steps)))
+    spans = {change.label: [(span.first, span.last) for span in change.spans] for change in scene.changes}
+    assert spans == {"p": [(1, 1), (4, 4)], "not q": [(1, 2), (4, 4)]}
+    assert all(change.goal for change in scene.changes)
+
+
+def test_where_the_human_has_to_be_is_a_goal_on_the_map_and_in_the_lanes() -> None:
+    built = replace(cases.case_2(), goal=Condition((cases.case_2().facts.index("at h u"),)))
+    scene = build_scene(built, serendipity.plan(built, discount="0.5"))
+    assert scene.goals == ("u",)
+    (goal,) = [change for change in scene.changes if change.goal]
+    assert goal.label == "at h u"
+    assert [(span.first, span.last) for span in goal.spans] == [(4, 4)]
+
+
+def test_assistance_goes_turn_by_turn() -> None:
+    built = cases.case_6()  # close x, then carry: the second needs what the first did
+    result = serendipity.plan(built, mode="assistance", ties="optimistic")
+    scene = build_scene(built, result)
+    assert scene.frames[-1].spent == {0: 0, 1: 2}
+    assert headline(scene) == "The robots help p: 2 → 0 for p, 2 for the others"
