@@ -41,7 +41,7 @@ class Answer:
         """Why there is no plan, or None."""
         if self.cost is not None:
             return None
-        if self.call.human_plan is None and self.call.options.mode in ("serendipity", "individual"):
+        if self.call.human_plan is None and self.call.needs_pi_h:
             return "no-human-plan"
         return "no-plan"
 
@@ -53,8 +53,7 @@ def answer(call: Call) -> Answer:
         UndecidedError: a minimum could not be proved in time.
         UsageError: the call needs a horizon.
     """
-    mode = call.options.mode
-    if mode == "individual" or (mode == "serendipity" and call.human_plan is None):
+    if call.options.mode == "individual" or (call.needs_pi_h and call.human_plan is None):
         return Answer(call, None, opportunity=False)
     found = best_plan(call)
     idle = idle_cost(call)

@@ -57,6 +57,11 @@ class Call:
         return asked
 
     @property
+    def needs_pi_h(self) -> bool:
+        """Whether there is no answer without a plan of the human's: nothing to preserve (SPEC 3.5)."""
+        return self.options.windowed or self.options.mode == "individual"
+
+    @property
     def robots_goal(self) -> bool:
         """Whether robots have goals of their own."""
         return bool(self.task.robot_goal) and self.options.mode != "individual"

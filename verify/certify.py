@@ -216,7 +216,7 @@ class _Certifier:
         names = result.human_plan
         plan: HumanPlan | None = None if names is None else replay_human(self.task, names)
         call = Call(self.task, result.options, plan, self.plans, self.effort)
-        if plan is not None or result.mode not in ("individual", "serendipity"):
+        if plan is not None or not call.needs_pi_h:
             assert call.horizon is not None
         sets = replay(self.task, result.plan or (), strict=result.options.strict).sets
         steps = tuple(Step(epoch, i) for epoch, chosen in sets.items() for i in chosen)

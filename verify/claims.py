@@ -138,7 +138,7 @@ class Examiner:
     def infeasible(self) -> Verdict:
         """There is no plan at all."""
         call = self.call
-        if call.options.mode in ("individual", "serendipity") and call.human_plan is None:
+        if call.needs_pi_h and call.human_plan is None:
             if call.plans.worth(call.task.init) is None:
                 return "proved", "all states that the human reaches alone were visited", None
             return "refuted", "the human has a plan alone", None

@@ -88,7 +88,7 @@ def _infeasible(call: Call, reason: str | None) -> Result:
 
 
 def _horizon(call: Call) -> int | str | None:
-    if call.human_plan is None and call.options.mode in ("serendipity", "individual"):
+    if call.human_plan is None and call.needs_pi_h:
         return None
     return len(call.human_plan or ()) if call.options.mode == "individual" else call.horizon
 

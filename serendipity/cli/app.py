@@ -10,6 +10,7 @@ import typer
 
 from serendipity import __version__
 from serendipity.cli import (
+    crosscheck,
     examples,
     explain,
     generate,
@@ -18,6 +19,7 @@ from serendipity.cli import (
     reproduce,
     show,
     simulate,
+    solve,
     verify,
 )
 from serendipity.cli.exit_codes import ExitCode
@@ -43,6 +45,8 @@ app.command("explain", epilog=epilog("explain"))(explain.explain)
 app.command("interruptions", epilog=epilog("interruptions"))(interruptions.interruptions)
 app.command("reproduce", epilog=epilog("reproduce"))(reproduce.reproduce)
 app.command("show", epilog=epilog("show"))(show.show)
+app.command("solve", epilog=epilog("solve"))(solve.solve)
+app.command("crosscheck", epilog=epilog("crosscheck"))(crosscheck.crosscheck)
 app.command("examples", epilog=epilog("examples"))(examples.examples)
 app.add_typer(generate.app, name="generate")
 

@@ -12,6 +12,8 @@ EXAMPLES: Final = (
     "serendipity plan --example room2 --discount 0.9 --human-model observant",
     "serendipity show --example room7 help.json -o help.html",
     "serendipity show --example room7 help.json --epoch 6 -o help.svg",
+    "serendipity solve --example room7 --discount 0.6 --mode communication --solver highs",
+    "serendipity crosscheck --count 5 --judges search,automata",
     "serendipity generate usar --rooms 30 --medkits 3 --seed 7 -o building",
     "serendipity plan building --discount 0.9",
     "serendipity generate usar --preset figure2 --seed 7 --layout pair -o figure2",

@@ -33,7 +33,7 @@ def horizon(case: Case) -> Found | None:
     result = case.result
     asked, said = result.options.horizon, result.horizon
     if result.status == "unknown" or (
-        case.human_plan is None and result.mode in ("individual", "serendipity")
+        case.human_plan is None and (result.mode == "individual" or result.options.windowed)
     ):
         return None
     expected: int | str | None = asked

@@ -1,0 +1,87 @@
+"""``serendipity solve``: the integer program as a planner of its own."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import serendipity
+from serendipity.cli import naming, output, plan_options
+from serendipity.cli.exit_codes import OF_STATUS, ExitCode
+from serendipity.cli.human_plan import read_human_plan
+
+
+def solve(
+    files: naming.Files = None,
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    mode: plan_options.Mode = None,
+    discount: plan_options.Discount = None,
+    horizon: plan_options.Horizon = None,
+    human_plan: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
+    ] = None,
+    window_weight: plan_options.WindowWeight = None,
+    max_window: plan_options.MaxWindow = None,
+    suffix: plan_options.Suffix = None,
+    preservation: plan_options.Preservation = None,
+    interference: plan_options.Interference = None,
+    max_cost: plan_options.MaxCost = None,
+    communication_weight: plan_options.CommunicationWeight = None,
+    keep_prefix: plan_options.KeepPrefix = None,
+    ties: plan_options.Ties = None,
+    max_ties: plan_options.MaxTies = None,
+    time_limit: plan_options.TimeLimit = None,
+    solver: Annotated[str, typer.Option(help="highs or cbc.", metavar="highs|cbc")] = "highs",
+    encoding: Annotated[
+        str, typer.Option(help="Agent automata, or the paper's equations.", metavar="automata|paper")
+    ] = "automata",
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Answer as `plan` does, by integer programming alone: slower, and independent of the search."""
+    from serendipity.planning import options_from
+    from verify.solve import solve as by_program
+
+    output.start_logging(verbose)
+    form = output.choose_format(format, output_file)
+    output.check_output(output_file)
+    name = naming.TaskName(
+        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    options = options_from(
+        plan_options.given(
+            mode=mode,
+            discount=discount,
+            horizon=horizon,
+            window_weight=window_weight,
+            max_window=max_window,
+            suffix=suffix,
+            preservation=preservation,
+            interference=interference,
+            max_cost=max_cost,
+            communication_weight=communication_weight,
+            keep_prefix=keep_prefix,
+            ties=ties,
+            max_ties=max_ties,
+            time_limit=time_limit,
+        )
+    )
+    given = None if human_plan is None else read_human_plan(human_plan).checked(task)
+    result = by_program(task, options, human_plan=given, encoding=encoding, solver=solver)
+    certificate = serendipity.check(task, result)
+    if form == "json":
+        output.write_answer(output.as_json(result.to_dict()), output_file)
+    else:
+        from serendipity.cli.text import plan_report
+
+        output.write_answer(plan_report(task, result, certificate, claims=False), output_file)
+    return ExitCode.REFUTED if certificate.verdict == "refuted" else OF_STATUS[result.status]

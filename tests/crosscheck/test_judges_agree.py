@@ -1,0 +1,115 @@
+"""Search, integer programs and certificates agree on random calls; a disagreement is found and shrunk."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from serendipity import Result, load
+from serendipity.cli.app import main
+from serendipity.crosscheck import JUDGES, PlanCall, command_line, compare, random_call, shrink, write_case
+from serendipity.crosscheck import judges as judging
+from tests.cases import case_4
+
+seeds = st.integers(0, 10**9)
+
+
+@given(seeds)
+def test_search_and_automata_agree(seed: int) -> None:
+    found = compare(random_call(seed), {name: JUDGES[name] for name in ("search", "automata")})
+    assert found is None, str(found)
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_all_judges_agree(seed: int) -> None:
+    found = compare(random_call(seed), JUDGES)
+    assert found is None, str(found)
+
+
+def test_a_program_that_a_presolve_called_infeasible() -> None:
+    """HiGHS 1.14 with its presolve finds no plan below 4 in the paper's program."""
+    call = random_call(271)
+    assert call.options["suffix"] == "subplan", "the generator has changed: find another such call"
+    assert {JUDGES[name](call).cost for name in ("search", "automata", "paper", "cbc")} == {1.0}
+
+
+def _blind(call: PlanCall) -> Result:
+    """A judge that overlooks every opportunity."""
+    answer = JUDGES["search"](call)
+    if not answer.opportunity or answer.human_cost is None:
+        return answer
+    return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
+
+
+def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
+    judges = {"search": JUDGES["search"], "blind": _blind}
+    call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9", "interference": "strict"})
+    assert compare(call, judges) is not None
+    smallest = shrink(call, lambda smaller: compare(smaller, judges) is not None)
+    found = compare(smallest, judges)
+    assert found is not None
+    assert "refuted" in found.said["blind"]
+    assert len(smallest.task.actions) < 12 < len(call.task.actions)
+    assert "interference" not in smallest.options
+    commands = write_case(found, tmp_path / "case")
+    assert f"serendipity plan {tmp_path / 'case'} --human h" in commands.read_text()
+    task = load(tmp_path / "case", human="h")
+    assert JUDGES["search"](replace(smallest, task=task)).cost == JUDGES["search"](smallest).cost
+
+
+def test_command_lines_quote_nothing_away() -> None:
+    call = PlanCall(case_4(), {"mode": "communication", "keep_prefix": "true", "max_window": "2"})
+    words = command_line(call, Path("a b"), "solve --encoding paper")
+    assert words == (
+        "serendipity solve --encoding paper 'a b' --human h --mode communication --keep-prefix --max-window 2"
+    )
+
+
+# -- the command
+
+
+def test_command_on_random_calls(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["crosscheck", "--count", "3", "--seed", "5", "--judges", "search,automata"]) == 0
+    assert capsys.readouterr().out == "3 calls, search, automata: 0 disagreements\n"
+
+
+def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["crosscheck", "--judges", "search,oracle"]) == 2
+    assert "expected some of search, automata, paper, cbc, got 'oracle'" in capsys.readouterr().err
+
+
+def test_command_writes_a_disagreement(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(judging.JUDGES, "search", _blind_of(judging.JUDGES["search"]))
+    folder = tmp_path / "case"
+    words = ["crosscheck", "--count", "200", "--judges", "search,automata", "-o", str(folder)]
+    assert main(words) == 1
+    assert "a disagreement" in capsys.readouterr().out
+    assert (folder / "commands.txt").exists()
+
+
+def _blind_of(judge: judging.Judge) -> judging.Judge:
+    def blind(call: PlanCall) -> Result:
+        answer = judge(call)
+        if not answer.opportunity or answer.human_cost is None:
+            return answer
+        return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
+
+    return blind
+
+
+@pytest.mark.parametrize("encoding", ["automata", "paper"])
+def test_solve_answers_like_plan(encoding: str, tmp_path: Path) -> None:
+    answers = []
+    for command in ("plan", f"solve --encoding {encoding} --solver highs"):
+        file = tmp_path / "answer.json"
+        words = [*command.split(), "--example", "room2", "--discount", "0.6", "--mode", "individual"]
+        assert main([*words, "--format", "json", "-o", str(file)]) == 0
+        answers.append(Result.from_dict(json.loads(file.read_text())))
+    assert answers[0].plan == answers[1].plan
+    assert answers[0].cost == answers[1].cost == 13.0
