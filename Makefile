@@ -4,7 +4,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test test-browser check bench fuzz requirements clean
+.PHONY: help .venv demo test test-browser check docs bench fuzz requirements clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z.]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -49,6 +49,15 @@ test-browser: $(READY)  ## play the page of `show` in a headless Chromium, which
 check: $(READY)  ## what has to hold before a commit: tests, ruff, mypy, import contracts
 	@.ci/run
 
+docs: $(READY)  ## build the documentation into build/docs; a broken link or any warning is an error
+	@$(BIN)/python -c 'import material' 2>/dev/null \
+	  || { if command -v uv >/dev/null 2>&1; then \
+	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-docs.txt; \
+	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+	         -r requirements-docs.txt; fi; }
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict --site-dir build/docs
+	@echo "build/docs/index.html"
+
 bench: $(READY)  ## measure parsing, search and the whole process on the 200 problems of the paper
 	@$(BIN)/python -m benchmarks.usar
 
@@ -62,6 +71,8 @@ requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	  --no-emit-index-url --extra dev -c requirements.txt pyproject.toml -o requirements-dev.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	  --no-emit-index-url --extra browser -c requirements-dev.txt pyproject.toml -o requirements-browser.txt
+	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
+	  --no-emit-index-url --extra docs -c requirements-dev.txt pyproject.toml -o requirements-docs.txt
 
 clean:  ## remove the environment and all caches
 	@rm -rf .venv .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache build dist *.egg-info

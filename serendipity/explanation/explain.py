@@ -112,8 +112,7 @@ def _given(task: Task, result: Result | None, human_plan: Iterable[str] | None) 
 
 def _explained(ask: Ask, answer: Result) -> Explanation:
     options, has_plan = ask.options, answer.human_plan is not None
-    # With goals of the robots' own, or a plan that he can improve alone, "doing nothing" has no fixed price.
-    priced = has_plan and not ask.task.robot_goal and not answer.saving_alone
+    priced = has_plan and _has_thresholds(ask, answer)
     report = _report(ask) if has_plan and options.mode == "serendipity" else None
     told = None
     if has_plan and options.mode == "serendipity":
@@ -132,6 +131,15 @@ def _explained(ask: Ask, answer: Result) -> Explanation:
         misses=() if answer.opportunity or not has_plan else misses(ask, report),
     )
     return replace(found, sentences=tuple(sentences(found)))
+
+
+def _has_thresholds(ask: Ask, answer: Result) -> bool:
+    """Whether "doing nothing" has a fixed price, and price is all that stops a plan.
+
+    Not with goals of the robots' own, a plan that he can improve alone, or a limit on cost.
+    """
+    limited = ask.options.max_cost not in (None, "human")
+    return not (ask.task.robot_goal or answer.saving_alone or limited)
 
 
 def _report(ask: Ask) -> InterruptionReport:

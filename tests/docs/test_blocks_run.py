@@ -1,0 +1,55 @@
+"""Every code block of the documentation runs, page by page in one folder, and prints what is shown."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.docs.blocks import PAGES, ROOT, Block, assert_shown, blocks, run
+
+RUN = ("bash", "python")
+SHOWN = ("pddl", "text")
+
+
+def pages_with(*, slow: bool) -> list[Path]:
+    return [page for page in PAGES if any(b.language in RUN and b.slow == slow for b in blocks(page))]
+
+
+def name(page: Path) -> str:
+    return str(page.relative_to(ROOT / "docs"))
+
+
+@pytest.mark.parametrize("page", pages_with(slow=False), ids=name)
+def test_blocks_run(page: Path, tmp_path: Path) -> None:
+    printed: str | None = None
+    for block in blocks(page):
+        if block.language in RUN and not block.slow:
+            printed = run(block, tmp_path)
+        elif block.language == "text" and printed is not None:
+            assert_shown(block, printed)
+            printed = None
+        elif block.title:
+            (tmp_path / block.title).write_text(block.text)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", pages_with(slow=True), ids=name)
+def test_slow_blocks_run(page: Path, usar200: Path, tmp_path: Path) -> None:
+    (tmp_path / "usar200").symlink_to(usar200)
+    (tmp_path / "benchmarks").symlink_to(ROOT / "benchmarks")
+    for block in blocks(page):
+        if block.slow:
+            run(block, tmp_path)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_every_block_is_of_a_known_kind(page: Path) -> None:
+    for block in blocks(page):
+        assert block.language in (*RUN, *SHOWN), block
+
+
+def test_a_line_that_was_not_printed_is_noticed() -> None:
+    shown = Block("text", "a\n...\nc\n", "", slow=False)
+    assert_shown(shown, "a\nb\nc\n")
+    for printed in ("a\nb\n", "c\na\n"):
+        with pytest.raises(AssertionError):
+            assert_shown(shown, printed)

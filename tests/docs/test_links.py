@@ -1,0 +1,53 @@
+"""Links between pages lead somewhere, all pages are in the navigation, all commands in the reference."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.cli.app import app
+from tests.docs.blocks import PAGES, ROOT
+
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
+
+
+def anchor(heading: str) -> str:
+    """The anchor that Markdown gives a heading."""
+    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading.lower()).strip())
+
+
+def test_anchors_are_those_of_markdown() -> None:
+    assert anchor("3.2 Interruptibility report") == "32-interruptibility-report"
+    assert anchor("3.1 Serendipity: windows") == "31-serendipity-windows"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+    for link in LINK.findall(text):
+        if link.startswith("https://"):
+            continue
+        path, _, fragment = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        assert target.is_file(), link
+        if fragment:
+            assert fragment in {anchor(heading) for heading in HEADING.findall(target.read_text())}, link
+
+
+def test_all_pages_are_in_the_navigation() -> None:
+    listed = set(re.findall(r"[\w/-]+\.md", (ROOT / "mkdocs.yml").read_text()))
+    assert listed == {str(page.relative_to(ROOT / "docs")) for page in PAGES}
+
+
+def test_all_public_names_are_in_the_reference() -> None:
+    text = (ROOT / "docs/reference/python.md").read_text()
+    assert set(re.findall(r"<!-- public: (\w+) -->", text)) == set(serendipity.__all__) - {"__version__"}
+
+
+def test_all_commands_are_in_the_reference() -> None:
+    text = (ROOT / "docs/reference/commands.md").read_text()
+    shown = {command.split()[0] for command in re.findall(r"<!-- help: (.*?) -->", text)}
+    commands = {info.name for info in app.registered_commands} | {info.name for info in app.registered_groups}
+    assert shown == commands
