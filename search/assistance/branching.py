@@ -18,6 +18,8 @@ from search.assistance.rules import Rule, Value
 from search.assistance.solution import Costs, Entry, Solution
 
 _CHECK_EVERY = 32
+_MOST_BACKUPS = 1000
+_MOST_IDLE_PASSES = 20
 
 
 class Branching:
@@ -55,8 +57,7 @@ class Branching:
             self._upper = self._rule.lift(alone)
             yield
         while graph.choice_value(game.init) < self._upper:
-            while self._pass():
-                pass
+            self._raise_bounds()
             policy = self._best_policy()
             values = evaluate(policy, self._rule, self._outside, game.clock)
             value = values.get(game.init, self._rule.infinite)
@@ -65,6 +66,15 @@ class Branching:
                 yield
             if graph.choice_value(game.init) < self._upper:
                 solve_all(graph, game.clock)
+
+    def _raise_bounds(self) -> None:
+        """Pass until nothing rises, or nothing new is looked at for a while: then runs return."""
+        graph, idle = self._graph, 0
+        while idle < _MOST_IDLE_PASSES:
+            known = len(graph.replies)
+            if not self._pass():
+                return
+            idle = 0 if len(graph.replies) > known else idle + 1
 
     def _pass(self) -> bool:
         """Walk once through the best policy; whether a bound rose."""
@@ -87,7 +97,8 @@ class Branching:
     def _step(self, state: int, seen: set[int]) -> tuple[bool, int | None]:
         """Back a choice up; whether it rose, and an outcome that was not visited yet."""
         graph, rose = self._graph, False
-        while True:
+        # A run that returns to the state at once could raise its bound for ever.
+        for _ in range(_MOST_BACKUPS):
             move, value = graph.best(state)
             if value > graph.choice_value(state):
                 graph.low[state] = value
@@ -98,6 +109,7 @@ class Branching:
                 return rose, None
             if not graph.back_up_reply(move.after):
                 return rose, self._next(move, seen)
+        return rose, None
 
     def _next(self, move: Move, seen: set[int]) -> int | None:
         for outcome in self._graph.replies[move.after]:

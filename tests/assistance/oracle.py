@@ -1,0 +1,205 @@
+"""Silent assistance by brute force (SPEC 7): every state, every policy; no bound, no cleverness."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from heapq import heappop, heappush
+from typing import NamedTuple
+
+from serendipity.model import GroundAction, Task
+
+State = frozenset[int]
+Costs = tuple[Fraction, Fraction]
+
+FREE: Costs = (Fraction(0), Fraction(0))
+
+
+class Outcome(NamedTuple):
+    """What one of the prime's optimal actions leads to, from before his move."""
+
+    cost: Fraction
+    state: State
+
+
+class Choice(NamedTuple):
+    """One thing that the supporter may do, and what may come of it; none where it ends the game."""
+
+    cost: Fraction
+    outcomes: tuple[Outcome, ...]
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The whole game from ``I``: per state with the supporter to move all its choices."""
+
+    task: Task
+    choices: dict[State, list[Choice]]
+
+    def final(self, state: State) -> bool:
+        return self.task.goal.holds(state)
+
+
+def after(action: GroundAction, state: State) -> State:
+    return state.difference(action.delete).union(action.add)
+
+
+def alone(task: Task, start: State) -> tuple[Fraction, int] | None:
+    """His optimal (cost, length) by himself, or None."""
+    queue: list[tuple[Fraction, int, list[int]]] = [(Fraction(0), 0, sorted(start))]
+    closed: set[State] = set()
+    while queue:
+        cost, length, facts = heappop(queue)
+        state = frozenset(facts)
+        if task.goal.holds(state):
+            return cost, length
+        if state in closed:
+            continue
+        closed.add(state)
+        for i in task.human_actions:
+            action = task.actions[i]
+            if action.applicable(state):
+                heappush(queue, (cost + action.cost, length + 1, sorted(after(action, state))))
+    return None
+
+
+def optimal_actions(task: Task, state: State) -> list[GroundAction]:
+    """Those that start one of his optimal plans, in the order of names."""
+    optimum = alone(task, state)
+    found = []
+    for i in task.human_actions:
+        action = task.actions[i]
+        if optimum is not None and action.applicable(state):
+            rest = alone(task, after(action, state))
+            if rest is not None and (rest[0] + action.cost, rest[1] + 1) == optimum:
+                found.append(action)
+    return found
+
+
+def explore(task: Task, *, fixed: bool, no_block: bool) -> Tree:
+    """All states that can come up, whatever the supporter does."""
+    robot = task.robots[0]
+    idle = GroundAction("noop", (robot,), (), (), (), (), Fraction(0))
+    moves = [idle, *(action for action in task.actions if action.participants == (robot,))]
+    choices: dict[State, list[Choice]] = {}
+    pending = [frozenset(task.init)]
+    while pending:
+        state = pending.pop()
+        if state in choices or task.goal.holds(state):
+            continue
+        found = choices[state] = []
+        for move in moves:
+            if move.applicable(state):
+                choice = _choice(task, state, move, fixed=fixed, no_block=no_block)
+                if choice is not None:
+                    found.append(choice)
+                    pending.extend(outcome.state for outcome in choice.outcomes)
+    return Tree(task, choices)
+
+
+def _choice(task: Task, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Choice | None:
+    middle = after(move, state)
+    if task.goal.holds(middle):
+        return Choice(move.cost, ())
+    actions = optimal_actions(task, middle)
+    if not actions:
+        if no_block and move.name != "noop" and alone(task, state) is not None:
+            return None
+        return Choice(move.cost, (Outcome(Fraction(0), middle),))
+    chosen = actions[:1] if fixed else actions
+    return Choice(move.cost, tuple(Outcome(action.cost, after(action, middle)) for action in chosen))
+
+
+def by_rounds(tree: Tree, worst: Callable[[list[Costs]], Costs]) -> Costs | None:
+    """The least value that is certain within as many rounds as there are states."""
+    values: dict[State, Costs] = {}
+    for _ in range(len(tree.choices) + 1):
+        fresh: dict[State, Costs] = {}
+        for state, choices in tree.choices.items():
+            found = [_value(tree, choice, values, worst) for choice in choices]
+            finite = [value for value in found if value is not None]
+            if finite:
+                fresh[state] = min(finite)
+        values = fresh
+    return FREE if tree.final(frozenset(tree.task.init)) else values.get(frozenset(tree.task.init))
+
+
+def _value(
+    tree: Tree, choice: Choice, values: dict[State, Costs], worst: Callable[[list[Costs]], Costs]
+) -> Costs | None:
+    if not choice.outcomes:
+        return (Fraction(0), choice.cost)
+    ends: list[Costs | None] = []
+    for outcome in choice.outcomes:
+        rest = FREE if tree.final(outcome.state) else values.get(outcome.state)
+        ends.append(None if rest is None else (rest[0] + outcome.cost, rest[1] + choice.cost))
+    known = [end for end in ends if end is not None]
+    if not known or (worst is not min and len(known) < len(ends)):
+        return None
+    return worst(known)
+
+
+def mean_over_all_policies(tree: Tree, most: int) -> Costs | str | None:
+    """The least mean over all policies; ``"too many"`` if there are more than ``most``."""
+    start = frozenset(tree.task.init)
+    if tree.final(start):
+        return FREE
+    best: Costs | None = None
+    for count, policy in enumerate(_policies(tree, {}, [start])):
+        if count >= most:
+            return "too many"
+        value = _mean(tree, policy, start)
+        if value is not None and (best is None or value < best):
+            best = value
+    return best
+
+
+def _policies(tree: Tree, policy: dict[State, Choice], pending: list[State]) -> Iterator[dict[State, Choice]]:
+    pending = [state for state in pending if state not in policy and not tree.final(state)]
+    if not pending:
+        yield policy
+        return
+    state, rest = pending[0], pending[1:]
+    for choice in tree.choices[state]:
+        yield from _policies(tree, {**policy, state: choice}, rest + [o.state for o in choice.outcomes])
+
+
+def _mean(tree: Tree, policy: dict[State, Choice], start: State) -> Costs | None:
+    """The mean costs of a policy; None if a run may not end."""
+    ending = {state for state, choice in policy.items() if not choice.outcomes}
+    grows = True
+    while grows:
+        more = {
+            state
+            for state, choice in policy.items()
+            if any(tree.final(o.state) or o.state in ending for o in choice.outcomes)
+        }
+        grows = not more <= ending
+        ending |= more
+    if set(policy) - ending:
+        return None
+    order = list(policy)
+    rows = []
+    for state in order:
+        row = [Fraction(int(state == other)) for other in order]
+        prime, supporter = Fraction(0), policy[state].cost
+        outcomes = policy[state].outcomes
+        for outcome in outcomes:
+            share = Fraction(1, len(outcomes))
+            prime += share * outcome.cost
+            if not tree.final(outcome.state):
+                row[order.index(outcome.state)] -= share
+        rows.append([*row, prime, supporter])
+    return _solve(rows)[order.index(start)]
+
+
+def _solve(rows: list[list[Fraction]]) -> list[Costs]:
+    """Gauss and Jordan."""
+    for i in range(len(rows)):
+        pivot = next(k for k in range(i, len(rows)) if rows[k][i])
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        rows[i] = [x / rows[i][i] for x in rows[i]]
+        for k in range(len(rows)):
+            if k != i and rows[k][i]:
+                factor = rows[k][i]
+                rows[k] = [x - factor * y for x, y in zip(rows[k], rows[i], strict=True)]
+    return [(row[-2], row[-1]) for row in rows]

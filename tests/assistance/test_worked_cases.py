@@ -1,0 +1,92 @@
+"""SPEC 9, cases 5 and 6, and what mode ``assistance`` refuses."""
+
+import json
+from fractions import Fraction
+
+import pytest
+
+import serendipity
+from serendipity import Result, UsageError
+from tests.builders import task
+from tests.cases import case_5, case_6, case_8
+
+
+def pair(result: Result) -> tuple[str, str]:
+    lower, upper = result.statistics["bounds"]["lower"], result.statistics["bounds"]["upper"]
+    assert result.status == "optimal"
+    assert lower == upper
+    return tuple(str(Fraction(text)) for text in upper)
+
+
+@pytest.mark.parametrize(
+    ("ties", "value"),
+    [
+        ("optimistic", ("1", "1")),
+        ("fixed", ("1", "1")),
+        ("robust", ("2", "0")),
+        ("expected", ("3/2", "1/2")),
+    ],
+)
+def test_case_5(ties: str, value: tuple[str, str]) -> None:
+    assert pair(serendipity.plan(case_5(), mode="assistance", ties=ties)) == value
+
+
+def test_case_5_ends_right_after_the_carry() -> None:
+    result = serendipity.plan(case_5(), mode="assistance")
+    assert [(step.epoch, step.action) for step in result.plan] == [(1, "walk p a b"), (2, "carry s b d")]
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust", "expected"])
+def test_case_6(ties: str) -> None:
+    assert pair(serendipity.plan(case_6(), mode="assistance", ties=ties)) == ("0", "2")
+    assert pair(serendipity.plan(case_6(), mode="assistance", ties=ties, no_block=True)) == ("2", "0")
+
+
+def test_saving_is_the_humans() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    assert (result.human_cost, result.saving, result.opportunity) == (2.0, 2.0, True)
+    assert list(result.agent_costs.items()) == [("p", 0.0), ("s", 2.0)]
+
+
+def test_goal_that_holds_costs_nothing() -> None:
+    done = task(init="g", goal="g", actions={"do h": "-> g", "undo r": "-> !g"})
+    result = serendipity.plan(done, mode="assistance")
+    assert pair(result) == ("0", "0")
+    assert result.plan == ()
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust", "expected"])
+def test_nothing_ends_is_infeasible(ties: str) -> None:
+    never = task(goal="g", actions={"do h": "x -> g", "help r": "-> y"})
+    result = serendipity.plan(never, mode="assistance", ties=ties)
+    assert (result.status, result.reason, result.policy) == ("infeasible", "no-plan", None)
+
+
+def test_supporter_alone_may_reach_the_goal() -> None:
+    """The prime waits, at no cost, while he has no plan."""
+    helpless = task(goal="g", actions={"open r": "-> x @ 2", "finish r": "x -> g @ 3"})
+    result = serendipity.plan(helpless, mode="assistance")
+    assert pair(result) == ("0", "5")
+    assert (result.opportunity, result.saving) == (False, None)
+
+
+def test_joint_actions_are_nobodys_move() -> None:
+    result = serendipity.plan(case_8(), mode="assistance")
+    assert result.status == "optimal"
+    assert all(len(step.agents) == 1 for step in result.plan)
+
+
+def test_result_survives_json() -> None:
+    result = serendipity.plan(case_5(), mode="assistance", ties="expected")
+    assert Result.from_dict(json.loads(json.dumps(result.to_dict()))) == result
+
+
+def test_two_robots_are_refused() -> None:
+    two = task(agents="h r q", goal="g", actions={"do h": "-> g"})
+    with pytest.raises(UsageError, match="one robot"):
+        serendipity.plan(two, mode="assistance")
+
+
+def test_given_human_plan_is_refused() -> None:
+    with pytest.raises(UsageError, match="human_plan"):
+        serendipity.plan(case_5(), mode="assistance", human_plan=["walk p a b", "walk p b d"])
