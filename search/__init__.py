@@ -5,6 +5,7 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.
 
 from search.alone import PlanGraph
 from search.clock import Clock, OutOfTimeError
+from search.encoding import prepare
 from search.outcome import Outcome
 from search.planner import optimal_human_plan, optimal_human_plans, solve
 
@@ -15,5 +16,6 @@ __all__ = [
     "PlanGraph",
     "optimal_human_plan",
     "optimal_human_plans",
+    "prepare",
     "solve",
 ]

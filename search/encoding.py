@@ -8,6 +8,7 @@ Glossary: *field* - the bits of one variable; *op* - a packed ground action;
 *leader* - the agent under whom an op is looked up (the human if he takes part).
 """
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -43,8 +44,8 @@ class OpIndex:
     __slots__ = ("always", "by_value", "field")
 
     def __init__(self, ops: Sequence[Op], fields: Sequence[int]) -> None:
-        masks = [op.need_mask for op in ops]
-        self.field = max(fields, key=lambda field: sum(mask & field != 0 for mask in masks), default=0)
+        asked = _asked_for(ops, fields)
+        self.field = max(fields, key=lambda field: asked[field], default=0)
         self.by_value: dict[int, list[Op]] = {}
         self.always: list[Op] = []
         field = self.field
@@ -57,6 +58,19 @@ class OpIndex:
     def candidates(self, state: int) -> list[Op]:
         """Ops whose condition on the field holds in a packed state."""
         return self.by_value.get(state & self.field, []) + self.always
+
+
+def _asked_for(ops: Sequence[Op], fields: Sequence[int]) -> Counter[int]:
+    """How many ops ask for each field; linear in what they ask for."""
+    by_lowest_bit = {field & -field: field for field in fields}
+    asked: Counter[int] = Counter()
+    for op in ops:
+        left = op.need_mask
+        while left:
+            field = by_lowest_bit[left & -left]
+            asked[field] += 1
+            left &= ~field
+    return asked
 
 
 def applicable(op: Op, state: int) -> bool:
@@ -295,6 +309,19 @@ class Encoding:
 def encoding(task: Task) -> Encoding:
     """The encoding of the facts that matter to the goals, kept with the task."""
     return task.derived(Encoding)
+
+
+def prepare(task: Task, *, afresh: bool = False) -> None:
+    """Pack a task before the first call that needs it.
+
+    Args:
+        task: the task.
+        afresh: forget first what earlier calls have left with it.
+    """
+    if afresh:
+        task.forget_derived()
+    packed = encoding(task)
+    _ = packed.own_index, packed.joint_index, packed.robot_indices
 
 
 def full_encoding(task: Task) -> Encoding:

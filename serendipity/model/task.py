@@ -86,6 +86,10 @@ class Task:
             self._derived[build] = build(self)
         return self._derived[build]  # type: ignore[no-any-return]
 
+    def forget_derived(self) -> None:
+        """Drop what :meth:`derived` keeps, for measurements."""
+        self._derived.clear()
+
     def team_cost(self, action: GroundAction, discount: Fraction) -> Fraction:
         """What an action costs the team: full with the human, else discounted (SPEC 1)."""
         return action.cost if self.human in action.participants else action.cost * (1 - discount)

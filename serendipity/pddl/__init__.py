@@ -7,5 +7,13 @@ what can't happen (:mod:`prune`) to a task (:mod:`assemble`).
 """
 
 from serendipity.pddl.layouts import load, load_agents, load_pddl
+from serendipity.pddl.resolve import read_domain
+from serendipity.pddl.syntax import parse_domain
 
-__all__ = ["load", "load_agents", "load_pddl"]
+__all__ = ["forget_parsed", "load", "load_agents", "load_pddl"]
+
+
+def forget_parsed() -> None:
+    """Forget the domains that were read, for measurements; equal texts are read once else."""
+    parse_domain.cache_clear()
+    read_domain.cache_clear()

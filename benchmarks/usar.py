@@ -1,0 +1,106 @@
+"""Reading, searching, a whole process and its memory, on folders of the layout of the paper's 200.
+
+    python -m benchmarks.usar [FOLDER] [--stride N]
+
+*Reading* is parsing, uniting and grounding with the files in the page cache, after a
+warm-up: ``warm`` keeps what was parsed of equal domain texts, ``cold`` forgets it before
+each task.  *Packing* is what is made once per task (finite-domain variables, packed ops).
+*Search* is a planning call on a packed task that nothing was asked of before: every other
+table is built inside the time.  The garbage collector is frozen around the loops, since a
+caller has one task in memory, not 200.
+"""
+
+import argparse
+import gc
+import resource
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import serendipity
+from search import prepare, solve
+from serendipity.model import Options
+from serendipity.pddl import forget_parsed
+
+DISCOUNTS = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
+MODES = ("serendipity", "communication", "composite")
+DEFAULT = Path(__file__).resolve().parents[2] / "shared" / "usar200"
+
+
+def main() -> None:
+    """Print a table of medians, 95th percentiles and maxima."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=DEFAULT)
+    parser.add_argument("--stride", type=int, default=1, help="take every N-th task")
+    options = parser.parse_args()
+    folders = sorted(options.folder.glob("test*"), key=lambda p: int(p.name.removeprefix("test")))
+    folders = folders[:: options.stride]
+    if not folders:
+        sys.exit(f"no folders test1, test2, ... in {options.folder}")
+    print(f"{len(folders)} tasks of {options.folder.name}; Python {sys.version.split()[0]}")
+    print(f"{'':46}{'p50':>9}{'p95':>9}{'max':>9}")
+    _reading(folders)
+    tasks = [serendipity.load(folder) for folder in folders]
+    gc.collect()
+    gc.freeze()
+    _row("packing, once a task", [_timed(lambda task=task: prepare(task)) for task in tasks])
+    for mode in MODES:
+        for discount in DISCOUNTS:
+            _searching(tasks, mode, discount)
+    print(f"\npeak memory with all tasks loaded: {_peak(resource.RUSAGE_SELF):.0f} MiB")
+    _process(folders[0])
+
+
+def _reading(folders: list[Path]) -> None:
+    serendipity.load(folders[0])
+    gc.collect()
+    gc.freeze()
+    _row("reading, warm", [_timed(lambda folder=folder: serendipity.load(folder)) for folder in folders])
+    cold = []
+    for folder in folders:
+        forget_parsed()
+        cold.append(_timed(lambda folder=folder: serendipity.load(folder)))
+    _row("reading, nothing kept", cold)
+
+
+def _searching(tasks: list[serendipity.Task], mode: str, discount: str) -> None:
+    chosen = Options(mode=mode, discount=discount)  # type: ignore[arg-type]
+    first, again = [], []
+    for task in tasks:
+        prepare(task, afresh=True)
+        first.append(_timed(lambda task=task: list(solve(task, chosen))))
+        again.append(_timed(lambda task=task: list(solve(task, chosen))))
+    _row(f"search, {mode} at {discount}", first)
+    _row("   the same call again", again)
+
+
+def _process(folder: Path) -> None:
+    command = [sys.executable, "-m", "serendipity", "plan", str(folder), "--discount", "0.9", "--quiet"]
+    subprocess.run(command, check=True, capture_output=True)
+    times = [_timed(lambda: subprocess.run(command, check=True, capture_output=True)) for _ in range(9)]
+    _row("whole process: serendipity plan FOLDER", times)
+    print(f"its peak memory: {_peak(resource.RUSAGE_CHILDREN):.0f} MiB")
+
+
+def _timed(work: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def _row(name: str, seconds: list[float]) -> None:
+    ordered = sorted(seconds)
+    p95 = ordered[min(len(ordered) - 1, int(len(ordered) * 0.95))]
+    figures = (statistics.median(ordered), p95, ordered[-1])
+    print(f"{name:46}" + "".join(f"{value * 1000:7.2f}ms" for value in figures))
+
+
+def _peak(who: int) -> float:
+    return resource.getrusage(who).ru_maxrss / 1024
+
+
+if __name__ == "__main__":
+    main()
