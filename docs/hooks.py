@@ -2,7 +2,7 @@
 
 import inspect
 import re
-import shlex
+from collections.abc import Iterator
 from typing import Any
 
 from typer.main import get_command
@@ -10,26 +10,37 @@ from typer.main import get_command
 import serendipity
 from serendipity.cli.app import app
 
-HELP = re.compile(r"^<!-- help: (.*?) -->$", re.MULTILINE)
+COMMANDS = "<!-- every command -->"
 PUBLIC = re.compile(r"^<!-- public: (.*?) -->$", re.MULTILINE)
-
+OTHERS = "<!-- public names not listed above -->"
 LONGEST = 90
 
 
 def on_page_markdown(markdown: str, **_: Any) -> str:
     """Replace the markers of a page."""
-    markdown = HELP.sub(lambda found: help_text(found[1]), markdown)
+    if COMMANDS in markdown:
+        markdown = markdown.replace(COMMANDS, "\n".join(every_command()))
+    if OTHERS in markdown:
+        listed = {"__version__", *PUBLIC.findall(markdown)}
+        rest = [name for name in serendipity.__all__ if name not in listed]
+        markdown = markdown.replace(OTHERS, "\n".join(f"<!-- public: {name} -->" for name in rest))
     return PUBLIC.sub(lambda found: description(found[1]), markdown)
 
 
-def help_text(command: str) -> str:
-    """What `serendipity COMMAND --help` prints, as a block."""
-    at: Any = get_command(app)
-    context = at.make_context("serendipity", [], resilient_parsing=True)
-    for word in shlex.split(command):
-        at = at.commands[word]
-        context = at.make_context(word, [], parent=context, resilient_parsing=True)
-    return f"```text\n{at.get_help(context)}\n```"
+def every_command() -> Iterator[str]:
+    """For each command what `serendipity COMMAND --help` prints, under a heading."""
+    root: Any = get_command(app)
+    context = root.make_context("serendipity", [], resilient_parsing=True)
+    yield from _commands(root, context, "")
+
+
+def _commands(group: Any, context: Any, above: str) -> Iterator[str]:
+    for name, command in group.commands.items():
+        inner = command.make_context(name, [], parent=context, resilient_parsing=True)
+        if hasattr(command, "commands"):
+            yield from _commands(command, inner, f"{above}{name} ")
+        else:
+            yield from (f"## {above}{name}", "", "```text", command.get_help(inner), "```", "")
 
 
 def description(name: str) -> str:
@@ -41,6 +52,8 @@ def description(name: str) -> str:
 
 def signature(name: str, value: Any) -> str:
     """How a name is called: a parameter a line where one line is too long for them."""
+    if not callable(value):
+        return name
     if inspect.isclass(value) and issubclass(value, Exception):
         return f"exception {name}"
     kind = "class" if inspect.isclass(value) else "def"

@@ -1,7 +1,9 @@
 """Links between pages lead somewhere, all pages are in the navigation, all commands in the reference."""
 
+import importlib.util
 import re
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -41,13 +43,28 @@ def test_all_pages_are_in_the_navigation() -> None:
     assert listed == {str(page.relative_to(ROOT / "docs")) for page in PAGES}
 
 
-def test_all_public_names_are_in_the_reference() -> None:
-    text = (ROOT / "docs/reference/python.md").read_text()
-    assert set(re.findall(r"<!-- public: (\w+) -->", text)) == set(serendipity.__all__) - {"__version__"}
+@pytest.fixture(scope="module")
+def hooks() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("hooks", ROOT / "docs" / "hooks.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
-def test_all_commands_are_in_the_reference() -> None:
-    text = (ROOT / "docs/reference/commands.md").read_text()
-    shown = {command.split()[0] for command in re.findall(r"<!-- help: (.*?) -->", text)}
+def test_all_public_names_are_in_the_reference(hooks: ModuleType) -> None:
+    page = hooks.on_page_markdown((ROOT / "docs/reference/python.md").read_text())
+    headings = re.findall(r"^### (\w+)$", page, re.MULTILINE)
+    assert sorted(headings) == sorted(set(serendipity.__all__) - {"__version__"})
+    assert "<!--" not in page
+    assert "Raises:" in page
+
+
+def test_all_commands_are_in_the_reference(hooks: ModuleType) -> None:
+    page = hooks.on_page_markdown((ROOT / "docs/reference/commands.md").read_text())
+    shown = {heading.split()[0] for heading in re.findall(r"^## (.*)$", page, re.MULTILINE)}
     commands = {info.name for info in app.registered_commands} | {info.name for info in app.registered_groups}
     assert shown == commands
+    assert "--discount D" in page
+    assert "<!--" not in page
