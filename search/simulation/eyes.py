@@ -109,9 +109,16 @@ class Doubtful(Task):
         return tuple(sorted(found, key=lambda variable: variable.facts))
 
 
-def doubtful_encoding(task: Task) -> Encoding:
-    """The task packed for a human who may be wrong, location facts included; kept with it."""
-    return task.derived(_doubtful)
+def doubtful_encoding(task: Task, extra: frozenset[int]) -> Encoding:
+    """The task packed for a human who may be wrong, location facts included.
+
+    Args:
+        task: the task.
+        extra: facts to pack besides; without any the encoding is kept with the task.
+    """
+    if not extra:
+        return task.derived(_doubtful)
+    return Encoding(_doubted(task), extra.union(surroundings(task).located))
 
 
 def complete_encoding(task: Task) -> Encoding:

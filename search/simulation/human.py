@@ -1,5 +1,6 @@
 """The human's state machine: what he decides when he looks up (SPEC 6, steps 1 and 2)."""
 
+from bisect import bisect_left
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -7,7 +8,7 @@ from search.alone import Alone
 from search.clock import Clock
 from search.encoding import Encoding, Op, applicable, encoding
 from search.keys import INFINITE_KEY, Weights
-from search.projection import human_projection
+from search.projection import Projection, human_projection
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions
 from serendipity.model.options import Options
@@ -59,10 +60,11 @@ class Human:
     ) -> None:
         local = human_model == "local"
         told = local and visible is not None
-        self.encoding = complete_encoding(task) if told else _encoding(task, actions, local=local)
+        plain, self.encoding = _encodings(task, actions, local=local, told=told)
         self.weights = Weights(self.encoding, options, None)
         self.keys = self.weights.keys
-        self.bound = human_projection(self.encoding, self.encoding.goal, self.weights.human, clock)
+        bound = human_projection(plain, plain.goal, self.weights.human, clock)
+        self.bound = _translated(bound, plain, self.encoding) if local else bound
         self.alone = Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, clock)
         self.intentions = Intentions(self.encoding, self.keys, self.weights.human)
         self.eyes: Eyes = _eyes(task, self.encoding, visible) if local else Everywhere()
@@ -122,13 +124,34 @@ class Human:
         return self.alone.optimal_plans(init).canonical()
 
 
-def _encoding(task: Task, actions: Collection[int], *, local: bool) -> Encoding:
-    packed = doubtful_encoding(task) if local else encoding(task)
+def _encodings(task: Task, actions: Collection[int], *, local: bool, told: bool) -> tuple[Encoding, Encoding]:
+    """The task packed as it is, and as he sees it; both hold what the actions ask for."""
+    plain = encoding(task)
+    missing = _missing(plain, actions)
+    if missing:
+        plain = Encoding(task, missing)
+    if not local:
+        return plain, plain
+    if told:
+        return plain, complete_encoding(task)
+    return plain, doubtful_encoding(task, missing)
+
+
+def _missing(packed: Encoding, actions: Collection[int]) -> frozenset[int]:
+    """Facts to pack for actions that can't contribute to a goal, but may be done or tried."""
+    task = packed.task
     asked = {f for i in actions for f in (*task.actions[i].pre, *task.actions[i].neg)}
-    if all(packed.fact_bits[f] is not None for f in asked):
-        return packed
-    extra = asked | (set(surroundings(task).located) if local else set())
-    return Encoding(packed.task, frozenset(extra))
+    missing = asked if any(packed.fact_bits[f] is None for f in asked) else set()
+    for i in actions:
+        action = task.actions[i]
+        if action.participants == (task.human,) and not _is_useful(packed, i):
+            missing |= {*action.pre, *action.neg, *action.add, *action.delete}
+    return frozenset(missing)
+
+
+def _is_useful(packed: Encoding, action: int) -> bool:
+    place = bisect_left(packed.useful, action)
+    return place < len(packed.useful) and packed.useful[place] == action
 
 
 def _asked_by(op: Op) -> int:
@@ -141,3 +164,23 @@ def _asked_by(op: Op) -> int:
 
 def _eyes(task: Task, packed: Encoding, visible: Visible | None) -> Eyes:
     return Nearby(packed, surroundings(task)) if visible is None else AsTold(packed, visible)
+
+
+def _translated(bound: Projection, plain: Encoding, packed: Encoding) -> Projection:
+    """A bound on private variables, for states that are packed in another way.
+
+    The bound of the other packing itself would also look at single facts of shared
+    variables ("he has the kit"), and grow with every subset of them.
+    """
+    fields: dict[int, dict[int, int]] = {}
+    mask = 0
+    for fact, bits in enumerate(plain.fact_bits):
+        there = packed.fact_bits[fact]
+        if bits is not None and there is not None and bits[0] & bound.mask:
+            fields.setdefault(bits[0], {})[bits[1]] = there[1]
+            mask |= there[0]
+    distances = {
+        sum(values.get(state & field, 0) for field, values in fields.items()): distance
+        for state, distance in bound.distances.items()
+    }
+    return Projection(mask, distances)
