@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -11,6 +11,8 @@ from serendipity.cli import naming, output, plan_options
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.human_plan import read_human_plan
 from serendipity.model import UsageError
+
+_PICTURES: Final = (".svg", ".png")
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -36,7 +38,7 @@ def interruptions(
     preservation: plan_options.Preservation = None,
     interference: plan_options.Interference = None,
     heat_map: Annotated[
-        Path | None, typer.Option(metavar="FILE.svg", help="Also draw the savings over start and end.")
+        Path | None, typer.Option(metavar="FILE", help="Also draw savings by start and end (.svg, .png).")
     ] = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
@@ -48,8 +50,8 @@ def interruptions(
     form = output.choose_format(format, output_file)
     for file in (output_file, heat_map):
         output.check_output(file)
-    if heat_map is not None and heat_map.suffix != ".svg":
-        raise UsageError(f"--heat-map: expected a file name that ends in .svg, got '{heat_map}'")
+    if heat_map is not None and heat_map.suffix not in _PICTURES:
+        raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
     name = naming.TaskName(
         tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
     )
@@ -72,10 +74,21 @@ def interruptions(
 
         output.write_answer(rendered(_text(report)), output_file)
     if heat_map is not None:
-        from serendipity.heat_map import heat_map as drawn
-
-        output.write_answer(drawn(report), heat_map)
+        output.write_answer(_drawn(report, heat_map.suffix), heat_map)
     return ExitCode.ANSWERED if report.human_plan is not None else ExitCode.INFEASIBLE
+
+
+def _drawn(report: "InterruptionReport", suffix: str) -> str | bytes:
+    from serendipity.heat_map import heat_map
+
+    picture = heat_map(report)
+    if suffix == ".png":
+        from serendipity.show.png import png
+
+        return png(picture)
+    from serendipity.show.svg import svg
+
+    return svg(picture) + "\n"
 
 
 def _text(report: "InterruptionReport") -> "Iterator[Line | Grid]":

@@ -55,6 +55,12 @@ def test_a_human_without_a_plan(run: Runs, tmp_path: Path) -> None:
     assert "no plan to interrupt" in done.out
 
 
+def test_the_map_as_png(run: Runs, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="needs the extra serendipity[plot]")
+    assert run("interruptions --example room2 --discount 0.6 --heat-map map.png").code == 0
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
