@@ -14,9 +14,6 @@ from search.keys import INFINITE_KEY
 from search.projection import Projection
 from search.successors import Lookup
 
-_CHECK_EVERY = 256
-
-
 Edges = dict[int, list[tuple[int, int]]]
 """Per state the actions that continue an optimal plan, ascending, with their successors."""
 
@@ -121,15 +118,13 @@ class Alone:
         best = {start: 0}
         parents: dict[int, tuple[int, int]] = {}
         closed: set[int] = set()
-        target, end, count = limit, -1, 0
+        target, end = limit, -1
         while queue and queue[0][0] < target:
             _, negative, state = heappop(queue)
             if state in closed:
                 continue
             closed.add(state)
-            count += 1
-            if not count % _CHECK_EVERY:
-                self._clock.check()
+            self._clock.tick()
             g = -negative
             rest = known.get(state)
             if rest is None and holds(state):
@@ -180,8 +175,7 @@ class Alone:
             _, g, state = heappop(queue)
             if state in expanded:
                 continue
-            if not len(expanded) % _CHECK_EVERY:
-                self._clock.check()
+            self._clock.tick()
             steps: list[tuple[int, int, int]] = []
             expanded[state] = steps
             if self._goal.holds(state):

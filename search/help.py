@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
+from search.clock import Clock
 from search.encoding import Encoding, Op
 from search.keys import INFINITE_KEY
 from search.projection import Projection
@@ -45,18 +46,25 @@ class Providers:
         touches: what the human's ops mention.
         weights: key increment of a robots' op by the index of its cost.
         followed: the ops of ``pi_H``, in order, where the human follows it for a while.
+        clock: asked for time.
 
     A need that is judged by a field that ``pi_H`` changes counts twice: before that
     happens, and, under the id ``late(need)``, afterwards.
     """
 
     def __init__(
-        self, encoding: Encoding, touches: Touches, weights: Sequence[int], followed: Sequence[Op]
+        self,
+        encoding: Encoding,
+        touches: Touches,
+        weights: Sequence[int],
+        followed: Sequence[Op],
+        clock: Clock,
     ) -> None:
         self._encoding = encoding
         self._touches = touches
         self._weights = weights
         self._followed = followed
+        self._clock = clock
         self._changes: dict[int, int] = {}
         self._judges: dict[int, int] = {}
         for epoch, op in enumerate(followed, start=1):
@@ -136,7 +144,7 @@ class Providers:
         for (field, late), members in groups.items():
             listed = [(i, self._touches.needs[self.touched(i)]) for i in members]
             flips = self._followed if late else ()
-            provision = Provision(self._encoding, field, listed, weights, flips)
+            provision = Provision(self._encoding, field, listed, weights, flips, self._clock)
             provision.explore(pays)
             provisions[field, late] = provision
             costs.update(provision.cost)

@@ -18,7 +18,6 @@ from search.encoding import Encoding, Goal, Op
 from search.keys import INFINITE_KEY
 
 _MAX_STATES = 50_000
-_CHECK_EVERY = 1024
 
 Predecessors = dict[int, list[tuple[int, int]]]
 """Per projected state the states before it, each with the index of the cheapest cost."""
@@ -67,8 +66,7 @@ def human_projection(encoding: Encoding, goal: Goal, weights: Sequence[int], clo
         clock: asked for time while the table is built.
     """
     graph = encoding.derived(human_graph)
-    clock.check()
-    return Projection(graph.mask, _distances(graph, goal, weights))
+    return Projection(graph.mask, _distances(graph, goal, weights, clock))
 
 
 def human_graph(encoding: Encoding) -> Projected:
@@ -86,7 +84,7 @@ def human_graph(encoding: Encoding) -> Projected:
     return Projected(0, {0: []})
 
 
-def _distances(graph: Projected, goal: Goal, weights: Sequence[int]) -> dict[int, int]:
+def _distances(graph: Projected, goal: Goal, weights: Sequence[int], clock: Clock) -> dict[int, int]:
     """Backward Dijkstra over the projected states that are reachable forward."""
     distances: dict[int, int] = {}
     queue = [(0, state) for state in graph.predecessors if _satisfies(state, graph.mask, goal)]
@@ -96,6 +94,7 @@ def _distances(graph: Projected, goal: Goal, weights: Sequence[int]) -> dict[int
         if state in distances:
             continue
         distances[state] = distance
+        clock.tick()
         for before, cost in graph.predecessors[state]:
             if before not in distances:
                 heappush(queue, (distance + weights[cost], before))

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable, Sequence
 from heapq import heappop, heappush
 from typing import TypeVar
 
+from search.clock import Clock
 from search.encoding import Encoding, Op
 from search.keys import INFINITE_KEY
 from search.touches import Need
@@ -115,6 +116,7 @@ class Provision:
         needs: ids of the needs that are judged by this field, with the needs.
         weights: key increment of a robots' op by the index of its cost.
         flips: ops of the human that may change the field on his way, for nothing.
+        clock: asked for time.
     """
 
     def __init__(
@@ -123,11 +125,13 @@ class Provision:
         field: int,
         needs: Sequence[tuple[int, Need]],
         weights: Sequence[int],
-        flips: Iterable[Op] = (),
+        flips: Iterable[Op],
+        clock: Clock,
     ) -> None:
         self._places = encoding.derived(Places)
         self._field = field
         self._weights = weights
+        self._clock = clock
         self._initial = encoding.init
         self._encoding = encoding
         self._acts = encoding.derived(AllActs).on(field)
@@ -155,6 +159,7 @@ class Provision:
             if spot in settled:
                 continue
             settled[spot] = cost
+            self._clock.tick()
             self._accept(spot, cost)
             value, team, robot, place = spot
             for weight, after in self._changes(spot):
@@ -257,6 +262,7 @@ class Provision:
             if spot in found:
                 continue
             found[spot] = cost
+            self._clock.tick()
             for weight, before in self._entries.get(spot, ()):
                 if before not in found:
                     heappush(queue, (cost + weight, before))

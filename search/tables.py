@@ -93,11 +93,11 @@ class Tables:
     @cached_property
     def ways(self) -> Ways:
         """The human's ways to his touches."""
-        return Ways(self.touches, self.bound, self.steps, self.weights.human)
+        return Ways(self.touches, self.bound, self.steps, self.weights.human, self.clock)
 
     def providers(self, followed: Sequence[Op] = ()) -> Providers:
         """What robots need to provide touches, while the human does ``followed``."""
-        return Providers(self.encoding, self.touches, self.weights.robots, followed)
+        return Providers(self.encoding, self.touches, self.weights.robots, followed, self.clock)
 
     def successors(self, *, idle: bool = False) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing."""

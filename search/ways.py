@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from heapq import heapify, heappop, heappush
 
+from search.clock import Clock
 from search.keys import INFINITE_KEY
 from search.projection import Projection
 from search.touches import Touches
@@ -48,6 +49,7 @@ class Ways:
         bound: private distances to the goal.
         steps: the same, counting actions.
         weights: key increment of an op of his by the index of its cost.
+        clock: asked for time.
 
     Attributes:
         steps_after: least number of actions to the goal after a touch, by its need, over
@@ -55,12 +57,18 @@ class Ways:
     """
 
     def __init__(
-        self, touches: Touches, bound: Projection, steps: Projection, weights: Sequence[int]
+        self,
+        touches: Touches,
+        bound: Projection,
+        steps: Projection,
+        weights: Sequence[int],
+        clock: Clock,
     ) -> None:
         self._touches = touches
         self._bound = bound
         self._steps = steps
         self._weights = weights
+        self._clock = clock
         self._before: dict[int, list[tuple[int, int]]] = {}
         self._entries: dict[int, list[tuple[int, int]]] = {}
         self.steps_after: dict[int, int] = {}
@@ -82,6 +90,7 @@ class Ways:
             if at in seen:
                 continue
             seen.add(at)
+            self._clock.tick()
             rest = bound.get(at, INFINITE_KEY)
             if spent + rest >= limit:
                 continue
@@ -119,6 +128,7 @@ class Ways:
         if self._before:
             return
         for at in self._bound.distances:
+            self._clock.tick()
             for op in self._touches.seen(at):
                 after = at & op.keep | op.put
                 rest = self._bound(after)
