@@ -1,10 +1,10 @@
 """The facade over the search: options in, results out, incumbents on the way."""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any
+from typing import Any, Final
 
 from search import Clock, Outcome, OutOfTimeError, optimal_human_plans, solve
 from search.simulation import solve_for_human
@@ -13,16 +13,25 @@ from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
+from serendipity.model.visibility import Visible
 from serendipity.simulation import realised
 
+_VERDICT_SECONDS: Final = 0.02
+_VERDICT_SHARE: Final = 0.1
+"""Time for the verdict on humans who replan: seconds at least, and a share of the time limit."""
 
-def plan(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> Result:
+
+def plan(
+    task: Task, *, human_plan: Iterable[str] | None = None, visible: Visible | None = None, **options: Any
+) -> Result:
     """The best plan in which robots help the human, with a proof that none is better.
 
     Args:
         task: the task.
         human_plan: names of the actions that the human is going to do; None predicts
             an optimal plan of his (SPEC 1).
+        visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
+            ``human_model="local"`` sees; None for what is where he is.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
             ``discount=0.6``, ``time_limit=0.1`` (seconds) and so on.
 
@@ -30,24 +39,49 @@ def plan(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any)
         UsageError: an option is unknown or has no legal value.
         PlanError: ``human_plan`` can't be executed, or misses the goal.
     """
-    *_, last = _answers(task, human_plan, options)
+    *_, last = _answers(task, human_plan, visible, options)
     return last()
 
 
-def plan_anytime(task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> Iterator[Result]:
+def plan_anytime(
+    task: Task, *, human_plan: Iterable[str] | None = None, visible: Visible | None = None, **options: Any
+) -> Iterator[Result]:
     """Answers with falling objective and rising lower bound; the last is what :func:`plan` returns.
 
     Args and errors are those of :func:`plan`.
     """
-    for answer in _answers(task, human_plan, options):
+    for answer in _answers(task, human_plan, visible, options):
         yield answer()
 
 
+@dataclass(frozen=True, slots=True)
+class _Call:
+    """What one call asks for."""
+
+    task: Task
+    options: Options
+    clock: Clock
+    visible: Visible | None
+
+    def outcomes(self, human_plan: HumanPlan | None) -> Iterator[Outcome]:
+        if self.options.human_model == "omniscient":
+            return solve(self.task, self.options, human_plan=human_plan, clock=self.clock)
+        return solve_for_human(
+            self.task, self.options, human_plan=human_plan, visible=self.visible, clock=self.clock
+        )
+
+    def last(self, human_plan: HumanPlan | None) -> Result:
+        *_, outcome = self.outcomes(human_plan)
+        return _to_result(self, outcome)
+
+
 def _answers(
-    task: Task, human_plan: Iterable[str] | None, options: dict[str, Any]
+    task: Task, human_plan: Iterable[str] | None, visible: Visible | None, options: dict[str, Any]
 ) -> Iterator[Callable[[], Result]]:
     """Answers that are put into words only if somebody asks for them."""
     chosen = options_from(options)
+    if visible is not None and chosen.human_model != "local":
+        raise UsageError(f"visible: is for human_model 'local' only, not for '{chosen.human_model}'")
     clock = Clock(chosen.time_limit)
     given = None if human_plan is None else task.plan_from_names(human_plan)
     if chosen.mode == "assistance":
@@ -55,11 +89,12 @@ def _answers(
             raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")
         yield from _assistance(task, chosen, clock)
         return
+    call = _Call(task, chosen, clock, visible)
     if chosen.ties != "fixed" and given is None and _depends_on_ties(chosen):
-        yield partial(_over_ties, task, chosen, clock)
+        yield partial(_over_ties, call)
         return
-    for outcome in _solver(chosen)(task, chosen, human_plan=given, clock=clock):
-        yield partial(to_result, task, chosen, outcome, clock)
+    for outcome in call.outcomes(given):
+        yield partial(_to_result, call, outcome)
 
 
 def _assistance(task: Task, options: Options, clock: Clock) -> Iterator[Callable[[], Result]]:
@@ -67,10 +102,6 @@ def _assistance(task: Task, options: Options, clock: Clock) -> Iterator[Callable
     from serendipity.assistance import assistance_answers
 
     return assistance_answers(task, options, clock)
-
-
-def _solver(options: Options) -> Callable[..., Iterator[Outcome]]:
-    return solve if options.human_model == "omniscient" else solve_for_human
 
 
 def options_from(given: dict[str, Any]) -> Options:
@@ -95,19 +126,19 @@ def _depends_on_ties(options: Options) -> bool:
     return options.mode in ("serendipity", "communication")
 
 
-def _over_ties(task: Task, options: Options, clock: Clock) -> Result:
+def _over_ties(call: _Call) -> Result:
     """The task solved once for each optimal ``pi_H`` (SPEC 1)."""
-    graph = optimal_human_plans(task)
+    options = call.options
+    graph = optimal_human_plans(call.task)
     if graph is None:
-        *_, only = _solver(options)(task, options, clock=clock)
-        return to_result(task, options, only, clock)
+        return call.last(None)
     count = graph.count()
     if count > options.max_ties:
         raise UsageError(
             f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
             "raise max_ties, or use ties 'fixed'"
         )
-    answers = [_last(task, options, human_plan, clock) for human_plan in graph.plans()]
+    answers = [call.last(human_plan) for human_plan in graph.plans()]
     ties = [
         {
             "human_plan": list(answer.human_plan or ()),
@@ -118,13 +149,8 @@ def _over_ties(task: Task, options: Options, clock: Clock) -> Result:
         for answer in answers
     ]
     chosen = _mean(answers) if options.ties == "expected" else _extreme(answers, options.ties)
-    statistics = {**chosen.statistics, "elapsed_seconds": clock.elapsed(), "ties": ties}
+    statistics = {**chosen.statistics, "elapsed_seconds": call.clock.elapsed(), "ties": ties}
     return replace(chosen, statistics=statistics)
-
-
-def _last(task: Task, options: Options, human_plan: HumanPlan, clock: Clock) -> Result:
-    *_, outcome = _solver(options)(task, options, human_plan=human_plan, clock=clock)
-    return to_result(task, options, outcome, clock)
 
 
 def _extreme(answers: list[Result], ties: str) -> Result:
@@ -161,8 +187,9 @@ def _mean(answers: list[Result]) -> Result:
     )
 
 
-def to_result(task: Task, options: Options, outcome: Outcome, clock: Clock) -> Result:
+def _to_result(call: _Call, outcome: Outcome) -> Result:
     """An outcome of the search in the form that callers see."""
+    task, options = call.task, call.options
     steps = None if outcome.steps is None else tuple(_step(task, options, step) for step in outcome.steps)
     human_plan = outcome.human_plan
     return Result(
@@ -183,28 +210,33 @@ def to_result(task: Task, options: Options, outcome: Outcome, clock: Clock) -> R
         saving_alone=None if outcome.baseline is None else float(outcome.saving_alone),
         plan=steps,
         agent_costs={} if outcome.steps is None else _agent_costs(task, options, outcome.steps),
-        realised=_realised(task, options, outcome, clock),
+        realised=_realised(call, outcome),
         statistics={
-            "elapsed_seconds": clock.elapsed(),
+            "elapsed_seconds": call.clock.elapsed(),
             "expanded": outcome.expanded,
             "generated": outcome.generated,
         },
     )
 
 
-def _realised(task: Task, options: Options, outcome: Outcome, clock: Clock) -> dict[str, bool]:
-    """The verdicts of SPEC 6; none without a plan, or where the time is over."""
+def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
+    """The verdicts of SPEC 6; none without a plan.
+
+    They have a little time of their own, so that an answer at the time limit has them too.
+    """
     if outcome.steps is None or outcome.cost is None:
         return {}
+    limit = call.options.time_limit
     try:
         return realised(
-            task,
-            options,
+            call.task,
+            call.options,
             outcome.human_plan or (),
             outcome.steps,
             cost=outcome.cost,
             horizon=outcome.horizon,
-            clock=clock,
+            visible=call.visible,
+            clock=Clock(None if limit is None else max(_VERDICT_SECONDS, _VERDICT_SHARE * limit)),
         )
     except OutOfTimeError:
         return {}

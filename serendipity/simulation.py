@@ -58,6 +58,7 @@ def realised(
     *,
     cost: Fraction,
     horizon: int | str | None,
+    visible: Visible | None = None,
     clock: Clock,
 ) -> dict[str, bool]:
     """The verdicts that a result carries: always ``observant``, ``local`` if it was planned for.
@@ -69,7 +70,14 @@ def realised(
     epochs = horizon if isinstance(horizon, int) else None
     return {
         model: play(
-            task, options, human_plan, steps, human_model=model, horizon=epochs, clock=clock
+            task,
+            options,
+            human_plan,
+            steps,
+            human_model=model,
+            horizon=epochs,
+            visible=visible,
+            clock=clock,
         ).realised(cost)
         for model in models
     }

@@ -1,5 +1,7 @@
 """Options, edge cases and proofs of planning under a human model."""
 
+from collections.abc import Set
+
 import pytest
 
 import serendipity
@@ -94,3 +96,22 @@ def test_other_modes_refuse_a_human_model() -> None:
 def test_horizon_shorter_than_his_plan() -> None:
     with pytest.raises(UsageError, match="horizon: expected at least 10"):
         serendipity.plan(case_1(), human_model="observant", horizon=9)
+
+
+def _everything(agent: int, fact: int, state: Set[int]) -> bool:
+    return True
+
+
+def test_a_local_human_who_sees_everything_is_observant() -> None:
+    result = serendipity.plan(case_4(), discount=0.9, human_model="local", visible=_everything)
+    assert (result.cost, result.realised) == (8.0, {"observant": True, "local": True})
+
+
+def test_visible_is_for_local_humans() -> None:
+    with pytest.raises(UsageError, match="visible: is for human_model 'local' only"):
+        serendipity.plan(case_4(), human_model="observant", visible=_everything)
+
+
+def test_answers_at_the_time_limit_have_verdicts_too() -> None:
+    answers = serendipity.plan_anytime(case_1(), discount=0.9, time_limit=60)
+    assert all("observant" in answer.realised for answer in answers)
