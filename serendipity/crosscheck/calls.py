@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
+from typing import Any
 
 from serendipity.model import Condition, GroundAction, Task
 
@@ -32,7 +33,7 @@ class PlanCall:
     options: dict[str, str] = field(default_factory=dict)
     human_plan: tuple[str, ...] | None = None
 
-    def keywords(self) -> dict[str, object]:
+    def keywords(self) -> dict[str, Any]:
         """The options as the facade takes them."""
         return {
             name: value == "true" if name == "keep_prefix" else value for name, value in self.options.items()
