@@ -1,0 +1,217 @@
+"""The game of SPEC 7 for the checker: states are bit sets of the facts that matter to the goal."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from fractions import Fraction
+from functools import cached_property
+from math import lcm
+from typing import NamedTuple
+
+from serendipity.model import Condition, GroundAction, StateDelta, Task
+from verify.policy.deadline import Deadline, UndecidedError
+from verify.policy.distances import Distances, Edge, Goal, Moves, reaches_below
+
+Costs = tuple[Fraction, Fraction]
+NOTHING: Costs = (Fraction(0), Fraction(0))
+
+FAR: Costs = (Fraction(10**12), Fraction(0))
+"""Stands for infinite in bounds, which may be too low but not too high."""
+
+_UNIT = 1 << 40
+"""Weights are his cost in this unit, plus his actions (alone) or the robot's cost (together)."""
+
+_MOST_ALONE = 1_000_000
+_MOST_TOGETHER = 60_000
+_MOST_LOOKED_AT = 20_000
+
+
+class Reply(NamedTuple):
+    """One of the human's optimal actions: what it costs him, the state after it."""
+
+    cost: Fraction
+    state: int
+
+
+class Board:
+    """States, moves and the human's own optimum.
+
+    Args:
+        task: one human, one robot.
+        fixed: he takes the smallest of his optimal actions.
+        deadline: asked for time.
+    """
+
+    def __init__(self, task: Task, *, fixed: bool, deadline: Deadline) -> None:
+        self.task = task
+        self._fixed = fixed
+        self._deadline = deadline
+        humans = [i for i, a in enumerate(task.actions) if a.participants == (task.human,)]
+        robots = [i for i, a in enumerate(task.actions) if a.participants == (task.robots[0],)]
+        self._scale = lcm(1, *(task.actions[i].cost.denominator for i in (*humans, *robots)))
+        self._relevant = _relevant(task, [*humans, *robots])
+        self._human = [edge for i in humans if (edge := self._edge(i, _UNIT, 1)) is not None]
+        self._robot = [edge for i in robots if (edge := self._edge(i, 1, 0)) is not None]
+        self.goal = Goal(_bits(task.goal.positive), _bits(task.goal.negative))
+        self.start = _bits(task.init) & self._relevant
+        self._replies: dict[int, tuple[Reply, ...]] = {}
+        mentioned = self.goal.pre | self.goal.neg
+        for edge in self._human:
+            mentioned |= edge.pre | edge.neg | edge.add | edge.delete
+        self._his = mentioned
+        self._alone = Distances(self._human, self.goal, _MOST_ALONE, deadline)
+        together = [replace(edge, weight=edge.weight // _UNIT * _UNIT) for edge in self._human]
+        self._joint_moves = Moves([*together, *self._robot])
+        self._together: Distances | None = Distances(
+            [*together, *self._robot], self.goal, _MOST_TOGETHER, deadline
+        )
+        self._ids = {name: i for i, name in enumerate(task.facts)}
+
+    def at_least(self, state: int, value: Costs) -> bool:
+        """Whether both together, without turns, pay at least ``value``, as far as can be told."""
+        if value <= self.count(state):
+            return True
+        if self._together is not None:
+            try:
+                key = self._together(state)
+            except UndecidedError:
+                self._deadline.check()
+                self._together = None
+            else:
+                return key is None or value <= self._costs(key)
+        limit = self._weight(value)
+        below = reaches_below(self._joint_moves, self.goal, state, limit, self._count_key, _MOST_LOOKED_AT)
+        return below is False
+
+    def bound(self, state: int) -> Costs:
+        """What both together pay at least from a state; a weaker bound where that takes too long."""
+        if self._together is not None:
+            try:
+                key = self._together(state)
+            except UndecidedError:
+                self._deadline.check()
+                self._together = None
+            else:
+                return FAR if key is None else self._costs(key)
+        return self.count(state)
+
+    def count(self, state: int) -> Costs:
+        """A bound that needs no states: facts of the goal that only he can set, one an action."""
+        return self._costs(self._count_key(state))
+
+    def _count_key(self, state: int) -> int:
+        return _UNIT * sum(cost for bit, cost in self._countable if not state & bit)
+
+    def _weight(self, value: Costs) -> int:
+        """The least weight that is worth ``value`` or more."""
+        prime, supporter = value[0] * self._scale, value[1] * self._scale
+        if prime.denominator > 1:
+            return (prime.numerator // prime.denominator + 1) * _UNIT
+        return prime.numerator * _UNIT - (-supporter.numerator // supporter.denominator)
+
+    @cached_property
+    def _countable(self) -> list[tuple[int, int]]:
+        setters = [edge for edge in self._robot if edge.add & self.goal.pre]
+        if setters or any((edge.add & self.goal.pre).bit_count() > 1 for edge in self._human):
+            return []
+        cheapest: dict[int, int] = {}
+        for edge in self._human:
+            bit = edge.add & self.goal.pre
+            if bit:
+                cheapest[bit] = min(cheapest.get(bit, edge.weight // _UNIT), edge.weight // _UNIT)
+        return list(cheapest.items())
+
+    def state(self, delta: StateDelta) -> int:
+        """The bits of a state that a result writes down.
+
+        Raises:
+            KeyError: it names a fact that the task does not have.
+        """
+        true = _bits(self._ids[name] for name in delta.true)
+        false = _bits(self._ids[name] for name in delta.false)
+        return (_bits(self.task.init) & ~false | true) & self._relevant
+
+    def moves(self, state: int) -> list[tuple[Fraction, int, str]]:
+        """What the robot may do, waiting included: cost, state after it, name."""
+        found = [(Fraction(0), state, "noop")]
+        for edge in self._robot:
+            if edge.applicable(state):
+                action = self.task.actions[edge.action]
+                found.append((action.cost, edge.after(state), action.name))
+        return found
+
+    def useless(self, name: str, state: int) -> Fraction | None:
+        """Cost of a robot's action by that name that changes nothing that matters; None if none."""
+        for i in self.task.named.get(name, ()):
+            action = self.task.actions[i]
+            if action.participants == (self.task.robots[0],) and self._edge(i, 1, 0) is None:
+                pre, neg = _bits(action.pre) & self._relevant, _bits(action.neg) & self._relevant
+                if state & pre == pre and not state & neg:
+                    return action.cost
+        return None
+
+    def alone(self, state: int) -> Fraction | None:
+        """His optimal cost with an idle robot; None if he has no plan."""
+        key = self._key(state)
+        return None if key is None else Fraction(key // _UNIT, self._scale)
+
+    def replies(self, state: int) -> tuple[Reply, ...]:
+        """What he may optimally do; waiting where he has no plan."""
+        replies = self._replies.get(state)
+        if replies is None:
+            replies = self._replies[state] = tuple(self._optimal(state)) or (Reply(Fraction(0), state),)
+        return replies
+
+    def _optimal(self, state: int) -> list[Reply]:
+        key = self._key(state)
+        found: list[Reply] = []
+        seen: set[tuple[str, int]] = set()
+        if key is None:
+            return found
+        for edge in self._human:  # ascending, as the task's actions are
+            if edge.applicable(state):
+                after = edge.after(state)
+                rest = self._key(after)
+                action = self.task.actions[edge.action]
+                if rest is not None and rest + edge.weight == key and (action.name, after) not in seen:
+                    seen.add((action.name, after))
+                    found.append(Reply(action.cost, after))
+        return found[:1] if self._fixed else found
+
+    def _key(self, state: int) -> int | None:
+        """His (cost, length) in one number, by the facts that concern him alone."""
+        return self._alone(state & self._his)
+
+    def _costs(self, together: int) -> Costs:
+        prime, supporter = divmod(together, _UNIT)
+        return Fraction(prime, self._scale), Fraction(supporter, self._scale)
+
+    def _edge(self, i: int, unit: int, length: int) -> Edge | None:
+        """An action as an edge; None where it changes nothing that matters."""
+        action: GroundAction = self.task.actions[i]
+        add, delete = _bits(action.add) & self._relevant, _bits(action.delete) & self._relevant
+        if not add and not delete:
+            return None
+        weight = int(action.cost * self._scale) * unit + length
+        return Edge(_bits(action.pre), _bits(action.neg), add, delete, weight, i)
+
+
+def _bits(facts: Iterable[int]) -> int:
+    bits = 0
+    for fact in facts:
+        bits |= 1 << fact
+    return bits
+
+
+def _relevant(task: Task, ids: list[int]) -> int:
+    """Facts that the goal depends on, through preconditions of what changes them."""
+    goal: Condition = task.goal
+    relevant = _bits(goal.positive) | _bits(goal.negative)
+    while True:
+        more = relevant
+        for i in ids:
+            action = task.actions[i]
+            if (_bits(action.add) | _bits(action.delete)) & relevant:
+                more |= _bits(action.pre) | _bits(action.neg)
+        if more == relevant:
+            return relevant
+        relevant = more

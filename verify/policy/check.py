@@ -1,0 +1,103 @@
+"""From a result of mode ``assistance`` to claims."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from time import perf_counter
+
+from serendipity.model import Claim, Result, Task
+from verify.policy.board import Board, Costs
+from verify.policy.closed import BrokenError, Walk
+from verify.policy.deadline import Deadline, UndecidedError
+from verify.policy.ending import ends
+from verify.policy.floors import Floors
+from verify.policy.reading import read_decisions, show
+
+
+def check_policy(task: Task, result: Result, *, time_limit: float | None = None) -> tuple[Claim, ...]:
+    """Claims about a policy: ``replay``, ``cost``, ``optimal`` or ``infeasible``.
+
+    Args:
+        task: one human, one robot.
+        result: an answer of mode ``assistance``.
+        time_limit: seconds after which claims stay undecided, or None.
+    """
+    checker = _Checker(task, result, Deadline(time_limit))
+    claims = []
+    started = perf_counter()
+    for claim in checker.claims():
+        now = perf_counter()
+        claims.append(replace(claim, seconds=now - started))
+        started = now
+    return tuple(claims)
+
+
+class _Checker:
+    def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:
+        self._result = result
+        self._ties = result.options.ties
+        self._no_block = bool(result.options.no_block)
+        self._task = task
+        self._deadline = deadline
+
+    def claims(self) -> Iterator[Claim]:
+        result = self._result
+        if len(self._task.robots) != 1:
+            yield Claim("replay", "refuted", "mode 'assistance' is for one robot")
+            return
+        board = Board(self._task, fixed=self._ties == "fixed", deadline=self._deadline)
+        if result.status == "infeasible":
+            yield self._infeasible(board)
+        elif result.policy is not None:
+            yield from self._with_policy(board)
+
+    def _infeasible(self, board: Board) -> Claim:
+        try:
+            if ends(board, self._ties, no_block=self._no_block, deadline=self._deadline):
+                return Claim("infeasible", "refuted", "there is a policy that ends")
+        except UndecidedError as error:
+            return Claim("infeasible", "undecided", str(error))
+        return Claim("infeasible", "proved", "whatever the supporter does, a run may go on for ever")
+
+    def _with_policy(self, board: Board) -> Iterator[Claim]:
+        assert self._result.policy is not None
+        try:
+            listed = read_decisions(board, self._result.policy)
+            value = Walk(board, listed, self._ties, no_block=self._no_block).value()
+        except ValueError as error:
+            yield Claim("replay", "refuted", str(error))
+            return
+        except BrokenError as broken:
+            yield Claim(broken.claim, "refuted", str(broken))
+            return
+        except UndecidedError as error:
+            yield Claim("replay", "undecided", str(error))
+            return
+        yield Claim("replay", "proved", "closed under what the human may do, and every run ends")
+        yield self._cost(value)
+        if self._result.status == "optimal":
+            yield self._optimal(board, value)
+
+    def _cost(self, value: Costs) -> Claim:
+        result = self._result
+        given = [Fraction(str(cost)) for cost in result.agent_costs.values()]
+        totals = [Fraction(str(float(cost))) for cost in value]
+        names = [self._task.agents[self._task.human], self._task.agents[self._task.robots[0]]]
+        if list(result.agent_costs) != names or given != totals:
+            expected = ", ".join(f"{name} {float(cost):g}" for name, cost in zip(names, value, strict=True))
+            return Claim("cost", "refuted", f"agent_costs: expected {expected}, got {result.agent_costs}")
+        if result.cost != float(sum(value)):
+            return Claim("cost", "refuted", f"cost: expected {float(sum(value)):g}, got {result.cost}")
+        return Claim(
+            "cost", "proved", f"each value is what a round and the values after it make: {show(value)}"
+        )
+
+    def _optimal(self, board: Board, value: Costs) -> Claim:
+        assert self._result.policy is not None
+        try:
+            Floors(board, self._result.policy, self._ties, no_block=self._no_block).prove(value)
+        except KeyError as error:
+            return Claim("optimal", "undecided", f"the task has no fact {error}")
+        except UndecidedError as error:
+            return Claim("optimal", "undecided", str(error))
+        return Claim("optimal", "proved", "lower bounds that prove each other reach the policy's value")

@@ -1,0 +1,134 @@
+"""Is a policy closed, does it end, are its values consistent?"""
+
+from fractions import Fraction
+
+from verify.policy.board import NOTHING, Board, Costs, Reply
+from verify.policy.reading import Listed, combine, plus, show
+
+
+class BrokenError(Exception):
+    """A rule of SPEC 7 that the policy breaks; its text names the rule.
+
+    Args:
+        claim: ``replay`` or ``cost``.
+        message: what was found and what was expected.
+    """
+
+    def __init__(self, claim: str, message: str) -> None:
+        super().__init__(message)
+        self.claim = claim
+
+
+class Walk:
+    """Walks through every state that a policy can meet.
+
+    Args:
+        board: the game.
+        listed: the policy.
+        ties: how his choices count.
+        no_block: no move may take his last plan away.
+    """
+
+    def __init__(self, board: Board, listed: dict[int, Listed], ties: str, *, no_block: bool) -> None:
+        self._board = board
+        self._listed = listed
+        self._ties = ties
+        self._no_block = no_block
+        self._onward: dict[int, list[int]] = {}
+        self._ends: set[int] = set()
+
+    def value(self) -> Costs:
+        """What the policy is worth in ``I``.
+
+        Raises:
+            BrokenError: it is not closed, does not end, or a value is wrong.
+            UndecidedError: his own optimum could not be worked out.
+        """
+        board = self._board
+        if board.start not in self._listed:
+            return self._idle(board.start)
+        pending = [board.start]
+        while pending:
+            state = pending.pop()
+            if state not in self._onward:
+                self._round(state)
+                pending.extend(self._onward[state])
+        self._require_an_end()
+        return self._listed[board.start].value
+
+    def _idle(self, state: int) -> Costs:
+        """Doing nothing for ever."""
+        if self._board.goal.holds(state):
+            return NOTHING
+        alone = self._board.alone(state)
+        if alone is None:
+            raise BrokenError(
+                "replay", "the supporter idles in a state from which the human has no plan alone"
+            )
+        return alone, Fraction(0)
+
+    def _round(self, state: int) -> None:
+        """One round from a listed state: the values after it must make its value."""
+        listed = self._listed[state]
+        if self._board.goal.holds(state):
+            raise BrokenError("replay", "a state is listed in which the goal holds already")
+        cost, middle = self._move(state, listed.action)
+        self._onward[state] = []
+        if self._board.goal.holds(middle):
+            self._ends.add(state)
+            self._compare(listed, (Fraction(0), cost))
+            return
+        replies = self._board.replies(middle)
+        values = [plus(reply, self._after(reply)) for reply in replies]
+        combined = combine(self._ties, values)
+        self._compare(listed, (combined[0], combined[1] + cost))
+        for reply, value in zip(replies, values, strict=True):
+            if self._ties == "optimistic" and value != combined:
+                continue  # this is not the action that the value counts on
+            if reply.state in self._listed and not self._board.goal.holds(reply.state):
+                self._onward[state].append(reply.state)
+            else:
+                self._ends.add(state)
+
+    def _move(self, state: int, name: str) -> tuple[Fraction, int]:
+        for cost, after, action in self._board.moves(state):
+            if action == name:
+                if self._blocks(name, state, after):
+                    raise BrokenError("replay", f"'{name}' leaves the human without a plan")
+                return cost, after
+        useless = self._board.useless(name, state)
+        if useless is None:
+            raise BrokenError("replay", f"the supporter can't do '{name}' where the policy says so")
+        return useless, state
+
+    def _blocks(self, name: str, state: int, after: int) -> bool:
+        if not self._no_block or name == "noop":
+            return False
+        return self._board.alone(after) is None and self._board.alone(state) is not None
+
+    def _after(self, reply: Reply) -> Costs:
+        if self._board.goal.holds(reply.state):
+            return NOTHING
+        listed = self._listed.get(reply.state)
+        return self._idle(reply.state) if listed is None else listed.value
+
+    def _compare(self, listed: Listed, value: Costs) -> None:
+        if listed.value != value:
+            raise BrokenError(
+                "cost",
+                f"where the supporter does '{listed.action}' the value is given as {show(listed.value)}; "
+                f"one round and the values after it make {show(value)}",
+            )
+
+    def _require_an_end(self) -> None:
+        """Every run ends: with certainty; where ties are expected, with probability 1."""
+        settled = set(self._ends) if self._ties in ("expected", "optimistic") else set()
+        every = all if self._ties in ("robust", "fixed") else any
+        grows = True
+        while grows:
+            more = {s for s, after in self._onward.items() if every(x in settled for x in after) and after}
+            more |= {s for s, after in self._onward.items() if not after}
+            grows = not more <= settled
+            settled |= more
+        if self._board.start not in settled or (self._ties == "expected" and settled != set(self._onward)):
+            raise BrokenError("replay", "a run of the policy may go on for ever")

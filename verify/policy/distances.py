@@ -1,0 +1,168 @@
+"""Exact distances in a small transition system over bit sets of facts."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
+from itertools import chain
+
+from verify.policy.deadline import Deadline
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """An action over bit sets of facts: needs ``pre``, excludes ``neg``, sets and unsets."""
+
+    pre: int
+    neg: int
+    add: int
+    delete: int
+    weight: int
+    action: int
+    """Its id in the task."""
+
+    def applicable(self, state: int) -> bool:
+        """Whether it can be done in a state."""
+        return state & self.pre == self.pre and not state & self.neg
+
+    def after(self, state: int) -> int:
+        """The state that it leads to."""
+        return state & ~self.delete | self.add
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """Facts that must hold, and that must not."""
+
+    pre: int
+    neg: int
+
+    def holds(self, state: int) -> bool:
+        """Whether they do."""
+        return state & self.pre == self.pre and not state & self.neg
+
+
+class Moves:
+    """Applicable edges of a state, looked up under one fact that each of them needs."""
+
+    def __init__(self, edges: Sequence[Edge]) -> None:
+        count: dict[int, int] = {}
+        for edge in edges:
+            for bit in bits_of(edge.pre):
+                count[bit] = count.get(bit, 0) + 1
+        self._under: dict[int, list[Edge]] = {}
+        self._always: list[Edge] = []
+        self._watched = 0
+        for edge in edges:
+            bit = min(bits_of(edge.pre), key=lambda bit: count[bit], default=0)
+            self._under.setdefault(bit, []).append(edge) if bit else self._always.append(edge)
+            self._watched |= bit
+
+    def __call__(self, state: int) -> Iterator[tuple[int, int]]:
+        """Weight and state after each edge that is applicable."""
+        under = self._under
+        for edge in chain(self._always, *(under[bit] for bit in bits_of(state & self._watched))):
+            if state & edge.pre == edge.pre and not state & edge.neg:
+                yield edge.weight, state & ~edge.delete | edge.add
+
+
+def bits_of(mask: int) -> Iterator[int]:
+    """The single bits of a mask, ascending."""
+    while mask:
+        bit = mask & -mask
+        yield bit
+        mask ^= bit
+
+
+class Distances:
+    """Least weights to the goal, for everything reachable from the states asked about.
+
+    Args:
+        edges: the actions.
+        goal: where the distance is 0.
+        most: states looked at before a question is given up.
+        deadline: asked for time.
+    """
+
+    def __init__(self, edges: Sequence[Edge], goal: Goal, most: int, deadline: Deadline) -> None:
+        self._moves = Moves(edges)
+        self._goal = goal
+        self._most = most
+        self._deadline = deadline
+        self._known: dict[int, int | None] = {}
+
+    def __call__(self, state: int) -> int | None:
+        """The least weight; None if the goal can't be reached.
+
+        Raises:
+            UndecidedError: there are too many states, or no time is left.
+        """
+        if state not in self._known:
+            self._explore(state)
+        return self._known[state]
+
+    def _explore(self, start: int) -> None:
+        before: dict[int, list[tuple[int, int]]] = {start: []}
+        pending, ends = [start], []
+        while pending:
+            state = pending.pop()
+            if not len(pending) % 256:
+                self._deadline.check()
+            if state in self._known:
+                known = self._known[state]
+                ends += [] if known is None else [(known, state)]
+            elif self._goal.holds(state):
+                ends.append((0, state))
+            else:
+                for weight, after in self._moves(state):
+                    if after not in before:
+                        before[after] = []
+                        pending.append(after)
+                    before[after].append((weight, state))
+            self._deadline.require(len(before) <= self._most, f"more than {self._most} states")
+        self._settle(ends, before)
+
+    def _settle(self, queue: list[tuple[int, int]], before: dict[int, list[tuple[int, int]]]) -> None:
+        heapify(queue)
+        found: dict[int, int] = {}
+        while queue:
+            distance, state = heappop(queue)
+            if state not in found:
+                found[state] = distance
+                for weight, earlier in before[state]:
+                    if earlier not in found:
+                        heappush(queue, (distance + weight, earlier))
+        for state in before:
+            self._known[state] = found.get(state)
+
+
+def reaches_below(
+    moves: Moves, goal: Goal, start: int, limit: int, least: Callable[[int], int], most: int
+) -> bool | None:
+    """Whether the goal can be reached from ``start`` for less than ``limit``; None if that takes too long.
+
+    Args:
+        moves: the actions.
+        goal: the goal.
+        start: the state.
+        limit: what must be undercut.
+        least: a consistent lower bound on what a state still takes.
+        most: states looked at before giving up.
+    """
+    queue = [(least(start), 0, start)]
+    best = {start: 0}
+    closed: set[int] = set()
+    while queue and queue[0][0] < limit:
+        _, minus, state = heappop(queue)
+        if state in closed:
+            continue
+        closed.add(state)
+        if goal.holds(state):
+            return True
+        if len(closed) > most:
+            return None
+        for weight, after in moves(state):
+            cost = weight - minus
+            if cost + least(after) < limit and cost < best.get(after, limit):
+                best[after] = cost
+                heappush(queue, (cost + least(after), -cost, after))
+    return False

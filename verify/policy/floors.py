@@ -1,0 +1,73 @@
+"""Do the lower bounds of a result prove each other, round by round?
+
+If every floor is at most what each of the supporter's moves and the floors after it make,
+no policy whose runs end is worth less than the floor of ``I``.  States without a floor
+are bounded by both agents together, without turns.
+"""
+
+from fractions import Fraction
+
+from serendipity.model import Policy
+from verify.policy.board import NOTHING, Board, Costs, Reply
+from verify.policy.deadline import UndecidedError
+from verify.policy.reading import combine, plus
+
+
+class Floors:
+    """The lower bounds of one result.
+
+    Args:
+        board: the game.
+        policy: with its floors.
+        ties: how the human's choices count.
+        no_block: no move may take his last plan away.
+    """
+
+    def __init__(self, board: Board, policy: Policy, ties: str, *, no_block: bool) -> None:
+        self._board = board
+        self._ties = ties
+        self._no_block = no_block
+        self._floors = {board.state(floor.state): floor.value for floor in policy.floors or ()}
+
+    def prove(self, value: Costs) -> None:
+        """Return if no policy is worth less than ``value`` in ``I``.
+
+        Raises:
+            UndecidedError: the floors don't show it.
+        """
+        start = self._board.start
+        if self._board.goal.holds(start) or self._board.at_least(start, value):
+            return
+        if self._floors.get(start, NOTHING) < value:
+            raise UndecidedError("the lower bounds that came with the policy do not reach its value")
+        for state, floor in self._floors.items():
+            for cost, middle, name in self._board.moves(state):
+                if not self._justified(state, middle, name, cost, floor):
+                    raise UndecidedError(f"a lower bound does not follow from those after '{name}'")
+
+    def _justified(self, state: int, middle: int, name: str, cost: Fraction, floor: Costs) -> bool:
+        board = self._board
+        if board.goal.holds(middle):
+            return floor <= (Fraction(0), cost)
+        rest = (floor[0], max(floor[1] - cost, Fraction(0)))
+        if rest <= board.count(middle):
+            return True
+        if (
+            self._no_block
+            and name != "noop"
+            and board.alone(middle) is None
+            and board.alone(state) is not None
+        ):
+            return True
+        replies = board.replies(middle)
+        combined = combine(self._ties, [plus(reply, self._after(reply)) for reply in replies])
+        if floor <= (combined[0], combined[1] + cost):
+            return True
+        return board.at_least(middle, rest)
+
+    def _after(self, reply: Reply) -> Costs:
+        board = self._board
+        if board.goal.holds(reply.state):
+            return NOTHING
+        floor = self._floors.get(reply.state)
+        return board.bound(reply.state) if floor is None else floor

@@ -1,0 +1,55 @@
+"""A policy as bits, and what the human's choices make of values."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from serendipity.model import Policy
+from verify.policy.board import Board, Costs, Reply
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """What a policy says of a state."""
+
+    action: str
+    value: Costs
+
+
+def read_decisions(board: Board, policy: Policy) -> dict[int, Listed]:
+    """What the policy does, by state.
+
+    Raises:
+        ValueError: two entries for one state, or an unknown fact.
+    """
+    listed: dict[int, Listed] = {}
+    for decision in policy.decisions:
+        try:
+            state = board.state(decision.state)
+        except KeyError as error:
+            raise ValueError(f"the task has no fact {error}") from None
+        if state in listed:
+            raise ValueError(f"two entries for one state, one of them does '{decision.action}'")
+        listed[state] = Listed(decision.action, decision.value)
+    return listed
+
+
+def combine(ties: str, values: list[Costs]) -> Costs:
+    """The value of a state in which the human chooses (SPEC 7)."""
+    if ties == "robust":
+        return max(values)
+    if ties == "expected":
+        count = len(values)
+        return sum((v[0] for v in values), Fraction(0)) / count, sum(
+            (v[1] for v in values), Fraction(0)
+        ) / count
+    return min(values)
+
+
+def plus(reply: Reply, rest: Costs) -> Costs:
+    """A reply's cost and what follows it."""
+    return rest[0] + reply.cost, rest[1]
+
+
+def show(value: Costs | None) -> str:
+    """A value for people."""
+    return "infinite" if value is None else f"({value[0]}, {value[1]})"
