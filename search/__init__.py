@@ -4,6 +4,7 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.
 """
 
 from search.alone import PlanGraph
+from search.carrying import at_state
 from search.clock import Clock, OutOfTimeError
 from search.encoding import prepare
 from search.outcome import Outcome
@@ -14,6 +15,7 @@ __all__ = [
     "OutOfTimeError",
     "Outcome",
     "PlanGraph",
+    "at_state",
     "optimal_human_plan",
     "optimal_human_plans",
     "prepare",

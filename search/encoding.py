@@ -10,6 +10,7 @@ Glossary: *field* - the bits of one variable; *op* - a packed ground action;
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -145,6 +146,20 @@ class Encoding:
         self._cost_by_identity: dict[int, int] = {}
         self._ops: dict[int, Op] = {}
         self._compatible: dict[tuple[int, int, bool], bool] = {}
+
+    def moved_to(self, task: Task, *, derived: bool) -> "Encoding":
+        """The same packing for a task that differs in its initial state only.
+
+        Args:
+            task: the task.
+            derived: whether what was derived from this packing holds for the state, too.
+        """
+        moved = copy(self)
+        moved.task = task
+        moved.init = moved.pack(task.init)
+        if not derived:
+            moved.__dict__.pop("_derived", None)
+        return moved
 
     @cached_property
     def own(self) -> tuple[Op, ...]:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from serendipity.planning import plan, plan_anytime
     from serendipity.reproduction import reproduce
     from serendipity.scenarios import example, generate_usar
+    from serendipity.session import Session
     from serendipity.simulation import simulate
 
 __version__ = "0.1.0"
@@ -48,6 +49,7 @@ __all__ = [
     "PlanStep",
     "Result",
     "SerendipityError",
+    "Session",
     "Task",
     "Trace",
     "UsageError",
@@ -76,6 +78,7 @@ _HOMES: Final = {
     "generate_usar": "serendipity.scenarios",
     "plan": "serendipity.planning",
     "plan_anytime": "serendipity.planning",
+    "Session": "serendipity.session",
     "simulate": "serendipity.simulation",
     "check": "serendipity.certify",
     "verify": "serendipity.certify",
@@ -92,6 +95,7 @@ _NEED_SIBLINGS: Final = (
     "serendipity.interruptibility",
     "serendipity.explanation",
     "serendipity.reproduction",
+    "serendipity.session",
     "serendipity.simulation",
 )
 

@@ -1,5 +1,6 @@
 """The facade over the search: options in, results out, incumbents on the way."""
 
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
@@ -44,13 +45,19 @@ def plan(
 
 
 def plan_anytime(
-    task: Task, *, human_plan: Iterable[str] | None = None, visible: Visible | None = None, **options: Any
+    task: Task,
+    *,
+    human_plan: Iterable[str] | None = None,
+    visible: Visible | None = None,
+    cancelled: threading.Event | None = None,
+    **options: Any,
 ) -> Iterator[Result]:
     """Answers with falling objective and rising lower bound; the last is what :func:`plan` returns.
 
-    Args and errors are those of :func:`plan`.
+    Args and errors are those of :func:`plan`; ``cancelled``, set from another thread, ends the
+    call like a time limit: the last answer is the incumbent.
     """
-    for answer in _answers(task, human_plan, visible, options):
+    for answer in _answers(task, human_plan, visible, options, cancelled):
         yield answer()
 
 
@@ -76,13 +83,17 @@ class _Call:
 
 
 def _answers(
-    task: Task, human_plan: Iterable[str] | None, visible: Visible | None, options: dict[str, Any]
+    task: Task,
+    human_plan: Iterable[str] | None,
+    visible: Visible | None,
+    options: dict[str, Any],
+    cancelled: threading.Event | None = None,
 ) -> Iterator[Callable[[], Result]]:
     """Answers that are put into words only if somebody asks for them."""
     chosen = options_from(options)
     if visible is not None and chosen.human_model != "local":
         raise UsageError(f"visible: is for human_model 'local' only, not for '{chosen.human_model}'")
-    clock = Clock(chosen.time_limit)
+    clock = Clock(chosen.time_limit, cancelled)
     given = None if human_plan is None else task.plan_from_names(human_plan)
     if chosen.mode == "assistance":
         if given is not None:

@@ -86,6 +86,10 @@ class Task:
             self._derived[build] = build(self)
         return self._derived[build]  # type: ignore[no-any-return]
 
+    def keep_derived(self, build: "Callable[[Task], T]", value: T) -> None:
+        """Let :meth:`derived` give ``value``, which is known to be ``build(self)``."""
+        self._derived[build] = value
+
     def forget_derived(self) -> None:
         """Drop what :meth:`derived` keeps, for measurements."""
         self._derived.clear()
@@ -145,6 +149,14 @@ class Task:
     def cost_of(self, plan: HumanPlan) -> Fraction:
         """Sum of the undiscounted costs of a human plan."""
         return sum((self.actions[i].cost for i in plan), Fraction(0))
+
+    def at(self, state: frozenset[int]) -> "Task":
+        """The same task from another state; variables stay where they still fit it."""
+        moved = replace(self, init=state)
+        groups = (variable for variable in self.variables if not variable.boolean)
+        if all(len(state.intersection(group.facts)) == 1 for group in groups):
+            moved.__dict__["variables"] = self.variables  # what the cached property would find, or better
+        return moved
 
     def with_human(self, human: str) -> "Task":
         """The same task with another agent as the human.

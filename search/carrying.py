@@ -1,0 +1,22 @@
+"""Replanning calls: what was packed for a task serves it in another state."""
+
+from search.encoding import Encoding, encoding
+from search.projection import human_graph
+from serendipity.model.task import Task
+
+
+def at_state(task: Task, state: frozenset[int]) -> Task:
+    """The task from another state, with as much of what is packed for it as still holds.
+
+    Args:
+        task: a task that calls may have been asked of.
+        state: ids of the facts that are true now.
+    """
+    moved = task.at(state)
+    if moved.variables is task.variables:
+        packed = encoding(task)
+        graph = packed.derived(human_graph)
+        # What can be reached from a state that was reached has been reached.
+        known = packed.pack(state) & graph.mask in graph.predecessors
+        moved.keep_derived(Encoding, packed.moved_to(moved, derived=known))
+    return moved

@@ -1,0 +1,138 @@
+"""Planning again and again in a control loop: what doesn't change between calls is kept."""
+
+import threading
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from search import at_state
+from serendipity.model.actions import Condition, GroundAction, conflicting
+from serendipity.model.errors import PlanError, UsageError
+from serendipity.model.result import Result
+from serendipity.model.task import Task, canonical_name
+from serendipity.planning import plan_anytime
+
+
+class Session:
+    """A task in its present state, and the human's plan as far as it is known.
+
+    Packed actions, finite-domain variables and projections are kept from call to call,
+    also after an epoch has been executed or a fact has changed; a new goal packs anew.
+
+    Args:
+        task: where things stand.
+        human_plan: names of the actions that the human is going to do, or None to predict them.
+        **options: defaults of every call, as for :func:`serendipity.plan`.
+    """
+
+    def __init__(self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> None:
+        self._task = task
+        self._options = options
+        self._human_plan = None if human_plan is None else tuple(human_plan)
+        self._cancelled = threading.Event()
+
+    @property
+    def task(self) -> Task:
+        """The task from the present state."""
+        return self._task
+
+    @property
+    def human_plan(self) -> tuple[str, ...] | None:
+        """What the human is going to do; None until it is given or predicted."""
+        return self._human_plan
+
+    def plan(self, **options: Any) -> Result:
+        """The best answer from the present state (see :func:`serendipity.plan`)."""
+        *_, last = self.plan_anytime(**options)
+        return last
+
+    def plan_anytime(self, **options: Any) -> Iterator[Result]:
+        """Answers as they get better; :meth:`cancel` ends them with the incumbent."""
+        self._cancelled.clear()
+        chosen = {**self._options, **options}
+        answers = plan_anytime(self._task, human_plan=self._human_plan, cancelled=self._cancelled, **chosen)
+        for answer in answers:
+            if self._human_plan is None:
+                self._human_plan = answer.human_plan
+            yield answer
+
+    def cancel(self) -> None:
+        """End the running call, from any thread; it returns the incumbent."""
+        self._cancelled.set()
+
+    def execute(self, actions: Iterable[str]) -> None:
+        """Move on by one epoch in which these actions were executed (none: everybody waited).
+
+        The human's plan goes on behind his action.  It is predicted anew after a joint
+        action, after one that was not next, and where its rest does not work any more.
+
+        Raises:
+            UsageError: an action is unknown or not applicable, or two of them conflict.
+        """
+        chosen = [self._action(name) for name in actions]
+        for i, action in enumerate(chosen):
+            for other in chosen[:i]:
+                if conflicting(action, other, strict=False):
+                    raise UsageError(f"'{other.name}' and '{action.name}' can't share an epoch")
+        deleted = {fact for action in chosen for fact in action.delete}
+        added = {fact for action in chosen for fact in action.add}
+        self._task = at_state(self._task, self._task.init.difference(deleted).union(added))
+        self._follow([action for action in chosen if self._task.human in action.participants])
+
+    def change(self, facts: Mapping[str, bool]) -> None:
+        """Set facts to true or false, as they were seen.
+
+        Raises:
+            UsageError: there is no such fact.
+        """
+        state = set(self._task.init)
+        for name, true in facts.items():
+            fact = self._fact(name)
+            state.add(fact) if true else state.discard(fact)
+        self._task = at_state(self._task, frozenset(state))
+        self._keep_plan_if_it_works()
+
+    def set_goal(self, goal: Iterable[str]) -> None:
+        """Give the human another goal: literals, ``!`` in front of those to be false.
+
+        Raises:
+            UsageError: there is no such fact.
+        """
+        literals = list(goal)
+        positive = sorted(self._fact(name) for name in literals if not name.startswith("!"))
+        negative = sorted(self._fact(name[1:]) for name in literals if name.startswith("!"))
+        self._task = replace(self._task, goal=Condition(tuple(positive), tuple(negative)))
+        self._human_plan = None
+
+    def _follow(self, his: list[GroundAction]) -> None:
+        if self._human_plan is None or not his:
+            self._keep_plan_if_it_works()
+            return
+        (action,) = his
+        on_plan = not action.joint and self._human_plan[:1] == (action.name,)
+        self._human_plan = self._human_plan[1:] if on_plan else None
+        self._keep_plan_if_it_works()
+
+    def _keep_plan_if_it_works(self) -> None:
+        if self._human_plan is None:
+            return
+        try:
+            self._task.plan_from_names(self._human_plan)
+        except PlanError:
+            self._human_plan = None
+
+    def _action(self, name: str) -> GroundAction:
+        ids = self._task.named.get(canonical_name(name))
+        if ids is None:
+            raise UsageError(f"there is no action '{name}' in the task")
+        actions = [self._task.actions[i] for i in ids]
+        found = next((action for action in actions if action.applicable(self._task.init)), None)
+        if found is None:
+            raise UsageError(f"'{name}' is not applicable in the present state")
+        return found
+
+    def _fact(self, name: str) -> int:
+        try:
+            return self._task.facts.index(canonical_name(name))
+        except ValueError:
+            raise UsageError(f"there is no fact '{name}' in the task") from None
