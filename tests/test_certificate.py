@@ -31,7 +31,8 @@ def test_unknown_words_are_refused(claim: str, verdict: str) -> None:
 
 def test_json_has_the_documented_fields() -> None:
     step = PlanStep(1, ("h", "r"), "lift h r", 2.0)
-    written = Certificate((Claim("optimal", "refuted", "cheaper", (step,), 0.2),), 0.3, "S 1", "E").to_dict()
+    claim = Claim("optimal", "refuted", "cheaper", (step,), 0.2, 1.5)
+    written = Certificate((claim,), 0.3, "S 1", "E").to_dict()
     assert json.loads(json.dumps(written)) == {
         "schema": "serendipity.certificate/1",
         "verdict": "refuted",
@@ -42,6 +43,7 @@ def test_json_has_the_documented_fields() -> None:
                 "reason": "cheaper",
                 "counterexample": [{"epoch": 1, "agents": ["h", "r"], "action": "lift h r", "cost": 2.0}],
                 "seconds": 0.2,
+                "bound": 1.5,
             }
         ],
         "solver": "S 1",

@@ -15,7 +15,16 @@ Score = tuple[int, int]
 
 
 class UndecidedError(Exception):
-    """A minimum that the answer depends on could not be proved; the text says why."""
+    """A minimum that the answer depends on could not be proved; the text says why.
+
+    Attributes:
+        bound: no better plan than the one examined has an objective below so many units;
+            None where nothing is known.
+    """
+
+    def __init__(self, reason: str, bound: int | None = None) -> None:
+        super().__init__(reason)
+        self.bound = bound
 
 
 @dataclass(frozen=True)
@@ -168,7 +177,8 @@ class Call:
             minimum = minimise(limited, self.effort, self.plans)
             if minimum.found is not None:
                 return minimum.found
-            self.decided(minimum)
+            if minimum.status == "undecided":
+                raise UndecidedError(minimum.reason, minimum.bound)
         return None
 
     def best(self, question: Question, than: Score | None) -> Found | None:

@@ -208,7 +208,11 @@ class _Certifier:
         """An optimum's bound is its objective (a rule): what holds for one holds for the other."""
         claim = examined.get("optimal") or examined["no_opportunity"]
         return Claim(
-            "lower_bound", claim.verdict, f"as '{claim.claim}': {claim.reason}", claim.counterexample
+            "lower_bound",
+            claim.verdict,
+            f"as '{claim.claim}': {claim.reason}",
+            claim.counterexample,
+            bound=claim.bound,
         )
 
     def _examiner(self) -> Examiner:

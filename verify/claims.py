@@ -17,6 +17,11 @@ from verify.rules import Checker
 Verdict = tuple[str, str, Found | None]
 """Verdict, reason, counter-example."""
 
+_BOUNDED = ("optimal", "no_opportunity", "lower_bound")
+"""Claims that bound the objective."""
+
+_CLOSED = "closed by reachability and shortest paths, no solver call"
+
 
 class Examiner:
     """Examines one result of one call.
@@ -37,10 +42,17 @@ class Examiner:
     def claim(self, name: str, examine: Callable[[], Verdict]) -> Claim:
         """Run an examination; running out of time or memory leaves the claim undecided."""
         started = perf_counter()
+        effort, bound = self.call.effort, None
+        programs, calls = effort.programs, effort.calls
         try:
             verdict, reason, found = examine()
+            if verdict == "proved" and name in _BOUNDED:
+                bound = self.result.lower_bound
         except UndecidedError as error:
             verdict, reason, found = "undecided", str(error), None
+            bound = self._known(error.bound)
+            if bound is not None:
+                reason += f"; no answer has an objective below {bound:.12g}"
         except TooManyStatesError:
             verdict, reason, found = "undecided", "the human's own problem is too large", None
         example = None
@@ -51,7 +63,9 @@ class Examiner:
                 verdict, reason, example = "undecided", f"the counter-example breaks a rule: {fault}", None
             else:
                 reason += f": {self._describe(found)}"
-        return Claim(name, verdict, reason, example, perf_counter() - started)
+        if verdict == "proved" and effort.programs > programs and effort.calls == calls:
+            reason += f"; {_CLOSED}"
+        return Claim(name, verdict, reason, example, perf_counter() - started, bound)
 
     # -- the claims
 
@@ -64,7 +78,7 @@ class Examiner:
         nothing = self.call.do_nothing
         if nothing is not None and nothing < score:  # beyond max_cost, which pi_H is exempt from
             return "refuted", "doing nothing is better", None
-        return "proved", f"no plan within {self._cut(score)}", None
+        return "proved", f"no plan has {self._cut(score)}", None
 
     def optimum_is_no_opportunity(self) -> Verdict:
         """A proved optimum costs no less than the answer without robots."""
@@ -82,7 +96,7 @@ class Examiner:
             found = self._better(nothing)
             if found is not None:
                 return "refuted", "an opportunity", found
-            return "proved", f"no plan within {self._cut(nothing)}", None
+            return "proved", f"no plan has {self._cut(nothing)}", None
         best, idle = best_plan(call), idle_cost(call)
         if best is not None and idle is not None and best.cost < idle:
             return "refuted", "an opportunity", best
@@ -132,7 +146,8 @@ class Examiner:
         )
         if minimum.found is not None:
             return "refuted", "a plan below the bound", minimum.found
-        call.decided(minimum)
+        if minimum.status == "undecided":
+            raise UndecidedError(minimum.reason, minimum.bound)
         return "proved", f"no plan has an objective below {bound:.12g}", None
 
     def infeasible(self) -> Verdict:
@@ -155,6 +170,15 @@ class Examiner:
 
     def _question(self) -> Question:
         return self.call.endless if self._endless else self.call.question
+
+    def _known(self, units: int | None) -> float | None:
+        """What a solver's bound says of the answer's objective: no more than was asked for."""
+        call, claimed = self.call, self.result.lower_bound
+        if units is None or claimed is None:
+            return None
+        if call.options.windowed and not self.result.opportunity:
+            units -= call.prices.epoch  # net of its one-epoch window, as in lower_bound
+        return min(claimed, max(0.0, float(call.prices.cost(units))))
 
     def _usual(self) -> bool:
         """Whether doing nothing and the answer without robots are both ``pi_H``."""
@@ -181,10 +205,8 @@ class Examiner:
         return f"{float(self.call.prices.cost(units)):.12g}"
 
     def _cut(self, score: Score) -> str:
-        words = f"objective {self._amount(score[0])}"
-        return (
-            f"{words} and lower cost, or lower objective" if self.call.may_tie(score) else f"a lower {words}"
-        )
+        words = f"an objective below {self._amount(score[0])}"
+        return f"{words}, or the same at a lower cost" if self.call.may_tie(score) else words
 
     def _describe(self, found: Found) -> str:
         words = f"cost {self._amount(found.cost)}, objective {self._amount(found.objective)}"

@@ -51,13 +51,15 @@ class Effort:
         solver: one of ``verify.solver.SOLVERS``.
         deadline: value of ``time.perf_counter`` at which to stop, or None.
         size: columns and rows of the largest program so far.
-        calls: number of solver calls.
+        programs: number of questions that were put to an encoding.
+        calls: number of solver calls; fewer where an encoding sees by itself that there is no plan.
     """
 
     encoding: str = "automata"
     solver: str = "highs"
     deadline: float | None = None
     size: dict[str, int] = field(default_factory=lambda: {"variables": 0, "constraints": 0})
+    programs: int = 0
     calls: int = 0
 
     def __post_init__(self) -> None:
@@ -118,6 +120,7 @@ def _minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimu
         return Minimum("undecided", reason="time limit")
     if question.horizon == 0:
         return _nothing_to_do(question)
+    effort.programs += 1
     encoding = ENCODINGS[effort.encoding](question)
     best: Found | None = None
     bound: int | None = None

@@ -59,6 +59,15 @@ NoBlock = Annotated[
 TimeLimit = Annotated[str | None, _option("time_limit", "Stop after so many seconds.", "SECONDS")]
 
 
+def seconds(text: str | None) -> float | None:
+    """A time limit in seconds.
+
+    Raises:
+        UsageError: it is not a number of at least 0.
+    """
+    return Options(time_limit=text).time_limit  # type: ignore[arg-type]
+
+
 def given(**options: str | bool | None) -> dict[str, Any]:
     """The options that the user gave; what he left out keeps its default."""
     return {name: value for name, value in options.items() if value is not None}

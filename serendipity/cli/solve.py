@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, plan_options
+from serendipity.cli import naming, output, plan_options, program_options
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.human_plan import read_human_plan
 
@@ -36,10 +36,8 @@ def solve(
     ties: plan_options.Ties = None,
     max_ties: plan_options.MaxTies = None,
     time_limit: plan_options.TimeLimit = None,
-    solver: Annotated[str, typer.Option(help="highs or cbc.", metavar="highs|cbc")] = "highs",
-    encoding: Annotated[
-        str, typer.Option(help="Agent automata, or the paper's equations.", metavar="automata|paper")
-    ] = "automata",
+    solver: program_options.Solver = "highs",
+    encoding: program_options.Encoding = "automata",
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import naming, output
+from serendipity.cli import naming, output, plan_options, program_options
 from serendipity.cli.exit_codes import OF_VERDICT
 from serendipity.cli.reading import read_json
 from serendipity.model import InputError, Result, UsageError
@@ -26,6 +26,9 @@ def verify(
     agent: naming.Agents = None,
     team: naming.Team = None,
     example: naming.Example = None,
+    solver: program_options.Solver = "highs",
+    encoding: program_options.Encoding = "automata",
+    time_limit: plan_options.TimeLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -45,7 +48,9 @@ def verify(
     task = name.load()
     output.warn(task.warnings, quiet=quiet)
     try:
-        certificate = serendipity.verify(task, result)
+        certificate = serendipity.verify(
+            task, result, solver=solver, encoding=encoding, time_limit=plan_options.seconds(time_limit)
+        )
     except InputError as error:
         raise InputError(error.message, answer) from None
     if form == "json":

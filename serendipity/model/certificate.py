@@ -31,6 +31,8 @@ class Claim:
         reason: one line for people.
         counterexample: a plan that refutes the claim, where there is one.
         seconds: time spent on it.
+        bound: what was proved about the objective, in the domain's unit: no answer has a
+            smaller one.  None where the claim says nothing of it.
 
     Raises:
         UsageError: there is no such claim or verdict.
@@ -41,6 +43,7 @@ class Claim:
     reason: str
     counterexample: tuple[PlanStep, ...] | None = None
     seconds: float = 0.0
+    bound: float | None = None
 
     def __post_init__(self) -> None:
         if self.claim not in CLAIMS:
@@ -57,6 +60,7 @@ class Claim:
             "reason": self.reason,
             "counterexample": None if example is None else [step.to_dict() for step in example],
             "seconds": self.seconds,
+            "bound": self.bound,
         }
 
 
