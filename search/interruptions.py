@@ -123,8 +123,9 @@ class _Objective:
     """The best plan of each window under some weights.
 
     A plan that fits a window fits every larger one, as long as the suffix only asks for what
-    is left to do.  So each window starts from the best of the windows inside it, and where
-    that is as good as the best of all there is nothing to search.
+    is left to do.  So a window is at least as good as those inside it, and at most as good as
+    those around it; where the two meet there is nothing to search.  The windows that reach to
+    either end come first, since each of them bounds a row or a column of the rest.
     """
 
     def __init__(self, tables: Tables, plan: HumanPlan, horizon: int, weight: Callable[[Op], int]) -> None:
@@ -134,23 +135,29 @@ class _Objective:
         self._successors = Successors(tables.encoding, weight, strict=tables.options.strict)
         self._suffix = suffix_rule(tables, plan)
         self._nested = tables.options.preservation == "kernel"
+        self._found: dict[Window, Incumbent] = {}
 
     def best(self, windows: list[Window]) -> dict[Window, Incumbent]:
         """By window; an infinite key where no plan fits."""
-        found: dict[Window, Incumbent] = {}
-        if not windows:
-            return found
-        whole = Window(1, self._horizon + 1)
-        found[whole] = self._search(whole, self._idle())
-        least = found[whole].key if self._nested else 0
-        for window in sorted(windows, key=lambda window: (len(window), window)):
-            if window == whole:
-                continue
-            known = self._inside(window, found)
-            if known.key > least:
-                known = self._search(window, known)
-            found[window] = known
-        return found
+        last = self._horizon + 1
+        early = [Window(1, end) for end in range(2, last)]
+        late = [Window(start, last) for start in range(len(self._plan), 1, -1)]
+        rest = sorted(windows, key=lambda window: (len(window), window))
+        for window in (Window(1, last), *late, *early, *rest) if windows else ():
+            if window not in self._found:
+                self._found[window] = self._best(window)
+        return self._found
+
+    def _best(self, window: Window) -> Incumbent:
+        known, least = self._inside(window), self._around(window)
+        if known.key <= least:
+            return known
+        best = Incumbent(known.key, known.node, known.end, known.tail)
+        space = _FixedWindow(self._tables, self._plan, self._horizon, window, self._successors, self._suffix)
+        for _ in best_first(space, best, Progress(), self._tables.clock):
+            if best.key <= least:
+                break
+        return best
 
     def _idle(self) -> Incumbent:
         """``pi_H`` with robots idle, which fits every window (SPEC 3.1)."""
@@ -158,19 +165,25 @@ class _Objective:
             return Incumbent(INFINITE_KEY)
         return Incumbent(sum(option.weight for _, option in self._tables.followed(self._plan)))
 
-    def _inside(self, window: Window, found: dict[Window, Incumbent]) -> Incumbent:
+    def _inside(self, window: Window) -> Incumbent:
+        """The best of the windows inside that are known already."""
         best = self._idle()
         if self._nested and len(window) > 1:
-            smaller = [Window(window.start, window.end - 1), Window(window.start + 1, window.end)]
-            best = min([best, *(found[w] for w in smaller if w in found)], key=lambda known: known.key)
+            smaller = (Window(window.start, window.end - 1), Window(window.start + 1, window.end))
+            for known in filter(None, map(self._found.get, smaller)):
+                best = min(best, known, key=lambda incumbent: incumbent.key)
         return best
 
-    def _search(self, window: Window, known: Incumbent) -> Incumbent:
-        best = Incumbent(known.key, known.node, known.end, known.tail)
-        space = _FixedWindow(self._tables, self._plan, self._horizon, window, self._successors, self._suffix)
-        for _ in best_first(space, best, Progress(), self._tables.clock):
-            pass
-        return best
+    def _around(self, window: Window) -> int:
+        """No plan of the window has a smaller key."""
+        if not self._nested:
+            return 0
+        larger = (
+            Window(1, self._horizon + 1),
+            Window(window.start, self._horizon + 1),
+            Window(1, window.end),
+        )
+        return max((known.key for known in filter(None, map(self._found.get, larger))), default=0)
 
 
 class _FixedWindow:
