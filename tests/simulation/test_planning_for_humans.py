@@ -73,9 +73,14 @@ def test_max_cost_leaves_doing_nothing() -> None:
     assert (result.status, result.cost, result.opportunity) == ("optimal", 10.0, False)
 
 
-def test_time_limit_of_nothing_says_so() -> None:
+def test_no_time_leaves_him_alone() -> None:
     result = serendipity.plan(case_1(), human_model="observant", time_limit=0)
-    assert (result.status, result.reason) == ("unknown", "time-limit")
+    if result.status == "unknown":
+        assert (result.plan, result.reason) == (None, "time-limit")
+    else:
+        assert (result.status, result.cost, result.opportunity) == ("feasible", 10.0, False)
+        assert result.lower_bound is not None
+        assert result.lower_bound < 10
 
 
 def test_answers_get_better_and_bounds_rise() -> None:
