@@ -23,7 +23,12 @@ _VERDICT_SHARE: Final = 0.1
 
 
 def plan(
-    task: Task, *, human_plan: Iterable[str] | None = None, visible: Visible | None = None, **options: Any
+    task: Task,
+    *,
+    human_plan: Iterable[str] | None = None,
+    visible: Visible | None = None,
+    cancelled: threading.Event | None = None,
+    **options: Any,
 ) -> Result:
     """The best plan in which robots help the human, with a proof that none is better.
 
@@ -33,6 +38,7 @@ def plan(
             an optimal plan of his (SPEC 1).
         visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
             ``human_model="local"`` sees; None for what is where he is.
+        cancelled: set from another thread, it ends the call like a time limit.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
             ``discount=0.6``, ``time_limit=0.1`` (seconds) and so on.
 
@@ -40,7 +46,7 @@ def plan(
         UsageError: an option is unknown or has no legal value.
         PlanError: ``human_plan`` can't be executed, or misses the goal.
     """
-    *_, last = _answers(task, human_plan, visible, options)
+    *_, last = _answers(task, human_plan, visible, options, cancelled)
     return last()
 
 
@@ -54,8 +60,7 @@ def plan_anytime(
 ) -> Iterator[Result]:
     """Answers with falling objective and rising lower bound; the last is what :func:`plan` returns.
 
-    Args and errors are those of :func:`plan`; ``cancelled``, set from another thread, ends the
-    call like a time limit: the last answer is the incumbent.
+    Args and errors are those of :func:`plan`.
     """
     for answer in _answers(task, human_plan, visible, options, cancelled):
         yield answer()

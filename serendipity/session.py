@@ -10,7 +10,7 @@ from serendipity.model.actions import Condition, GroundAction, conflicting
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.result import Result
 from serendipity.model.task import Task, canonical_name
-from serendipity.planning import plan_anytime
+from serendipity.planning import plan, plan_anytime
 
 
 class Session:
@@ -43,18 +43,25 @@ class Session:
 
     def plan(self, **options: Any) -> Result:
         """The best answer from the present state (see :func:`serendipity.plan`)."""
-        *_, last = self.plan_anytime(**options)
-        return last
+        self._cancelled.clear()
+        chosen = {**self._options, **options}
+        answer = plan(self._task, human_plan=self._human_plan, cancelled=self._cancelled, **chosen)
+        self._learn(answer)
+        return answer
 
     def plan_anytime(self, **options: Any) -> Iterator[Result]:
         """Answers as they get better; :meth:`cancel` ends them with the incumbent."""
         self._cancelled.clear()
         chosen = {**self._options, **options}
-        answers = plan_anytime(self._task, human_plan=self._human_plan, cancelled=self._cancelled, **chosen)
-        for answer in answers:
-            if self._human_plan is None:
-                self._human_plan = answer.human_plan
+        for answer in plan_anytime(
+            self._task, human_plan=self._human_plan, cancelled=self._cancelled, **chosen
+        ):
+            self._learn(answer)
             yield answer
+
+    def _learn(self, answer: Result) -> None:
+        if self._human_plan is None:
+            self._human_plan = answer.human_plan
 
     def cancel(self) -> None:
         """End the running call, from any thread; it returns the incumbent."""

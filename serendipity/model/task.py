@@ -153,6 +153,9 @@ class Task:
     def at(self, state: frozenset[int]) -> "Task":
         """The same task from another state; variables stay where they still fit it."""
         moved = replace(self, init=state)
+        for table in ("named", "human_actions"):  # cached properties that no state changes
+            if table in self.__dict__:
+                moved.__dict__[table] = self.__dict__[table]
         groups = (variable for variable in self.variables if not variable.boolean)
         if all(len(state.intersection(group.facts)) == 1 for group in groups):
             moved.__dict__["variables"] = self.variables  # what the cached property would find, or better
