@@ -27,8 +27,14 @@ $(READY): requirements-dev.txt pyproject.toml
 	fi
 	@touch $@
 
-demo: $(READY)  ## the paper's example III-C: the robot helps a person who did not ask
+demo: $(READY)  ## the paper's example III-C: plan, proof, what the person will really do, picture
+	@mkdir -p build/demo
 	@$(BIN)/serendipity plan --example room2 --discount 0.6
+	@$(BIN)/serendipity plan --example room2 --discount 0.6 --quiet -o build/demo/room2.json
+	@echo && $(BIN)/serendipity verify --example room2 build/demo/room2.json
+	@echo && $(BIN)/serendipity simulate --example room2 build/demo/room2.json --human-model observant
+	@$(BIN)/serendipity show --example room2 build/demo/room2.json -o build/demo/room2.html
+	@echo && echo "Open build/demo/room2.html in a browser to see it."
 
 test: $(READY)  ## run the tests
 	@$(BIN)/python -m pytest
