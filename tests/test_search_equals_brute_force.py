@@ -13,11 +13,7 @@ from tests.strategies import Call, calls
 
 
 def _answer(call: Call) -> Result | str:
-    return _or_error(
-        lambda: serendipity.plan(
-            call.task, human_plan=call.human_plan_names, **_keywords(call)
-        )
-    )
+    return _or_error(lambda: serendipity.plan(call.task, human_plan=call.human_plan_names, **_keywords(call)))
 
 
 def _keywords(call: Call) -> dict[str, object]:

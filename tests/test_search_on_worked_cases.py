@@ -50,7 +50,9 @@ def test_case_8_communication_needs_a_horizon() -> None:
         serendipity.plan(case_8(), mode="communication")
 
 
-@pytest.mark.parametrize(("room", "mode", "discount"), [(r, *key) for r, rows in ROOMS.items() for key in rows])
+@pytest.mark.parametrize(
+    ("room", "mode", "discount"), [(r, *key) for r, rows in ROOMS.items() for key in rows]
+)
 def test_paper_example(room: str, mode: str, discount: str) -> None:
     cost, start = ROOMS[room][mode, discount]
     result = serendipity.plan(serendipity.example(room), mode=mode, discount=discount)
