@@ -62,7 +62,12 @@ class Interruptions:
 
 
 def interruptions(
-    task: Task, options: Options, *, human_plan: HumanPlan | None = None, clock: Clock | None = None
+    task: Task,
+    options: Options,
+    *,
+    human_plan: HumanPlan | None = None,
+    clock: Clock | None = None,
+    on_progress: Callable[[int, int], None] | None = None,
 ) -> Interruptions | None:
     """The report of SPEC 3.2, or None where the human has no plan alone.
 
@@ -71,6 +76,7 @@ def interruptions(
         options: discount, horizon, suffix, preservation and interference count.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         clock: deadline and cancellation.
+        on_progress: called with the number of searches done, and of all.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``.
@@ -88,8 +94,9 @@ def interruptions(
     tables = Tables(task, asked, clock).for_plan(plan)
     starts = range(1, len(plan) + 1)
     windows = [Window(start, end) for start in starts for end in range(start + 1, horizon + 2)]
-    human = _Objective(tables, plan, horizon, _human_first(tables)).best(windows)
-    team = _Objective(tables, plan, horizon, tables.weights.team).best(windows)
+    count = _Count(2 * len(windows), on_progress)
+    human = _Objective(tables, plan, horizon, _human_first(tables), count).best(windows)
+    team = _Objective(tables, plan, horizon, tables.weights.team, count).best(windows)
     found = (_outcome(tables, plan, window, human[window], team[window]) for window in windows)
     return Interruptions(plan, horizon, idle.baseline, tuple(found))
 
@@ -119,6 +126,21 @@ def _outcome(
     return WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 
+class _Count:
+    """Tells how many searches are done."""
+
+    def __init__(self, total: int, report: Callable[[int, int], None] | None) -> None:
+        self._done = 0
+        self._total = total
+        self._report = report
+
+    def one_more(self) -> None:
+        """A search is done."""
+        self._done += 1
+        if self._report is not None:
+            self._report(self._done, self._total)
+
+
 class _Objective:
     """The best plan of each window under some weights.
 
@@ -128,8 +150,11 @@ class _Objective:
     either end come first, since each of them bounds a row or a column of the rest.
     """
 
-    def __init__(self, tables: Tables, plan: HumanPlan, horizon: int, weight: Callable[[Op], int]) -> None:
+    def __init__(
+        self, tables: Tables, plan: HumanPlan, horizon: int, weight: Callable[[Op], int], count: _Count
+    ) -> None:
         self._tables = tables
+        self._count = count
         self._plan = plan
         self._horizon = horizon
         self._successors = Successors(tables.encoding, weight, strict=tables.options.strict)
@@ -146,6 +171,7 @@ class _Objective:
         for window in (Window(1, last), *late, *early, *rest) if windows else ():
             if window not in self._found:
                 self._found[window] = self._best(window)
+                self._count.one_more()
         return self._found
 
     def _best(self, window: Window) -> Incumbent:

@@ -1,6 +1,6 @@
 """Which interruptions would help the human: every window, and the best that is possible in it (SPEC 3.2)."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
@@ -117,13 +117,18 @@ class InterruptionReport:
 
 
 def interruptions(
-    task: Task, *, human_plan: Iterable[str] | None = None, **options: Any
+    task: Task,
+    *,
+    human_plan: Iterable[str] | None = None,
+    on_progress: Callable[[int, int], None] | None = None,
+    **options: Any,
 ) -> InterruptionReport:
     """For each window the best for the human and the best for the team.
 
     Args:
         task: the task.
         human_plan: names of the actions that the human is going to do; None predicts them.
+        on_progress: called with the number of searches done, and of all (two for each window).
         **options: ``discount``, ``horizon``, ``suffix``, ``preservation``, ``interference``.
 
     Raises:
@@ -135,7 +140,7 @@ def interruptions(
             raise UsageError(f"interruptions: expected options among {', '.join(_OPTIONS)}, got '{name}'")
     chosen = options_from(options)
     given = None if human_plan is None else task.plan_from_names(human_plan)
-    found = search_windows(task, chosen, human_plan=given)
+    found = search_windows(task, chosen, human_plan=given, on_progress=on_progress)
     human = task.agents[task.human]
     if found is None:
         return InterruptionReport(

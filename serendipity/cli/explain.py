@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, plan_options
+from serendipity.cli import naming, output, plan_options, progress
 from serendipity.cli.exit_codes import OF_STATUS
 from serendipity.cli.human_plan import read_human_plan
 from serendipity.cli.reading import read_json
@@ -75,7 +75,9 @@ def explain(
     )
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
-    found = serendipity.explain(task, None if answer is None else _read(task, answer), **options)
+    result = None if answer is None else _read(task, answer)
+    with progress.counting("searches", quiet=quiet) as on_progress:
+        found = serendipity.explain(task, result, on_progress=on_progress, **options)
     output.write_answer(_shown(found, form), output_file)
     return OF_STATUS[found.answer.status]
 

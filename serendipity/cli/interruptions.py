@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, plan_options
+from serendipity.cli import naming, output, plan_options, progress
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.human_plan import read_human_plan
 from serendipity.model import UsageError
@@ -66,7 +66,8 @@ def interruptions(
     )
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
-    report = serendipity.interruptions(task, **options)
+    with progress.counting("searches", quiet=quiet) as on_progress:
+        report = serendipity.interruptions(task, on_progress=on_progress, **options)
     if form == "json":
         output.write_answer(output.as_json(report.to_dict()), output_file)
     else:

@@ -1,6 +1,6 @@
 """Puts an explanation together."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
@@ -16,6 +16,8 @@ from serendipity.planning import options_from
 SCHEMA: Final = "serendipity.explanation/1"
 _MODES: Final = ("serendipity", "communication", "composite")
 _REPORTED: Final = ("discount", "horizon", "suffix", "preservation", "interference")
+
+OnProgress = Callable[[int, int], None] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +78,7 @@ def explain(
     result: Result | None = None,
     *,
     human_plan: Iterable[str] | None = None,
+    on_progress: OnProgress = None,
     **options: Any,
 ) -> Explanation:
     """Why help comes as it does, or why there is none; each claim rests on a planning call.
@@ -84,6 +87,7 @@ def explain(
         task: the task.
         result: an answer to explain; its options and human plan hold.  None plans first.
         human_plan: without ``result``: what the human is going to do; None predicts it.
+        on_progress: called while windows are examined: how many searches are done, and of how many.
         **options: without ``result``: those of :func:`serendipity.plan`.
 
     Raises:
@@ -102,7 +106,7 @@ def explain(
     given = _given(task, result, human_plan)
     ask = Ask(task, chosen, given)
     proved = result is not None and result.plan is not None and result.status == "optimal"
-    return _explained(ask, result if result is not None and proved else ask())
+    return _explained(ask, result if result is not None and proved else ask(), on_progress)
 
 
 def _given(task: Task, result: Result | None, human_plan: Iterable[str] | None) -> tuple[str, ...] | None:
@@ -110,10 +114,10 @@ def _given(task: Task, result: Result | None, human_plan: Iterable[str] | None) 
     return None if names is None else tuple(task.actions[i].name for i in task.plan_from_names(names))
 
 
-def _explained(ask: Ask, answer: Result) -> Explanation:
+def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation:
     options, has_plan = ask.options, answer.human_plan is not None
     priced = has_plan and _has_thresholds(ask, answer)
-    report = _report(ask) if has_plan and options.mode == "serendipity" else None
+    report = _report(ask, on_progress) if has_plan and options.mode == "serendipity" else None
     told = None
     if has_plan and options.mode == "serendipity":
         told = ask(mode="communication", keep_prefix=False)
@@ -142,6 +146,6 @@ def _has_thresholds(ask: Ask, answer: Result) -> bool:
     return not (ask.task.robot_goal or answer.saving_alone or limited)
 
 
-def _report(ask: Ask) -> InterruptionReport:
+def _report(ask: Ask, on_progress: OnProgress) -> InterruptionReport:
     asked = {name: getattr(ask.options, name) for name in _REPORTED}
-    return interruptions(ask.task, human_plan=ask.human_plan, **asked)
+    return interruptions(ask.task, human_plan=ask.human_plan, on_progress=on_progress, **asked)
