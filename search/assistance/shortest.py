@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from search.assistance.bound import Bound
 from search.assistance.game import INFINITE, NOOP, Game, Move
-from search.assistance.solution import Costs, Entry, Solution
+from search.assistance.solution import ZERO, Costs, Entry, Solution
 
 _CHECK_EVERY = 16
 
@@ -159,10 +159,19 @@ class Shortest:
             node = node.parent
         proof: dict[int, Costs] = {}
         if floors and self.lower < INFINITE:
-            proof = {s: game.pair(max(0, self.lower - cost)) for s, cost in self._closed.items()}
+            proof = {s: self._rest(cost) for s, cost in self._closed.items()}
         return Solution(
             lower=None if self.lower >= INFINITE else game.pair(self.lower),
             upper=None if best.value >= INFINITE else game.pair(best.value),
             policy=dict(reversed(policy.items())),
             floors=proof,
         )
+
+    def _rest(self, cost: int) -> Costs:
+        """What is at least missing to the optimum after ``cost``; no cost is below 0."""
+        game = self._game
+        (prime, supporter), spent = game.pair(self.lower), game.pair(cost)
+        prime, supporter = prime - spent[0], supporter - spent[1]
+        if prime < 0:
+            return ZERO
+        return prime, max(supporter, ZERO[1])

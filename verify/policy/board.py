@@ -21,7 +21,8 @@ _UNIT = 1 << 40
 """Weights are his cost in this unit, plus his actions (alone) or the robot's cost (together)."""
 
 _MOST_ALONE = 1_000_000
-_MOST_TOGETHER = 60_000
+_MOST_TOGETHER = 150_000
+_MOST_PRIVATE = 10_000
 _MOST_LOOKED_AT = 20_000
 
 
@@ -39,6 +40,10 @@ class Board:
         task: one human, one robot.
         fixed: he takes the smallest of his optimal actions.
         deadline: asked for time.
+
+    Attributes:
+        replies_are_dear: the robot changes what he needs and can't change himself, so his
+            optimum is another search after each of its moves.
     """
 
     def __init__(self, task: Task, *, fixed: bool, deadline: Deadline) -> None:
@@ -64,42 +69,69 @@ class Board:
         self._together: Distances | None = Distances(
             [*together, *self._robot], self.goal, _MOST_TOGETHER, deadline
         )
+        changed = 0
+        for edge in self._robot:
+            changed |= edge.add | edge.delete
+        self._his_only = mentioned & ~changed
+        his_changes = 0
+        for edge in self._human:
+            his_changes |= edge.add | edge.delete
+        self.replies_are_dear = bool(changed & mentioned & ~his_changes)
+        private = [_within(edge, self._his_only) for edge in together]
+        goal = Goal(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
+        self._private: Distances | None = Distances(private, goal, _MOST_PRIVATE, deadline)
         self._ids = {name: i for i, name in enumerate(task.facts)}
 
-    def at_least(self, state: int, value: Costs) -> bool:
-        """Whether both together, without turns, pay at least ``value``, as far as can be told."""
+    def at_least(self, state: int, value: Costs, *, most: int = _MOST_LOOKED_AT) -> bool:
+        """Whether both together, without turns, pay at least ``value``, as far as can be told.
+
+        ``most`` limits the states looked at where there is no table of all of them.
+        """
         if value <= self.count(state):
             return True
-        if self._together is not None:
-            try:
-                key = self._together(state)
-            except UndecidedError:
-                self._deadline.check()
-                self._together = None
-            else:
-                return key is None or value <= self._costs(key)
+        known, key = self._tabled(state)
+        if known:
+            return key is None or value <= self._costs(key)
         limit = self._weight(value)
-        below = reaches_below(self._joint_moves, self.goal, state, limit, self._count_key, _MOST_LOOKED_AT)
+        below = reaches_below(self._joint_moves, self.goal, state, limit, self._least, most)
         return below is False
 
     def bound(self, state: int) -> Costs:
         """What both together pay at least from a state; a weaker bound where that takes too long."""
+        known, key = self._tabled(state)
+        if known:
+            return FAR if key is None else self._costs(key)
+        return self.count(state)
+
+    def _tabled(self, state: int) -> tuple[bool, int | None]:
+        """Whether there is a table of both together, and what it says."""
         if self._together is not None:
             try:
-                key = self._together(state)
+                return True, self._together(state)
             except UndecidedError:
                 self._deadline.check()
                 self._together = None
-            else:
-                return FAR if key is None else self._costs(key)
-        return self.count(state)
+        return False, None
 
     def count(self, state: int) -> Costs:
-        """A bound that needs no states: facts of the goal that only he can set, one an action."""
-        return self._costs(self._count_key(state))
+        """A bound that needs few states: what the human pays for what only he can bring about."""
+        return self._costs(self._least(state))
 
-    def _count_key(self, state: int) -> int:
-        return _UNIT * sum(cost for bit, cost in self._countable if not state & bit)
+    def _least(self, state: int) -> int:
+        facts = sum(cost for bit, cost in self._countable if not state & bit)
+        return max(_UNIT * facts, self._by_himself(state))
+
+    def _by_himself(self, state: int) -> int:
+        """What he pays at least if whatever the robot can change is as he wants it."""
+        if self._private is not None:
+            try:
+                least = self._private(state & self._his_only)
+            except UndecidedError:
+                self._deadline.check()
+                self._private = None
+            else:
+                return _UNIT * 10**12 if least is None else least
+        return 0
 
     def _weight(self, value: Costs) -> int:
         """The least weight that is worth ``value`` or more."""
@@ -193,6 +225,12 @@ class Board:
             return None
         weight = int(action.cost * self._scale) * unit + length
         return Edge(_bits(action.pre), _bits(action.neg), add, delete, weight, i)
+
+
+def _within(edge: Edge, facts: int) -> Edge:
+    """An edge as seen through some of the facts."""
+    pre, neg, add, delete = (mask & facts for mask in (edge.pre, edge.neg, edge.add, edge.delete))
+    return Edge(pre, neg, add, delete, edge.weight, edge.action)
 
 
 def _bits(facts: Iterable[int]) -> int:

@@ -6,11 +6,15 @@ are bounded by both agents together, without turns.
 """
 
 from fractions import Fraction
+from typing import Final
 
 from serendipity.model import Policy
 from verify.policy.board import NOTHING, Board, Costs, Reply
 from verify.policy.deadline import UndecidedError
 from verify.policy.reading import combine, plus
+
+_A_LOOK: Final = 300
+"""States worth looking at before the human's replies are worked out."""
 
 
 class Floors:
@@ -52,6 +56,8 @@ class Floors:
         rest = (floor[0], max(floor[1] - cost, Fraction(0)))
         if rest <= board.count(middle):
             return True
+        if board.replies_are_dear and board.at_least(middle, rest, most=_A_LOOK):
+            return True
         if (
             self._no_block
             and name != "noop"
@@ -61,9 +67,7 @@ class Floors:
             return True
         replies = board.replies(middle)
         combined = combine(self._ties, [plus(reply, self._after(reply)) for reply in replies])
-        if floor <= (combined[0], combined[1] + cost):
-            return True
-        return board.at_least(middle, rest)
+        return floor <= (combined[0], combined[1] + cost) or board.at_least(middle, rest)
 
     def _after(self, reply: Reply) -> Costs:
         board = self._board
