@@ -1,0 +1,128 @@
+"""Bugs in lower bounds: what is cut off though it could still pay."""
+
+from typing import Any
+
+from search import projection, windows
+from search.alone import Alone
+from search.help import Helped, HelpedOnTheWay, Provided, Providers
+from search.keys import INFINITE_KEY
+from search.provision import Acts, Distances, Provision
+from search.touches import Touches
+from search.ways import Ways
+from tests.verify.planted.bug import Bug, always, replaced, wrapped
+
+
+def _doubled(original: Any, *arguments: Any) -> dict[int, int]:
+    return {state: 2 * key for state, key in original(*arguments).items()}
+
+
+def _halved(original: Any, *arguments: Any) -> dict[int, int]:
+    return {state: key // 2 for state, key in original(*arguments).items()}
+
+
+def _own_moves(original: Any, self: Any, fields: Any, ops: Any) -> None:
+    original(self, fields, [op for op in ops if not op.agents & (op.agents - 1)])
+
+
+def _too_late(original: Any, self: Helped) -> None:
+    original(self)
+    self._pairs = [(way, provided, latest - 2) for way, provided, latest in self._pairs]
+
+
+def _no_help(self: HelpedOnTheWay, epoch: int, state: int) -> int:
+    return self._openings.without[epoch] - self._spent[epoch]
+
+
+def _no_help_later(original: Any, self: HelpedOnTheWay, epoch: int, state: int) -> int:
+    return max(original(self, epoch, state), _no_help(self, epoch, state))
+
+
+def _cheapest_need(original: Any, *arguments: Any) -> list[int] | None:
+    paying = original(*arguments)
+    return paying[:1] if paying else paying
+
+
+def _unknown_is_never(original: Any, self: Distances, state: int) -> int:
+    known = original(self, state)
+    return known or INFINITE_KEY
+
+
+def _without_handing_over(original: Any, self: Provision, spot: Any) -> Any:
+    return [edge for edge in original(self, spot) if edge[1][2]]
+
+
+def _never_flipped(original: Any, self: Provision, *arguments: Any) -> None:
+    original(self, *arguments)
+    self._flips = {}
+
+
+def _slow_walks(original: Any, self: Acts, *arguments: Any) -> None:
+    original(self, *arguments)
+    for walks in self.walks.values():
+        walks.clear()
+
+
+def _far_goal(original: Any, self: Ways, *arguments: Any) -> Any:
+    found = original(self, *arguments)
+    self.steps_after = {need: steps + 2 for need, steps in self.steps_after.items()}
+    return found
+
+
+def _own_touches(original: Any, self: Touches, action: int) -> bool:
+    return original(self, action) and self._encoding.op(action).agents == self._encoding.human_bit
+
+
+def _limit_is_exact(original: Any, self: Alone, start: int, limit: int) -> int:
+    found: int = original(self, start, limit)
+    self._known[start] = found
+    return found
+
+
+def _dear(original: Any, self: Providers, *arguments: Any) -> dict[int, Provided]:
+    found = original(self, *arguments)
+    return {
+        need: Provided(lambda state, old=old: 3 * old.cost(state), old.steps, old.unit)
+        for need, old in found.items()
+    }
+
+
+_SLOWER = "a weaker bound is still a bound: the search only takes longer"
+
+BUGS = (
+    Bug("projection", "distances are doubled", wrapped(projection, "_distances", _doubled)),
+    Bug("projection", "distances are halved", wrapped(projection, "_distances", _halved), _SLOWER),
+    Bug("projection", "joint actions are forgotten", wrapped(projection._Moves, "__init__", _own_moves)),
+    Bug(
+        "alone: _search",
+        "a value beyond the limit is taken for exact",
+        wrapped(Alone, "_search", _limit_is_exact),
+    ),
+    Bug("touches: is_touch", "a joint action is none", wrapped(Touches, "is_touch", _own_touches)),
+    Bug("ways: explore", "the goal is two actions further", wrapped(Ways, "explore", _far_goal)),
+    Bug("help: Helped", "help has to come two epochs earlier", wrapped(Helped, "_prepare", _too_late)),
+    Bug("help: opening", "nobody helps", replaced(HelpedOnTheWay, "opening", _no_help)),
+    Bug("help: later", "nobody helps later", wrapped(HelpedOnTheWay, "later", _no_help_later)),
+    Bug("help: survivors", "only the first need is kept", wrapped(windows, "survivors", _cheapest_need)),
+    Bug(
+        "help: Providers.epochs",
+        "twice as many",
+        wrapped(Providers, "epochs", lambda f, self, cost: 2 * f(self, cost)),
+    ),
+    Bug("help: Providers.provided", "three times as dear", wrapped(Providers, "provided", _dear)),
+    Bug(
+        "help: phases",
+        "pi_H changes nothing outside",
+        wrapped(Providers, "phases", lambda _, __, epochs: [(0, epochs)]),
+    ),
+    Bug("windows: _reach", "a window has no time for robots", replaced(windows, "_reach", always(0))),
+    Bug(
+        "provision: Distances",
+        "what is not known is out of reach",
+        wrapped(Distances, "__call__", _unknown_is_never),
+    ),
+    Bug("provision: tracking", "is never handed over", wrapped(Provision, "_changes", _without_handing_over)),
+    Bug(
+        "provision: flips", "pi_H changes no field on the way", wrapped(Provision, "__init__", _never_flipped)
+    ),
+    Bug("provision: walks", "robots can't walk", wrapped(Acts, "__init__", _slow_walks)),
+)

@@ -1,0 +1,97 @@
+"""A small corpus of calls, and how a planted bug fares in it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pytest
+
+import serendipity
+from serendipity.certify import verify
+from serendipity.crosscheck import PlanCall, random_call
+from serendipity.model import PlanError, UsageError
+from tests.builders import task as build
+from tests.cases import WORKED
+from tests.verify.planted.bug import Bug
+
+_PATIENCE = "20"
+"""Seconds for a call: a bug may make the search go on for ever."""
+
+_EXAMPLES = (
+    ("room2", {"discount": "0.6"}),
+    ("room2", {"discount": "0.9", "mode": "communication"}),
+    ("room5", {"discount": "0.9"}),
+    ("room5", {"discount": "0.9", "window_weight": "0"}),
+    ("room7", {"discount": "0.9"}),
+    ("room7", {"discount": "0.9", "mode": "communication"}),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Fate:
+    """How a planted bug fared.
+
+    Attributes:
+        how: ``refuted``, ``crash`` (of the planner) or ``survived``.
+        calls: how many calls it took; for a survivor, how many it survived.
+        reason: claim and reason of the certificate, or the error.
+    """
+
+    how: str
+    calls: int
+    reason: str = ""
+
+
+def corpus(count: int) -> Iterator[PlanCall]:
+    """SPEC 9, given plans, the paper's examples and ``count`` random calls; tasks are made afresh."""
+    for worked in WORKED:
+        options = {name: str(value) for name, value in worked.options.items()}
+        yield PlanCall(worked.task(), options, worked.human_plan)
+    yield from _given_plans()
+    yield from (random_call(seed) for seed in range(count))
+    for name, options in _EXAMPLES:
+        yield PlanCall(serendipity.example(name), options)
+
+
+def _given_plans() -> Iterator[PlanCall]:
+    """Plans that are not his best, with a robot that may help."""
+    for horizon, mode in ((None, "serendipity"), ("4", "serendipity"), ("4", "communication")):
+        task = build(
+            init="a",
+            goal="d",
+            actions={
+                "one h": "a -> b @ 2",
+                "two h": "b -> c @ 2",
+                "three h": "c -> d @ 2",
+                "far h": "c -> e @ 2",
+                "back h": "e -> d @ 2",
+                "open r": "-> c @ 1",
+            },
+        )
+        options = {"mode": mode, "discount": "0.5", **({"horizon": horizon} if horizon else {})}
+        yield PlanCall(task, options, ("one h", "two h", "far h", "back h"))
+
+
+def fate(bug: Bug | None, count: int) -> Fate:
+    """Plant a bug (None: none) and certify answers until one is refuted.
+
+    A call that is refused where it should not be is no wrong answer, so it counts for nothing;
+    neither does one that takes too long.
+    """
+    calls = 0
+    for call in corpus(count):
+        calls += 1
+        with pytest.MonkeyPatch.context() as patch:
+            if bug is not None:
+                bug.plant(patch)
+            try:
+                result = serendipity.plan(
+                    call.task, human_plan=call.human_plan, **{"time_limit": _PATIENCE, **call.keywords()}
+                )
+                refuted = verify(call.task, result, time_limit=float(_PATIENCE)).refuted
+            except (UsageError, PlanError):
+                continue
+            except Exception as error:
+                return Fate("crash", calls, f"{type(error).__name__}: {error}".strip(": "))
+        if refuted is not None:
+            return Fate("refuted", calls, f"{refuted.claim}: {refuted.reason}")
+    return Fate("survived", calls)
