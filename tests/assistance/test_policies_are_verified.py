@@ -1,0 +1,112 @@
+"""The checker proves what the search answers, and refutes answers that were tampered with."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity import Result, Task
+from serendipity.model import Decision, Policy
+from tests.assistance.strategies import games
+from tests.cases import case_5, case_6
+from verify.policy import check_policy
+
+TIES = ("optimistic", "fixed", "robust", "expected")
+
+
+def verdicts(task: Task, result: Result) -> dict[str, str]:
+    return {claim.claim: claim.verdict for claim in check_policy(task, result)}
+
+
+@given(task=games(), ties=st.sampled_from(TIES), no_block=st.booleans())
+def test_answers_are_proved(task: Task, ties: str, no_block: bool) -> None:
+    result = serendipity.plan(task, mode="assistance", ties=ties, no_block=no_block)
+    expected = ["infeasible"] if result.status == "infeasible" else ["replay", "cost", "optimal"]
+    assert verdicts(task, result) == dict.fromkeys(expected, "proved")
+
+
+@given(task=games(), ties=st.sampled_from(TIES))
+def test_idle_policy_is_proved_only_where_it_is_optimal(task: Task, ties: str) -> None:
+    result = serendipity.plan(task, mode="assistance", ties=ties)
+    if result.human_cost is None or result.status == "infeasible":
+        return
+    totals = dict.fromkeys(result.agent_costs, 0.0) | {"h": result.human_cost}
+    idle = replace(
+        result, agent_costs=totals, cost=result.human_cost, policy=replace(result.policy, decisions=())
+    )
+    found = verdicts(task, idle)
+    assert (found["replay"], found["cost"]) == ("proved", "proved")
+    assert found["optimal"] == ("proved" if totals == result.agent_costs else "undecided")
+
+
+@given(task=games(), data=st.data())
+def test_floors_above_the_value_are_not_believed(task: Task, data: st.DataObject) -> None:
+    """Raised floors must not make doing nothing pass for optimal where help is better."""
+    result = serendipity.plan(task, mode="assistance", ties="expected")
+    if result.status == "infeasible" or result.human_cost is None or result.saving == 0:
+        return
+    step = Fraction(data.draw(st.integers(1, 3)))
+    raised = tuple(
+        replace(floor, value=(floor.value[0] + step, floor.value[1])) for floor in result.policy.floors
+    )
+    totals = {"h": result.human_cost, "r": 0.0}
+    forged = replace(result, agent_costs=totals, cost=result.human_cost, policy=Policy((), raised))
+    assert verdicts(task, forged)["optimal"] != "proved"
+
+
+def tampered(policy: Policy, i: int, **changes: object) -> Policy:
+    decisions = list(policy.decisions)
+    decisions[i] = replace(decisions[i], **changes)
+    return replace(policy, decisions=tuple(decisions))
+
+
+def refuted(task: Task, result: Result, policy: Policy) -> str:
+    """The text of the claim that is refuted."""
+    claims = check_policy(task, replace(result, policy=policy))
+    return next(claim.reason for claim in claims if claim.verdict == "refuted")
+
+
+@pytest.mark.parametrize("ties", TIES)
+def test_wrong_value_is_refuted(ties: str) -> None:
+    result = serendipity.plan(case_6(), mode="assistance", ties=ties)
+    wrong = tampered(result.policy, 0, value=(Fraction(0), Fraction(1)))
+    assert "make (0, 2)" in refuted(case_6(), result, wrong)
+
+
+def test_impossible_action_is_refuted() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    assert "can't do 'carry s a g'" in refuted(
+        case_6(), result, tampered(result.policy, 0, action="carry s a g")
+    )
+
+
+def test_policy_that_waits_for_ever_is_refuted() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    second: Decision = result.policy.decisions[1]
+    waits = tampered(result.policy, 1, action="noop", value=second.value)
+    assert "for ever" in refuted(case_6(), result, waits)
+
+
+def test_missing_state_is_refuted() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    half = replace(result.policy, decisions=result.policy.decisions[:1])
+    assert "idles" in refuted(case_6(), result, half)
+
+
+def test_blocking_is_refuted_where_it_is_forbidden() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    strict = replace(result, options=result.options.but(no_block=True))
+    assert "without a plan" in refuted(case_6(), strict, result.policy)
+
+
+def test_totals_must_be_those_of_the_policy() -> None:
+    result = serendipity.plan(case_5(), mode="assistance", ties="expected")
+    assert verdicts(case_5(), replace(result, agent_costs={"p": 1.0, "s": 1.0}))["cost"] == "refuted"
+
+
+def test_false_infeasibility_is_refuted() -> None:
+    result = replace(serendipity.plan(case_5(), mode="assistance"), status="infeasible", policy=None)
+    assert verdicts(case_5(), result)["infeasible"] == "refuted"
