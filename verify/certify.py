@@ -20,6 +20,7 @@ from verify.answer import TIED_MODES, answer, calls
 from verify.call import Call, UndecidedError
 from verify.claims import Examiner
 from verify.minimise import Effort
+from verify.policy import check_policy
 from verify.rules import Checker, RuleReport
 from verify.rules.alone import Alone
 from verify.rules.replay import replay, replay_human
@@ -62,6 +63,9 @@ def certify(
     """
     started = perf_counter()
     _require_same_task(task, result)
+    if result.mode == "assistance":
+        claims = check_policy(task, result, time_limit=time_limit)
+        return Certificate(claims, perf_counter() - started)
     deadline = None if time_limit is None else started + time_limit
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     version = solver_version(solver)
@@ -130,8 +134,6 @@ class _Certifier:
 
     def _out_of_scope(self) -> str | None:
         result = self.result
-        if result.mode == "assistance":
-            return "a policy, not a plan: no integer program"
         if result.options.human_model != "omniscient":
             return "optimal under a human who replans: no integer program"
         return None

@@ -37,7 +37,7 @@ def test_idle_policy_is_proved_only_where_it_is_optimal(task: Task, ties: str) -
     idle = replace(
         result, agent_costs=totals, cost=result.human_cost, policy=replace(result.policy, decisions=())
     )
-    found = verdicts(task, idle)
+    found = verdicts(task, replace(idle, plan=None))
     assert (found["replay"], found["cost"]) == ("proved", "proved")
     assert found["optimal"] == ("proved" if totals == result.agent_costs else "undecided")
 
@@ -53,7 +53,7 @@ def test_floors_above_the_value_are_not_believed(task: Task, data: st.DataObject
         replace(floor, value=(floor.value[0] + step, floor.value[1])) for floor in result.policy.floors
     )
     totals = {"h": result.human_cost, "r": 0.0}
-    forged = replace(result, agent_costs=totals, cost=result.human_cost, policy=Policy((), raised))
+    forged = replace(result, agent_costs=totals, cost=result.human_cost, policy=Policy((), raised), plan=None)
     assert verdicts(task, forged)["optimal"] != "proved"
 
 
@@ -110,3 +110,15 @@ def test_totals_must_be_those_of_the_policy() -> None:
 def test_false_infeasibility_is_refuted() -> None:
     result = replace(serendipity.plan(case_5(), mode="assistance"), status="infeasible", policy=None)
     assert verdicts(case_5(), result)["infeasible"] == "refuted"
+
+
+def test_plan_must_be_a_run_of_the_policy() -> None:
+    result = serendipity.plan(case_5(), mode="assistance")
+    late = replace(result, plan=tuple(replace(step, epoch=step.epoch + 1) for step in result.plan))
+    assert "would not wait" in refuted(case_5(), late, late.policy)
+
+
+def test_certificate_of_the_facade_covers_policies() -> None:
+    certificate = serendipity.verify(case_6(), serendipity.plan(case_6(), mode="assistance", ties="robust"))
+    assert certificate.verdict == "proved"
+    assert [claim.claim for claim in certificate.claims] == ["replay", "cost", "optimal"]

@@ -31,6 +31,8 @@ class Reply(NamedTuple):
 
     cost: Fraction
     state: int
+    name: str | None
+    """None for waiting."""
 
 
 class Board:
@@ -190,7 +192,7 @@ class Board:
         """What he may optimally do; waiting where he has no plan."""
         replies = self._replies.get(state)
         if replies is None:
-            replies = self._replies[state] = tuple(self._optimal(state)) or (Reply(Fraction(0), state),)
+            replies = self._replies[state] = tuple(self._optimal(state)) or (Reply(Fraction(0), state, None),)
         return replies
 
     def _optimal(self, state: int) -> list[Reply]:
@@ -206,7 +208,7 @@ class Board:
                 action = self.task.actions[edge.action]
                 if rest is not None and rest + edge.weight == key and (action.name, after) not in seen:
                     seen.add((action.name, after))
-                    found.append(Reply(action.cost, after))
+                    found.append(Reply(action.cost, after, action.name))
         return found[:1] if self._fixed else found
 
     def _key(self, state: int) -> int | None:

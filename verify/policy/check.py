@@ -12,6 +12,7 @@ from verify.policy.deadline import Deadline, UndecidedError
 from verify.policy.ending import ends
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
+from verify.policy.run import check_run
 
 
 def check_policy(task: Task, result: Result, *, time_limit: float | None = None) -> tuple[Claim, ...]:
@@ -64,6 +65,8 @@ class _Checker:
         try:
             listed = read_decisions(board, self._result.policy)
             value = Walk(board, listed, self._ties, no_block=self._no_block).value()
+            if self._result.plan is not None and self._result.status == "optimal":
+                check_run(board, self._result)
         except ValueError as error:
             yield Claim("replay", "refuted", str(error))
             return
