@@ -66,6 +66,8 @@ docs: $(READY)  ## build the documentation into build/docs; a broken link or any
 
 bench: $(READY)  ## measure parsing, search and the whole process on the 200 problems of the paper
 	@$(BIN)/python -m benchmarks.usar
+	@$(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 --contenders search,automata,paper \
+	  --time-limit 30
 
 fuzz: $(READY)  ## thousands of random tasks, and the slow tests
 	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"

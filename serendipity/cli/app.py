@@ -10,6 +10,7 @@ import typer
 
 from serendipity import __version__
 from serendipity.cli import (
+    bench,
     crosscheck,
     examples,
     explain,
@@ -47,6 +48,7 @@ app.command("reproduce", epilog=epilog("reproduce"))(reproduce.reproduce)
 app.command("show", epilog=epilog("show"))(show.show)
 app.command("solve", epilog=epilog("solve"))(solve.solve)
 app.command("crosscheck", epilog=epilog("crosscheck"))(crosscheck.crosscheck)
+app.command("bench", epilog=epilog("bench"))(bench.bench)
 app.command("examples", epilog=epilog("examples"))(examples.examples)
 app.add_typer(generate.app, name="generate")
 
