@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from search.assistance.bound import Bound
 from search.assistance.branching import Branching
 from search.assistance.game import INFINITE, Game
+from search.assistance.phase import PhaseClock
+from search.assistance.relaxed import joint_lower_bound, upper_bound_alone
 from search.assistance.rules import Mean, Worst
 from search.assistance.shortest import Shortest
-from search.assistance.solution import ZERO, Costs
+from search.assistance.solution import ZERO, Costs, Solution
 from search.assistance.writing import Writer
 from search.clock import Clock, OutOfTimeError
 from serendipity.model.options import Options
@@ -47,15 +49,23 @@ def assist(task: Task, options: Options, clock: Clock) -> Iterator[Assistance]:
 
     Args:
         task: one human and one robot.
-        options: ``ties`` and ``no_block`` count.
+        options: ``ties``, ``no_block`` and ``time_limit`` count.
         clock: deadline and cancellation.
 
     Raises:
         UsageError: there is not exactly one robot.
     """
-    game = Game(task, clock)
-    search: Shortest | Branching | None = None
+    half = None if options.time_limit is None else options.time_limit / 2
+    own_clock = PhaseClock(clock, half)
+    game = Game(task, clock, own_clock)
+    try:
+        game.alone(game.init)
+    except OutOfTimeError:
+        yield from _without_his_optimum(game)
+        return
+    own_clock.lift()
     writer = Writer(game, options.ties)
+    search: Shortest | Branching | None = None
     try:
         search = _search(game, options)
         for _ in search.run():
@@ -63,11 +73,41 @@ def assist(task: Task, options: Options, clock: Clock) -> Iterator[Assistance]:
         solved = search.solution(floors=False).upper is not None
         yield _answer(writer, search, "optimal" if solved else "infeasible")
     except OutOfTimeError:
-        if search is None:
-            yield Assistance("unknown", ZERO, reason="time-limit")
-            return
-        found = search.solution(floors=False).upper is not None
-        yield _answer(writer, search, "feasible" if found else "unknown")
+        yield _unfinished(game, writer, search)
+
+
+def _without_his_optimum(game: Game) -> Iterator[Assistance]:
+    """Bounds where the prime's optimal cost could not be worked out in half of the time."""
+    lower = game.pair(min(joint_lower_bound(game), INFINITE - 1))
+    try:
+        upper = upper_bound_alone(game)
+    except OutOfTimeError:
+        upper = INFINITE
+    if upper >= INFINITE:
+        yield Assistance("unknown", lower, reason="time-limit")
+    else:
+        yield Assistance("feasible", lower, upper=game.pair(upper), policy=Policy((), None))
+
+
+def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None) -> Assistance:
+    """What is known when the time is up: doing nothing is always an answer, if he has a plan."""
+    if search is not None and search.solution(floors=False).upper is not None:
+        return _answer(writer, search, "feasible")
+    lower = game.pair(min(joint_lower_bound(game), INFINITE - 1))
+    if search is not None:
+        lower = max(lower, search.solution(floors=False).lower or ZERO)
+    alone = game.alone(game.init)
+    if alone >= INFINITE:
+        return Assistance("unknown", lower, reason="time-limit")
+    idle = Solution(lower, game.pair(alone))
+    return Assistance(
+        "feasible",
+        lower,
+        upper=idle.upper,
+        human_plan=writer.human_plan(),
+        policy=Policy((), None),
+        plan=writer.plan(idle),
+    )
 
 
 def _search(game: Game, options: Options) -> Shortest | Branching:

@@ -41,16 +41,18 @@ class Game:
         task: one human (the prime) and one robot (the supporter); joint actions are
             nobody's move.
         clock: asked for time.
+        own_clock: asked for time while the prime's own optimum is worked out; default ``clock``.
 
     Raises:
         UsageError: there is not exactly one robot.
     """
 
-    def __init__(self, task: Task, clock: Clock) -> None:
+    def __init__(self, task: Task, clock: Clock, own_clock: Clock | None = None) -> None:
         if len(task.robots) != 1:
             raise UsageError(f"mode: 'assistance' is for one robot, the task has {len(task.robots)}")
         self.task = replace(task, robot_goal=Condition()) if task.robot_goal else task
         self.clock = clock
+        self._own_clock = own_clock or clock
         self.encoding: Encoding = encoding(self.task)
         self.init = self.encoding.init
         self.goal = self.encoding.goal
@@ -64,7 +66,7 @@ class Game:
     @cached_property
     def own(self) -> OwnCosts:
         """The prime by himself."""
-        return OwnCosts(self.encoding, self._scaled, self.clock)
+        return OwnCosts(self.encoding, self._scaled, self._own_clock)
 
     def cost(self, op: Op) -> int:
         """Scaled cost of an op."""
