@@ -359,7 +359,7 @@ def _number(text: str) -> Fraction:
     try:
         if "e" in text and len(text.partition("e")[2]) > _MAX_EXPONENT_DIGITS:
             raise ValueError
-        return Fraction(str(text))
+        return _fraction(str(text))
     except (ValueError, ZeroDivisionError):
         raise InputError(f"expected a number, got '{text}'", line=getattr(text, "line", None)) from None
 
@@ -380,3 +380,9 @@ def _first_name(node: Any) -> str:
         elif hasattr(item, "__dict__"):
             pending.extend(reversed(list(vars(item).values())))
     return ""
+
+
+@lru_cache(maxsize=1024)
+def _fraction(text: str) -> Fraction:
+    """One object per number, so that costs can be told apart by identity."""
+    return Fraction(text)
