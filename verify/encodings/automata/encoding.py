@@ -12,7 +12,9 @@ from verify.encodings.automata.network import (
 )
 from verify.encodings.automata.product import Automaton, automata
 from verify.encodings.automata.program import Program
-from verify.encodings.automata.pruning import Setting, prune
+from verify.encodings.automata.pruning import prune
+from verify.encodings.automata.setting import Setting
+from verify.encodings.automata.suffixes import bound_suffix
 from verify.encodings.relevance import Relevant, relevant_part
 from verify.question import WINDOW, Question
 from verify.solver import Model
@@ -53,7 +55,7 @@ class AutomataEncoding:
     def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
         """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
         assert self.program is not None
-        self.program.bound_suffix(xi2, state, least)
+        bound_suffix(self.program, xi2, state, least)
 
     def needs_whole_state(self, part: Relevant) -> bool:
         """Whether a suffix may turn out not to be his optimal plan, or that plan not to fit.

@@ -10,9 +10,9 @@ from collections import defaultdict
 from collections.abc import Iterable
 
 from serendipity.model import Condition, Step, Window
-from verify.encodings.automata.control import INSIDE, SUFFIX
+from verify.encodings.automata.control import INSIDE
 from verify.encodings.automata.network import WAIT
-from verify.encodings.automata.pruning import Setting
+from verify.encodings.automata.setting import Setting
 from verify.question import Question
 from verify.solver import Model, Terms
 
@@ -25,7 +25,7 @@ class Program:
     def __init__(
         self, question: Question, setting: Setting, groups: Iterable[frozenset[int]], *, complete: bool
     ) -> None:
-        """With ``complete`` every relevant fact is represented, as :meth:`bound_suffix` needs."""
+        """With ``complete`` every relevant fact is represented, as ``suffixes.bound_suffix`` needs."""
         self.question = question
         self.setting = setting
         self.task = setting.task
@@ -227,11 +227,11 @@ class Program:
                 self._at_most(sums, self.truth(f, epoch - 1))
             for (_, f), sums in negative.items():
                 terms, constant = self.truth(f, epoch - 1)
-                self.model.add("(4)", _plus(sums, terms), "<=", 1 - constant)
+                self.model.add("(4)", plus(sums, terms), "<=", 1 - constant)
 
     def _at_most(self, sums: _Sum, truth: tuple[_Sum, int]) -> None:
         terms, constant = truth
-        self.model.add("(4)", _plus(sums, terms, -1), "<=", constant)
+        self.model.add("(4)", plus(sums, terms, -1), "<=", constant)
 
     def _needs(self) -> None:
         """Facts that must hold where a suffix starts (preservation = state)."""
@@ -373,44 +373,9 @@ class Program:
                     inside.append(epoch)
         return Window(inside[0], inside[-1] + 1)
 
-    def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
-        """A suffix from ``state`` at ``xi2`` weighs at least ``least``; with None there is none.
 
-        The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
-        """
-        literals, constant = self._suffix_starts(xi2, state)
-        for f in sorted(self.setting.part.facts - self.setting.human.automaton.facts):
-            terms, fixed = self.truth(f, xi2 - 1)
-            sign = 1 if f in state else -1
-            literals = _plus(literals, terms, sign)
-            constant += fixed - 1 if f in state else -fixed
-        if least is None:
-            self.model.add("(8)", literals, "<=", -1 - constant)
-        else:
-            scaled = {x: -least * c for x, c in literals.items()}
-            self.model.add("(8)", _plus(scaled, self._suffix_weights()), ">=", least * (constant + 1))
-
-    def _suffix_starts(self, xi2: int, state: frozenset[int]) -> tuple[_Sum, int]:
-        """Minus 1 unless the suffix starts at ``xi2`` with his private facts as in ``state``."""
-        network = self.setting.human
-        layer, columns = network.layers[xi2 - 1], self.columns[self.task.human][xi2 - 1]
-        starts: _Sum = {}
-        for arc, x in zip(layer, columns, strict=True):
-            begins = network.controls[arc[0]][0] == INSIDE and network.controls[arc[1]][0] == SUFFIX
-            if begins and network.true_facts(arc[0]) == state & network.automaton.facts:
-                starts[x] = 1
-        return starts, -1
-
-    def _suffix_weights(self) -> _Sum:
-        weights: _Sum = {}
-        for layer, columns in zip(self.setting.human.layers, self.columns[self.task.human], strict=True):
-            for arc, x in zip(layer, columns, strict=True):
-                if arc[3] and self.setting.human.controls[arc[1]][0] == SUFFIX:
-                    weights[x] = arc[3]
-        return weights
-
-
-def _plus(sums: Terms, more: Terms, factor: int = 1) -> _Sum:
+def plus(sums: Terms, more: Terms, factor: int = 1) -> _Sum:
+    """A sum of columns, and ``factor`` times another."""
     terms = dict(sums)
     for x, c in more.items():
         terms[x] = terms.get(x, 0) + factor * c

@@ -11,59 +11,18 @@ Everything here is a relaxation, so that what it drops is on no plan within the 
 """
 
 from collections import defaultdict
-from collections.abc import Callable, Container
-from dataclasses import dataclass, field
+from collections.abc import Container
 
-from serendipity.model import Task
-from verify.encodings.automata.network import FAR, WAIT, Arc, HumanNetwork, Network
-from verify.encodings.relevance import Relevant
+from verify.encodings.automata.forward import Forward
+from verify.encodings.automata.network import FAR, WAIT, Arc
+from verify.encodings.automata.setting import Setting
 
 MOST_ROUNDS = 6
 
 
-@dataclass(slots=True)
-class Setting:
-    """What the pruning of one question works on.
-
-    Attributes:
-        task: the task.
-        part: its relevant part.
-        networks: one for each agent, by id; ``human`` is the human's.
-        horizon: number of epochs.
-        most: limit on the objective in units.
-        wanted_true: facts that a goal, or a state to be preserved, wants true.
-        wanted_false: facts that a goal wants false.
-        finals: end nodes' automaton states that the goals allow, by agent.
-        bounds: for the human's automaton states, least weight and actions to a goal state.
-        outer_pre: facts outside the participants' automata that each action needs true.
-        outer_neg: the same, false.
-    """
-
-    task: Task
-    part: Relevant
-    networks: list[Network]
-    human: HumanNetwork
-    horizon: int
-    most: int
-    wanted_true: frozenset[int]
-    wanted_false: frozenset[int]
-    finals: list[set[int]]
-    bounds: tuple[list[int], list[int]]
-    outer_pre: dict[int, tuple[int, ...]] = field(default_factory=dict)
-    outer_neg: dict[int, tuple[int, ...]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        for i in self.part.actions:
-            inside: set[int] = set()
-            for agent in self.task.actions[i].participants:
-                inside |= self.networks[agent].automaton.facts
-            self.outer_pre[i] = tuple(f for f in self.part.pre[i] if f not in inside)
-            self.outer_neg[i] = tuple(f for f in self.part.neg[i] if f not in inside)
-
-
 def prune(setting: Setting) -> bool:
     """Drop arcs from the networks' layers; False if no plan within the limit is left."""
-    forward = _Forward(setting)
+    forward = Forward(setting)
     forward.unroll()
     count = -1
     for _ in range(MOST_ROUNDS):
@@ -77,121 +36,7 @@ def prune(setting: Setting) -> bool:
     return _least_weights(setting, forward)
 
 
-class _Forward:
-    """Reachability from ``I``, epoch by epoch, over all networks at once."""
-
-    def __init__(self, setting: Setting) -> None:
-        self.setting = setting
-        self.reach: list[list[dict[int, int]]] = []
-        self.watched = self._watched()
-
-    def _watched(self) -> list[frozenset[int]]:
-        """Facts of each automaton that others' actions, or nobody's own action, look at."""
-        looked = set(self.setting.wanted_true | self.setting.wanted_false)
-        for facts in (*self.setting.outer_pre.values(), *self.setting.outer_neg.values()):
-            looked.update(facts)
-        return [network.automaton.facts & looked for network in self.setting.networks]
-
-    def unroll(self) -> None:
-        """Build all layers."""
-        networks = self.setting.networks
-        for network in networks:
-            network.layers = [[] for _ in range(self.setting.horizon)]
-        self._pass(fresh=True)
-
-    def filter(self) -> None:
-        """Keep the arcs that are still reachable."""
-        self._pass(fresh=False)
-
-    def _pass(self, *, fresh: bool) -> None:
-        setting = self.setting
-        self.true = set(setting.task.init)
-        self.false = set(setting.part.facts) - setting.task.init
-        self.reach = [[{network.start: 0}] for network in setting.networks]
-        for epoch in range(1, setting.horizon + 1):
-            candidates = [self._candidates(k, epoch, fresh=fresh) for k in range(len(setting.networks))]
-            blocked = self._one_sided(candidates)
-            for k, arcs in enumerate(candidates):
-                self._advance(k, epoch, [arc for arc in arcs if arc[2] not in blocked] if blocked else arcs)
-            self._learn(epoch)
-
-    def _candidates(self, k: int, epoch: int, *, fresh: bool) -> list[Arc]:
-        setting, network = self.setting, self.setting.networks[k]
-        reached = self.reach[k][-1]
-        usable = self._usable_now()
-        if not fresh:
-            return [
-                arc
-                for arc in network.layers[epoch - 1]
-                if arc[0] in reached and usable(arc[2]) and arc[4] <= self.true
-            ]
-        found = []
-        if k != setting.task.human:
-            return [arc for node in reached for arc in network.outgoing(node, epoch) if usable(arc[2])]
-        weights, actions = setting.bounds
-        left = setting.horizon - epoch
-        for node, done in reached.items():
-            for arc in network.outgoing(node, epoch):
-                state = network.state_of[arc[1]]
-                if (
-                    actions[state] <= left
-                    and done + arc[3] + weights[state] <= setting.most
-                    and usable(arc[2])
-                    and arc[4] <= self.true
-                ):
-                    found.append(arc)
-        return found
-
-    def _usable_now(self) -> Callable[[int], bool]:
-        known: dict[int, bool] = {WAIT: True}
-        pre, neg, true, false = self.setting.outer_pre, self.setting.outer_neg, self.true, self.false
-
-        def usable(action: int) -> bool:
-            if action not in known:
-                known[action] = all(f in true for f in pre[action]) and all(f in false for f in neg[action])
-            return known[action]
-
-        return usable
-
-    def _one_sided(self, candidates: list[list[Arc]]) -> set[int]:
-        """Joint actions for which a participant has no arc."""
-        present = [{arc[2] for arc in arcs} for arcs in candidates]
-        blocked = set()
-        for actions in present:
-            for i in actions:
-                if i != WAIT:
-                    participants = self.setting.task.actions[i].participants
-                    if len(participants) > 1 and not all(i in present[agent] for agent in participants):
-                        blocked.add(i)
-        return blocked
-
-    def _advance(self, k: int, epoch: int, arcs: list[Arc]) -> None:
-        before = self.reach[k][-1]
-        reached: dict[int, int] = {}
-        for source, target, _, weight, _ in arcs:
-            total = before[source] + weight
-            if total < reached.get(target, FAR):
-                reached[target] = total
-        self.setting.networks[k].layers[epoch - 1] = arcs
-        self.reach[k].append(reached)
-
-    def _learn(self, epoch: int) -> None:
-        """Facts that may be true, or false, after the epoch."""
-        setting = self.setting
-        for k, network in enumerate(setting.networks):
-            for action in {arc[2] for arc in network.layers[epoch - 1]}:
-                if action != WAIT:
-                    self.true.update(setting.task.actions[action].add)
-                    self.false.update(setting.task.actions[action].delete)
-            watched = self.watched[k]
-            if watched:
-                for node in self.reach[k][-1]:
-                    facts = network.true_facts(node)
-                    self.true |= watched & facts
-                    self.false |= watched - facts
-
-
-def _least_weights(setting: Setting, forward: _Forward) -> bool:
+def _least_weights(setting: Setting, forward: Forward) -> bool:
     """One round of backward passes; False if the human has no path left."""
     human = setting.task.human
     robots = [k for k in range(len(setting.networks)) if k != human]
@@ -211,7 +56,7 @@ def _least_weights(setting: Setting, forward: _Forward) -> bool:
 class _Providers:
     """What help costs at least: robots' cheapest way to provide a fact or half of a joint action."""
 
-    def __init__(self, setting: Setting, forward: _Forward, robots: list[int]) -> None:
+    def __init__(self, setting: Setting, forward: Forward, robots: list[int]) -> None:
         self.setting = setting
         task = setting.task
         self.inside = frozenset().union(*(network.automaton.facts for network in setting.networks))
@@ -293,7 +138,7 @@ class _Through:
             self.joint[key] = min(total, self.joint.get(key, FAR))
 
 
-def _human_backward(setting: Setting, forward: _Forward, provided: _Providers) -> _Through:
+def _human_backward(setting: Setting, forward: Forward, provided: _Providers) -> _Through:
     network, human = setting.human, setting.task.human
     through = _Through(setting)
     after = {
@@ -338,7 +183,7 @@ def _human_backward(setting: Setting, forward: _Forward, provided: _Providers) -
     return through
 
 
-def _open_backward(setting: Setting, forward: _Forward, k: int, others: int, active: Container[int]) -> bool:
+def _open_backward(setting: Setting, forward: Forward, k: int, others: int, active: Container[int]) -> bool:
     """A network whose flow goes on to the end; False if it can't."""
     network = setting.networks[k]
     after = {
@@ -365,7 +210,7 @@ def _open_backward(setting: Setting, forward: _Forward, k: int, others: int, act
     return bool(after)
 
 
-def _useful_backward(setting: Setting, forward: _Forward, k: int, through: _Through) -> None:
+def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Through) -> None:
     """A robot that may stop anywhere: it does so after an arc of which somebody makes use."""
     network, task = setting.networks[k], setting.task
     uses_true = _uses(setting, k, setting.wanted_true, setting.outer_pre)
