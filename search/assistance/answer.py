@@ -91,8 +91,10 @@ def _without_his_optimum(game: Game) -> Iterator[Assistance]:
 
 def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None) -> Assistance:
     """What is known when the time is up: doing nothing is always an answer, if he has a plan."""
-    if search is not None and search.solution(floors=False).upper is not None:
-        return _answer(writer, search, "feasible")
+    if search is not None:
+        known = search.solution(floors=False)
+        if known.upper is not None:
+            return _answer(writer, search, "optimal" if known.lower == known.upper else "feasible")
     lower = game.pair(min(joint_lower_bound(game), INFINITE - 1))
     if search is not None:
         lower = max(lower, search.solution(floors=False).lower or ZERO)

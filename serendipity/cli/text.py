@@ -6,6 +6,7 @@ from dataclasses import fields
 from fractions import Fraction
 from typing import Final
 
+from serendipity.cli.policy_text import policy_lines, totals_line
 from serendipity.cli.render import Grid, Line, rendered
 from serendipity.model import Certificate, Options, Result, Task
 
@@ -28,6 +29,7 @@ def plan_report(task: Task, result: Result, certificate: Certificate, *, claims:
     parts: list[Line | Grid] = [Line(text) for text in _headlines(task, result)]
     if result.plan is not None and (result.plan or result.human_plan):
         parts += [Line(), _columns(task, result), Line()]
+    parts += [Line(text) for text in policy_lines(task, result)]
     parts += [Line(text) for text in _closing(result)]
     parts += [_claims(certificate)] if claims else [_verdict(certificate)]
     return rendered(parts)
@@ -47,7 +49,9 @@ def _headlines(task: Task, result: Result) -> Iterator[str]:
     robots = ", ".join(task.agents[i] for i in task.robots)
     yield f"{task.name}: human {result.human}, robots {robots or 'none'}"
     yield f"{', '.join(_options(result.options))}: {_summary(result)}"
-    if result.cost is not None and result.human_cost is not None:
+    if result.mode == "assistance" and result.agent_costs:
+        yield totals_line(result)
+    elif result.cost is not None and result.human_cost is not None:
         saving = f", saving {number(result.saving)}" if result.opportunity and result.saving else ""
         yield f"cost {number(result.human_cost)} -> {number(result.cost)}{saving}"
     elif result.cost is not None:

@@ -7,6 +7,7 @@ import pytest
 
 import serendipity
 from serendipity import Result, UsageError
+from serendipity.cli.policy_text import policy_lines, totals_line
 from tests.builders import task
 from tests.cases import case_5, case_6, case_8
 
@@ -90,3 +91,11 @@ def test_two_robots_are_refused() -> None:
 def test_given_human_plan_is_refused() -> None:
     with pytest.raises(UsageError, match="human_plan"):
         serendipity.plan(case_5(), mode="assistance", human_plan=["walk p a b", "walk p b d"])
+
+
+def test_policy_is_printed_as_a_plan_with_branches() -> None:
+    result = serendipity.plan(case_5(), mode="assistance", ties="expected")
+    text = "\n".join(policy_lines(case_5(), result))
+    assert "walk p a b: go on at" in text
+    assert "carry s b d" in text
+    assert totals_line(result) == "p pays 3/2, s pays 1/2 on average; alone p pays 2"
