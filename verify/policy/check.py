@@ -98,7 +98,10 @@ class _Checker:
     def _optimal(self, board: Board, value: Costs) -> Claim:
         assert self._result.policy is not None
         try:
-            Floors(board, self._result.policy, self._ties, no_block=self._no_block).prove(value)
+            floors = Floors(
+                board, self._result.policy, self._ties, no_block=self._no_block, deadline=self._deadline
+            )
+            floors.prove(value)
         except KeyError as error:
             return Claim("optimal", "undecided", f"the task has no fact {error}")
         except UndecidedError as error:

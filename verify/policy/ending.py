@@ -17,10 +17,18 @@ def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool
     """
     if board.goal.holds(board.start):
         return True
+    return board.start not in lost_states(board, ties, no_block=no_block, deadline=deadline)
+
+
+def lost_states(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> set[int]:
+    """States that may come up, with the supporter to move, from which no policy has a value.
+
+    Raises:
+        UndecidedError: there are too many states, or no time is left.
+    """
     choices = _explore(board, no_block, deadline)
-    if ties == "expected":
-        return board.start in _almost_surely(choices)
-    return board.start in _forced(choices, every=ties == "robust")
+    good = _almost_surely(choices) if ties == "expected" else _forced(choices, every=ties == "robust")
+    return set(choices) - good
 
 
 def _explore(board: Board, no_block: bool, deadline: Deadline) -> Choices:

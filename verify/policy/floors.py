@@ -9,10 +9,12 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Policy
-from verify.policy.board import NOTHING, Board, Costs, Reply
-from verify.policy.deadline import UndecidedError
+from verify.policy.board import FAR, NOTHING, Board, Costs, Reply
+from verify.policy.deadline import Deadline, UndecidedError
+from verify.policy.ending import lost_states
 from verify.policy.reading import combine, plus
 
+_NOT_PROVED: Final = "a lower bound does not follow from those after '{}'"
 _A_LOOK: Final = 300
 """States worth looking at before the human's replies are worked out."""
 
@@ -25,12 +27,17 @@ class Floors:
         policy: with its floors.
         ties: how the human's choices count.
         no_block: no move may take his last plan away.
+        deadline: asked for time.
     """
 
-    def __init__(self, board: Board, policy: Policy, ties: str, *, no_block: bool) -> None:
+    def __init__(
+        self, board: Board, policy: Policy, ties: str, *, no_block: bool, deadline: Deadline
+    ) -> None:
         self._board = board
         self._ties = ties
         self._no_block = no_block
+        self._deadline = deadline
+        self._lost: set[int] | None = None
         self._floors = {board.state(floor.state): floor.value for floor in policy.floors or ()}
 
     def prove(self, value: Costs) -> None:
@@ -47,7 +54,19 @@ class Floors:
         for state, floor in self._floors.items():
             for cost, middle, name in self._board.moves(state):
                 if not self._justified(state, middle, name, cost, floor):
-                    raise UndecidedError(f"a lower bound does not follow from those after '{name}'")
+                    self._look_for_lost_states(name)
+                    if not self._justified(state, middle, name, cost, floor):
+                        raise UndecidedError(_NOT_PROVED.format(name))
+
+    def _look_for_lost_states(self, name: str) -> None:
+        """Bounds do not see that a run may never end; looking at every state does."""
+        if self._lost is None:
+            try:
+                self._lost = lost_states(
+                    self._board, self._ties, no_block=self._no_block, deadline=self._deadline
+                )
+            except UndecidedError as error:
+                raise UndecidedError(f"{_NOT_PROVED.format(name)}; {error}") from None
 
     def _justified(self, state: int, middle: int, name: str, cost: Fraction, floor: Costs) -> bool:
         board = self._board
@@ -73,5 +92,7 @@ class Floors:
         board = self._board
         if board.goal.holds(reply.state):
             return NOTHING
+        if self._lost is not None and reply.state in self._lost:
+            return FAR
         floor = self._floors.get(reply.state)
         return board.bound(reply.state) if floor is None else floor
