@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from serendipity.model import HumanPlan, Task
+from verify.epochs import applicable
 from verify.rules.alone import Alone, TooManyStatesError
 
 __all__ = ["OptimalPlans", "TooManyStatesError"]
@@ -48,7 +49,7 @@ class OptimalPlans:
         cost, length = worth
         for i in self._task.human_actions:
             action = self._task.actions[i]
-            if action.cost <= cost and action.applicable(state):
+            if action.cost <= cost and applicable(action, state):
                 after = state.difference(action.delete).union(action.add)
                 if self.worth(after) == (cost - action.cost, length - 1):
                     yield i, after

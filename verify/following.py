@@ -6,8 +6,8 @@ same time or after its end.  A clock that stops at that end is part of the state
 
 from collections.abc import Iterator
 
-from serendipity.model.actions import conflicting
 from verify.encodings.relevance import relevant_part
+from verify.epochs import conflicting
 from verify.joint import Bundle, JointSearch, State
 from verify.minimise import Minimum
 from verify.question import Question

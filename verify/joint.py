@@ -12,10 +12,10 @@ from time import perf_counter
 from typing import Final
 
 from serendipity.model import GroundAction, Step, Task
-from serendipity.model.actions import conflicting
 from verify.encodings.automata.network import FAR, distances, goal_states
 from verify.encodings.automata.product import automata
 from verify.encodings.relevance import Relevant, relevant_part
+from verify.epochs import conflicting
 from verify.minimise import Minimum
 from verify.question import Found, Question
 

@@ -11,10 +11,10 @@ from time import perf_counter
 from typing import Final, Protocol
 
 from serendipity.model import Step, UsageError, Window
-from serendipity.model.actions import conflicting
 from verify.alone import OptimalPlans, TooManyStatesError
 from verify.encodings.automata import AutomataEncoding
 from verify.encodings.paper import PaperEncoding
+from verify.epochs import applicable, conflicting
 from verify.question import WINDOW, Found, Question
 from verify.solver import SOLVERS, Model, optimise
 
@@ -183,7 +183,7 @@ def replay(question: Question, steps: tuple[Step, ...]) -> list[State] | None:
     states = [task.init]
     for epoch in range(1, question.horizon + 1):
         chosen = [task.actions[step.action] for step in steps if step.epoch == epoch]
-        if not all(action.applicable(states[-1]) for action in chosen):
+        if not all(applicable(action, states[-1]) for action in chosen):
             return None
         if any(
             conflicting(a, b, strict=question.options.strict)

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from serendipity.model import GroundAction, PlanError, PlanStep, Task
+from verify.epochs import applicable, clash
 
 State = frozenset[int]
 
@@ -76,7 +77,7 @@ def replay_human(task: Task, names: Iterable[str]) -> tuple[int, ...]:
         own = [i for i in task.named.get(name, ()) if task.actions[i].participants == (task.human,)]
         if not own:
             raise PlanError(f"step {number}, '{name}', is not an action that he does alone")
-        chosen = next((i for i in own if task.actions[i].applicable(state)), None)
+        chosen = next((i for i in own if applicable(task.actions[i], state)), None)
         if chosen is None:
             raise PlanError(f"step {number}, '{name}', is not applicable: {_unmet(task, own[0], state)}")
         plan.append(chosen)
@@ -97,7 +98,7 @@ def _resolve(task: Task, step: PlanStep, state: State) -> tuple[int, Fault | Non
         message = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
         return -1, Fault("wrong-agents", message, step.epoch, step.action)
     for i in sorted(listed):
-        if task.actions[i].applicable(state):
+        if applicable(task.actions[i], state):
             return i, None
     message = f"precondition: {_unmet(task, min(listed), state)}"
     return -1, Fault("precondition", message, step.epoch, step.action)
@@ -115,20 +116,11 @@ def _conflict(task: Task, chosen: list[int], action: int, step: PlanStep, *, str
         if busy:
             who = ", ".join(task.agents[i] for i in sorted(busy))
             return Fault("agent-busy-twice", f"{who} also does '{other.name}'", step.epoch, step.action)
-        clash = _clash(new, other, strict=strict)
-        if clash is not None:
-            message = f"conflicts with '{other.name}' over '{task.facts[clash]}'"
+        fact = clash(new, other, strict=strict)
+        if fact is not None:
+            message = f"conflicts with '{other.name}' over '{task.facts[fact]}'"
             return Fault("conflict", message, step.epoch, step.action)
     return None
-
-
-def _clash(a: GroundAction, b: GroundAction, *, strict: bool) -> int | None:
-    """A fact over which two actions conflict, or None."""
-    clashes = set(a.delete) & set(b.delete) | set(a.delete) & set(b.add) | set(a.add) & set(b.delete)
-    if strict:
-        clashes |= set(a.delete) & set(b.pre) | set(a.add) & set(b.neg)
-        clashes |= set(b.delete) & set(a.pre) | set(b.add) & set(a.neg)
-    return min(clashes, default=None)
 
 
 def _after(state: State, actions: Iterable[GroundAction]) -> State:

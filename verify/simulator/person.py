@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from serendipity.model import Task
 from verify.alone import OptimalPlans, State
+from verify.epochs import applicable
 
 
 class Person:
@@ -36,7 +37,7 @@ class Person:
         total = Fraction(0)
         for i in plan:
             action = self._task.actions[i]
-            if not action.applicable(state):
+            if not applicable(action, state):
                 return None
             state = state.difference(action.delete).union(action.add)
             total += action.cost

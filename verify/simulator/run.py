@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from serendipity.model import Options, Step, Task, Visible, surroundings
-from serendipity.model.actions import conflicting
 from verify.alone import OptimalPlans
 from verify.alone import State as Facts
+from verify.epochs import applicable, conflicting
 from verify.simulator.person import Person
 
 
@@ -162,7 +162,7 @@ class _Game:
     def _joint_offers(self, offers: Sequence[int]) -> Iterator[int]:
         for i in offers:
             action = self.task.actions[i]
-            if self._with_him(i) and action.applicable(self.state) and action.applicable(self.belief):
+            if self._with_him(i) and applicable(action, self.state) and applicable(action, self.belief):
                 yield i
 
     def _worth_it(self, joint: int, best: Fraction | None) -> bool:
@@ -176,7 +176,7 @@ class _Game:
         if best is None or not self.rho:
             return None, None
         action = self.task.actions[self.rho[0]]
-        if action.applicable(self.state):
+        if applicable(action, self.state):
             return self.rho.pop(0), None
         tested = frozenset((*action.pre, *action.neg))
         return None, (self.belief - tested) | (self.state & tested)
@@ -185,7 +185,7 @@ class _Game:
         """Whether robots can do it beside what is being done."""
         action = self.task.actions[i]
         others = (self.task.actions[j] for j in executed)
-        return action.applicable(self.state) and not any(
+        return applicable(action, self.state) and not any(
             conflicting(action, other, strict=self.strict) for other in others
         )
 
@@ -193,7 +193,7 @@ class _Game:
         """Several ground actions may be one action by name: one that is applicable."""
         action = self.task.actions[i]
         same = [j for j in self.task.named[action.name] if self._team(j) == action.participants]
-        possible = [j for j in [i, *same] if self.task.actions[j].applicable(self.state)]
+        possible = [j for j in [i, *same] if applicable(self.task.actions[j], self.state)]
         return possible[0] if possible else i
 
     def _team(self, i: int) -> tuple[int, ...]:

@@ -1,0 +1,153 @@
+"""Calls that random ones seldom hit: each turns on one rule or one bound."""
+
+from collections.abc import Iterator
+
+from serendipity.crosscheck import PlanCall
+from tests.builders import task as build
+from tests.cases import case_1, case_4
+
+
+def hand_made() -> Iterator[PlanCall]:
+    """All of them, with tasks made afresh."""
+    yield from _epochs()
+    yield from _conditions()
+    yield from _horizons()
+    yield from _suffixes()
+    yield from _goals()
+    yield from _limits()
+    yield from _provisions()
+
+
+def _epochs() -> Iterator[PlanCall]:
+    """What two actions of one epoch do to each other."""
+    both_delete = {"use h": "p -> a !p", "other h": "-> b @ 3", "take r": "p -> b !p"}
+    circle = {"use h": "p q -> a !q", "other h": "-> b @ 3", "take r": "p q -> b !p"}
+    negated = {"use h": "!x -> a y", "other h": "-> b @ 3", "take r": "!y -> b x"}
+    for actions in (both_delete, circle, negated):
+        for options in (
+            {"mode": "composite"},
+            {"mode": "composite", "horizon": "inf"},
+            {"mode": "composite", "interference": "strict"},
+            {"mode": "serendipity", "window_weight": "0"},
+        ):
+            yield PlanCall(build(init="p q", goal="a b", actions=actions), options)
+    two_robots = {"go h": "-> g @ 5", "end h": "x y -> g", "one r": "-> x", "two s": "-> y"}
+    yield PlanCall(build(agents="h r s", goal="g", actions=two_robots), {"horizon": "2"})
+
+
+def _conditions() -> Iterator[PlanCall]:
+    """Negative literals on a value of a variable."""
+    walks = {"walk h": "at0 -> at1 !at0", "back h": "at1 -> at0 !at1"}
+    press = {"press r": "!at0 -> d", "do h": "-> d @ 5"}
+    yield PlanCall(build(init="at0", goal="at0 d", actions={**walks, **press}), {"mode": "composite"})
+    yield PlanCall(build(init="at0", goal="!at0", actions=walks), {"mode": "composite"})
+    spoilt = {
+        "one h": "!a -> a",
+        "two h": "p a -> c",
+        "three h": "c -> d",
+        "four h": "d -> b @ 5",
+        "spoil r": "!a -> b !p @ 0",
+    }
+    yield PlanCall(build(init="p", goal="d b", actions=spoilt), {})
+
+
+def _horizons() -> Iterator[PlanCall]:
+    """The cheaper way is longer than the horizon."""
+    actions = {"do h": "-> g @ 5", "open r": "-> o", "first h": "o -> m", "then h": "m -> g"}
+    for mode in ("serendipity", "communication", "composite"):
+        for horizon in ("2", "3"):
+            yield PlanCall(build(goal="g", actions=actions), {"mode": mode, "horizon": horizon})
+    shared = {
+        "one h": "-> a @ 5",
+        "two h": "a -> b",
+        "three h": "b -> c",
+        "bring r": "-> x",
+        "put r": "x -> a",
+        "never r": "z -> b",
+    }
+    yield PlanCall(build(goal="c", actions=shared), {"suffix": "subplan", "window_weight": "0"})
+
+
+def _suffixes() -> Iterator[PlanCall]:
+    actions = {
+        "one h": "a -> b @ 2",
+        "two h": "b -> c @ 2",
+        "three h": "c -> d @ 2",
+        "skip r": "-> c",
+    }
+    for options in ({"preservation": "state"}, {"suffix": "subplan"}, {}):
+        yield PlanCall(build(init="a", goal="d", actions=actions), options)
+
+
+def _goals() -> Iterator[PlanCall]:
+    """Robots that want something themselves."""
+    actions = {"do h": "-> p @ 5", "then h": "q -> p", "help r": "-> q", "wish r": "-> w"}
+    for options in (
+        {"horizon": "2", "window_weight": "0"},
+        {"horizon": "3", "window_weight": "0"},
+        {"horizon": "3", "mode": "communication"},
+        {"horizon": "inf", "mode": "composite"},
+    ):
+        yield PlanCall(build(goal="p", robot_goal="w", actions=actions), options)
+    steps = {"one h": "-> a @ 3", "two h": "a -> p", "help r": "-> a", "wish r": "-> w"}
+    yield PlanCall(
+        build(goal="p", robot_goal="w", actions=steps),
+        {"horizon": "3", "suffix": "subplan", "window_weight": "0"},
+    )
+
+
+def _limits() -> Iterator[PlanCall]:
+    yield PlanCall(case_1(), {"discount": "0.6", "max_cost": "9.6"})
+    yield PlanCall(case_4(), {"discount": "0.9", "max_cost": "6", "mode": "communication"})
+    yield PlanCall(case_4(), {"discount": "0.9", "max_cost": "6"})
+    # Dear and short against cheap and long: the limit on the window keeps the first.
+    either = {
+        "do h": "-> g @ 9",
+        "wait h": "-> k",
+        "end h": "x -> g",
+        "fast r": "-> x @ 6",
+        "slow r": "-> y",
+        "slower r": "y -> x",
+    }
+    for longest in ("1", "2", "3"):
+        options = {"horizon": "4", "max_window": longest, "window_weight": "1"}
+        yield PlanCall(build(goal="g", actions=either), options)
+
+
+def _provisions() -> Iterator[PlanCall]:
+    """What robots pass on to each other, and what the human himself sets going."""
+    relay = {
+        "do h": "-> g @ 9",
+        "use h": "k2 -> g",
+        "carry s": "k0 -> k1 !k0",
+        "bring r": "k1 -> k2 !k1",
+    }
+    for horizon in ("3", "4"):
+        yield PlanCall(
+            build(agents="h r s", init="k0", goal="g", actions=relay),
+            {"horizon": horizon, "window_weight": "0"},
+        )
+    walking = {
+        "do h": "-> g @ 9",
+        "use h": "k2 -> g",
+        "go s": "s0 -> s1 !s0",
+        "walk r": "r0 -> r1 !r0",
+        "carry s": "k0 s1 -> k1 !k0",
+        "bring r": "k1 r1 -> k2 !k1",
+    }
+    yield PlanCall(
+        build(agents="h r s", init="k0 s0 r0", goal="g", actions=walking),
+        {"horizon": "5", "window_weight": "0"},
+    )
+    yield PlanCall(
+        build(agents="h r s", init="k0 s0 r0", goal="g", actions=walking),
+        {"horizon": "5", "mode": "communication"},
+    )
+    flipped = {
+        "one h": "v0 b -> v1 a !v0 !b",
+        "do h": "a -> g @ 5",
+        "use h": "v2 a -> g",
+        "turn r": "v1 -> v2 !v1",
+    }
+    for horizon in ("2", "3", "4"):
+        yield PlanCall(build(init="v0 b", goal="g", actions=flipped), {"horizon": horizon})
