@@ -17,6 +17,7 @@ from serendipity._siblings import require_siblings
 if TYPE_CHECKING:
     from serendipity.certify import check, verify
     from serendipity.explanation import Explanation, explain
+    from serendipity.goals import Recognition, recognise
     from serendipity.interruptibility import interruptions
     from serendipity.model import (
         Certificate,
@@ -47,6 +48,7 @@ __all__ = [
     "Options",
     "PlanError",
     "PlanStep",
+    "Recognition",
     "Result",
     "SerendipityError",
     "Session",
@@ -65,6 +67,7 @@ __all__ = [
     "load_pddl",
     "plan",
     "plan_anytime",
+    "recognise",
     "reproduce",
     "simulate",
     "verify",
@@ -86,6 +89,8 @@ _HOMES: Final = {
     "interruptions": "serendipity.interruptibility",
     "explain": "serendipity.explanation",
     "Explanation": "serendipity.explanation",
+    "recognise": "serendipity.goals",
+    "Recognition": "serendipity.goals",
 }
 """Where the public functions live; the public classes live in ``serendipity.model``."""
 
@@ -94,6 +99,7 @@ _NEED_SIBLINGS: Final = (
     "serendipity.certify",
     "serendipity.interruptibility",
     "serendipity.explanation",
+    "serendipity.goals",
     "serendipity.reproduction",
     "serendipity.session",
     "serendipity.simulation",

@@ -5,17 +5,21 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from search import Clock, Outcome, OutOfTimeError, optimal_human_plans, solve
 from search.simulation import solve_for_human
 from serendipity.model.errors import UsageError
+from serendipity.model.numbers import Number
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
 from serendipity.model.visibility import Visible
 from serendipity.simulation import realised
+
+if TYPE_CHECKING:
+    from serendipity.goals import GoalsGiven, ObservedGiven
 
 _VERDICT_SECONDS: Final = 0.02
 _VERDICT_SHARE: Final = 0.1
@@ -28,6 +32,9 @@ def plan(
     human_plan: Iterable[str] | None = None,
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
+    goals: "GoalsGiven | None" = None,
+    observed: "ObservedGiven" = (),
+    beta: Number = 1,
     **options: Any,
 ) -> Result:
     """The best plan in which robots help the human, with a proof that none is better.
@@ -39,13 +46,30 @@ def plan(
         visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
             ``human_model="local"`` sees; None for what is where he is.
         cancelled: set from another thread, it ends the call like a time limit.
+        goals: goals that the human may have, instead of the task's, as :func:`recognise` takes
+            them: the least expected cost over their posterior is wanted (SPEC 8).
+        observed: what he has done from the initial state on, for the posterior.
+        beta: of the posterior.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
             ``discount=0.6``, ``time_limit=0.1`` (seconds) and so on.
 
     Raises:
         UsageError: an option is unknown or has no legal value.
         PlanError: ``human_plan`` can't be executed, or misses the goal.
+        InputError: ``goals`` or ``observed`` are wrong; it says where.
     """
+    if goals is not None:
+        if human_plan is not None:
+            raise UsageError("human_plan: with goals, his plans are predicted; give observed instead")
+        # Loaded only here: who knows the goal has nothing to do with it.
+        from serendipity.goals.planning import plan_for_goals
+
+        def known(about: Task, names: tuple[str, ...] | None) -> Result:
+            return plan(about, human_plan=names, visible=visible, cancelled=cancelled, **options)
+
+        return plan_for_goals(
+            task, goals, observed, beta, options_from(options), known, cancelled=cancelled
+        )
     *_, last = _answers(task, human_plan, visible, options, cancelled)
     return last()
 

@@ -1,0 +1,149 @@
+"""The human's optimal plans for each candidate goal that do, and don't, embed what was observed.
+
+A plan embeds the observations iff they are a subsequence of its action names.  Matching each
+observation as early as possible decides that, so a search over (state, number of observations
+matched) is exact; a plan that does not embed them never matches the last one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from heapq import heappop, heappush
+
+from search.clock import Clock
+from search.encoding import Encoding, OpIndex
+from search.keys import INFINITE_KEY, Weights
+from search.projection import human_projection
+from search.successors import Lookup
+from serendipity.model.actions import Condition
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan, Task
+
+_At = tuple[int, int]
+"""A packed state, and how many observations have been matched."""
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """What the observations cost a human who wants one goal.
+
+    Attributes:
+        with_observed: ``cost(G, O)``: least cost of his plans that embed them; None if none does.
+        without_observed: ``cost(G, not O)``: least cost of his other plans; None if there is none.
+        plan: the canonical one among the (cost, length)-optimal plans that embed them.
+    """
+
+    with_observed: Fraction | None
+    without_observed: Fraction | None
+    plan: HumanPlan | None
+
+
+def explanations(
+    task: Task, goals: Sequence[Condition], observed: Sequence[str], clock: Clock | None = None
+) -> list[Explanation]:
+    """One explanation for each goal.
+
+    Args:
+        task: the task; robots idle, its own goal plays no part.
+        goals: the candidate goals.
+        observed: names of actions, in the order in which he did them.
+        clock: deadline and cancellation.
+    """
+    clock = clock or Clock()
+    nothing = Condition()
+    return [
+        _Search(replace(task, goal=goal, robot_goal=nothing), tuple(observed), clock).explanation()
+        for goal in goals
+    ]
+
+
+class _Search:
+    """A* over what matters to one goal and to the observations."""
+
+    def __init__(self, task: Task, observed: tuple[str, ...], clock: Clock) -> None:
+        seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
+        asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
+        packed = Encoding(task, frozenset(asked))
+        weights = Weights(packed, Options(), None)
+        own = sorted({op.action for op in packed.own} | seen)
+        self._lookup = Lookup(OpIndex([packed.op(i) for i in own], packed.fields), weights.alone)
+        self._keys = weights.keys
+        self._names = {i: task.actions[i].name for i in own}
+        self._goal = packed.goal
+        self._bound = human_projection(packed, packed.goal, weights.human, clock)
+        self._observed = observed
+        self._clock = clock
+        self._start: _At = (packed.init, 0)
+
+    def explanation(self) -> Explanation:
+        """Both costs, and the canonical plan that embeds the observations."""
+        embedding, plan = self._best(embed=True)
+        other, _ = self._best(embed=False)
+        return Explanation(
+            None if plan is None else self._keys.cost(embedding),
+            None if other == INFINITE_KEY else self._keys.cost(other),
+            plan,
+        )
+
+    def _best(self, *, embed: bool) -> tuple[int, HumanPlan | None]:
+        """The least key of a plan that embeds the observations (or does not), and the canonical one.
+
+        Every place whose bound does not exceed the optimum is expanded, so that all optimal
+        plans are among the steps recorded.
+        """
+        all_seen = len(self._observed)
+        if not embed and not all_seen:
+            return INFINITE_KEY, None
+        distance: dict[_At, int] = {self._start: 0}
+        into: dict[_At, list[tuple[int, _At, int]]] = {}
+        queue = [(self._bound(self._start[0]), 0, self._start)]
+        closed: set[_At] = set()
+        optimum, ends = INFINITE_KEY, []
+        while queue and queue[0][0] <= optimum and queue[0][0] < INFINITE_KEY:
+            _, key, at = heappop(queue)
+            if at in closed:
+                continue
+            closed.add(at)
+            self._clock.tick()
+            if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
+                optimum = min(optimum, key)
+                ends.append(at)
+            for option in self._lookup.options(at[0]):
+                after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
+                if not embed and after[1] == all_seen:
+                    continue
+                reached = key + option.weight
+                into.setdefault(after, []).append((option.actions[0], at, reached))
+                if reached < distance.get(after, INFINITE_KEY):
+                    distance[after] = reached
+                    heappush(queue, (reached + self._bound(after[0]), reached, after))
+        best = [at for at in ends if distance[at] == optimum]
+        return optimum, self._canonical(best, into, distance) if best else None
+
+    def _matched(self, count: int, action: int) -> int:
+        expected = self._observed[count] if count < len(self._observed) else None
+        return count + (self._names[action] == expected)
+
+    def _canonical(
+        self,
+        ends: list[_At],
+        into: dict[_At, list[tuple[int, _At, int]]],
+        distance: dict[_At, int],
+    ) -> HumanPlan:
+        """From the start the smallest action that continues an optimal plan (SPEC 1)."""
+        onward: dict[_At, list[tuple[int, _At]]] = {}
+        pending, seen = list(ends), set(ends)
+        while pending:
+            after = pending.pop()
+            for action, at, reached in into.get(after, ()):
+                if reached != distance[after]:
+                    continue
+                onward.setdefault(at, []).append((action, after))
+                if at not in seen:
+                    seen.add(at)
+                    pending.append(at)
+        plan, at = [], self._start
+        while at in onward:
+            action, at = min(onward[at])
+            plan.append(action)
+        return tuple(plan)

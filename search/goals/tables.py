@@ -1,0 +1,68 @@
+"""Tables for several candidate goals over one packing, so that robots' actions mean the same in all."""
+
+from collections.abc import Sequence
+from copy import copy
+from dataclasses import replace
+
+from search.clock import Clock
+from search.encoding import Encoding, human_facts
+from search.goals.outcome import Candidate
+from search.goals.timeline import Timeline
+from search.keys import Weights
+from search.tables import Tables
+from search.windows import suffix_rule
+from serendipity.model.options import Options
+from serendipity.model.task import Task
+
+
+class SharedTables(Tables):
+    """Tables of one candidate whose packing is that of all candidates.
+
+    Args:
+        packed: packs what any candidate asks for.
+        task: the task with the candidate as its goal.
+        options: options in force.
+        clock: asked for time.
+    """
+
+    def __init__(self, packed: Encoding, task: Task, options: Options, clock: Clock) -> None:
+        self.task = task
+        self.options = options
+        self.clock = clock
+        self.encoding = copy(packed)
+        self.encoding.task = task
+        self.encoding.goal = packed.condition(task.goal)
+        self.weights = Weights(packed, options, None)
+        self.keys = self.weights.keys
+
+
+def shared_packing(task: Task, options: Options, candidates: Sequence[Candidate]) -> Encoding:
+    """A packing of every fact that a candidate or its plan asks for."""
+    asked: set[int] = set(human_facts(task)) if options.preservation == "state" else set()
+    for candidate in candidates:
+        asked.update(candidate.goal.positive, candidate.goal.negative)
+        for action in (task.actions[i] for i in candidate.plan):
+            asked.update(action.pre, action.neg)
+    return Encoding(task, frozenset(asked))
+
+
+def timeline(tables: SharedTables, candidate: Candidate, horizon: int) -> Timeline:
+    """The rules of SPEC 3.1 for one candidate, under the options of its tables."""
+    options = tables.options
+    return Timeline(
+        encoding=tables.encoding,
+        goal=tables.encoding.goal,
+        steps=tables.followed(candidate.plan),
+        suffix=suffix_rule(tables, candidate.plan),
+        private=tables.bound,
+        keys=tables.keys,
+        horizon=horizon,
+        max_window=options.max_window or horizon,
+        per_start=options.preservation == "state",
+        strict=options.strict,
+    )
+
+
+def task_for(task: Task, candidate: Candidate) -> Task:
+    """The task in which the candidate is the human's goal."""
+    return replace(task, goal=candidate.goal)

@@ -1,0 +1,199 @@
+"""One candidate goal beside a robots' plan that is played epoch by epoch.
+
+All that can have happened so far, if this is the human's goal, is kept as labels: he still
+follows his plan, he is inside a window, or his window is over.  Labels of the same state
+and phase differ in their keys only, and the smallest is enough.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from search.best_first import Node
+from search.encoding import Encoding, Goal, Op, applicable
+from search.keys import INFINITE_KEY, Keys
+from search.projection import Projection
+from search.successors import NOTHING, Option, Successors
+from search.suffix import Suffix
+from search.windowed import PREFIX, WINDOW
+
+_Place = tuple[int, int]
+"""Packed state, and the window's start where that tells labels apart."""
+
+
+class Ended(NamedTuple):
+    """A complete timeline: its last node with robots in it, and what the human does after that."""
+
+    key: int
+    node: Node
+    end: int
+    """First epoch of the suffix, 0 where his plan is left alone."""
+    tail: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """What can have happened after some epochs.
+
+    Attributes:
+        follows: he has followed his plan all the time; None if robots made that impossible.
+        inside: the window is open.
+        ended: the best of the windows that are over; robots must not act any more.
+        bound: no completion has a smaller key.
+    """
+
+    follows: Node | None
+    inside: dict[_Place, Node]
+    ended: Ended | None
+    bound: int
+
+
+@dataclass(frozen=True, slots=True)
+class Timeline:
+    """Rules 1-3 of SPEC 3.1 for one candidate.
+
+    Attributes:
+        encoding: the packed task, the same for all candidates.
+        goal: the candidate, packed.
+        steps: his plan: packed actions and what they do.
+        suffix: rule 3.
+        private: lower bound on what he still has to pay.
+        keys: layout of keys.
+        horizon: ``T``.
+        max_window: most epochs of a window.
+        per_start: whether labels that differ in their window's start are told apart.
+        strict: strict interference.
+    """
+
+    encoding: Encoding
+    goal: Goal
+    steps: list[tuple[Op, Option]]
+    suffix: Suffix
+    private: Projection
+    keys: Keys
+    horizon: int
+    max_window: int
+    per_start: bool
+    strict: bool
+
+    def first(self) -> Situation:
+        """Before the first epoch."""
+        root = Node(0, 0, self.encoding.init, PREFIX, 0, None, ())
+        return Situation(root, {}, None, self._bound(root, {}, None))
+
+    def after(
+        self, now: Situation, epoch: int, robots: Option, acting: Successors, limit: int
+    ) -> Situation | None:
+        """After ``epoch``, in which the robots do exactly ``robots``, but for joint actions with him.
+
+        Args:
+            now: before the epoch.
+            epoch: from 1.
+            robots: the robots' own actions, the same for every candidate.
+            acting: what the human can do (with idle robots: alone).
+            limit: labels that can't stay below this key are dropped.
+
+        Returns:
+            None if nothing fits: the robots' actions break his plan, or are too dear.
+        """
+        follows = self._follow(now.follows, epoch, robots)
+        inside: dict[_Place, Node] = {}
+        ended = None if robots.actions else now.ended
+        for node in self._open(now):
+            for child in self._play(node, epoch, robots, acting, limit):
+                place = self._place(child)
+                known = inside.get(place)
+                if known is None or child.key < known.key:
+                    inside[place] = child
+        for child in inside.values():
+            ended = self._close(child, ended, limit)
+        again = {at: node for at, node in inside.items() if self._goes_on(node)}
+        bound = self._bound(follows, again, ended)
+        return None if bound >= limit else Situation(follows, again, ended, bound)
+
+    def complete(self, last: Situation) -> Ended | None:
+        """The best timeline after the last epoch; ties go to the plan that is left alone."""
+        left = None
+        if last.follows is not None and self.goal.holds(last.follows.state):
+            # Leaving him alone counts as the shortest and latest window (SPEC 3.1).
+            left = Ended(last.follows.key + self._untouched, last.follows, 0, ())
+        if left is None or (last.ended is not None and last.ended.key < left.key):
+            return last.ended
+        return left
+
+    @property
+    def _untouched(self) -> int:
+        return self.keys.epoch_weight + self.keys.of_start(max(1, len(self.steps)), self.horizon)
+
+    def _follow(self, node: Node | None, epoch: int, robots: Option) -> Node | None:
+        """Rule 1; beyond the end of his plan he waits."""
+        if node is None:
+            return None
+        part = NOTHING
+        if epoch <= len(self.steps):
+            op, part = self.steps[epoch - 1]
+            if not applicable(op, node.state):
+                return None
+        return self._together(node, part, robots)
+
+    def _open(self, now: Situation) -> list[Node]:
+        nodes = list(now.inside.values())
+        at = now.follows
+        if at is not None and at.epoch < min(len(self.steps), self.horizon):
+            start = at.epoch + 1
+            key = at.key + self.keys.of_start(start, self.horizon)
+            nodes.append(at._replace(key=key, phase=WINDOW, start=start))
+        return nodes
+
+    def _play(
+        self, node: Node, epoch: int, robots: Option, acting: Successors, limit: int
+    ) -> list[Node]:
+        """Rule 2: he is free, and robots that are idle in their own plan can join him."""
+        found = []
+        for part in (NOTHING, *acting.human(node.state), *acting.joint(node.state)):
+            child = self._together(node, part, robots)
+            if child is not None:
+                key = child.key + self.keys.epoch_weight
+                if key + self.private(child.state) < limit:
+                    found.append(child._replace(key=key))
+        return found
+
+    def _together(self, node: Node, part: Option, robots: Option) -> Node | None:
+        """The epoch after ``node`` with his part and theirs, if both are applicable together."""
+        if part.agents & robots.agents or not self._possible(robots, node.state):
+            return None
+        for mine in part.actions:
+            if not all(self.encoding.compatible(mine, other, self.strict) for other in robots.actions):
+                return None
+        state = node.state & part.keep & robots.keep | part.put | robots.put
+        key = node.key + part.weight + robots.weight
+        actions = part.actions + robots.actions
+        return Node(key, node.epoch + 1, state, node.phase, node.start, node, actions)
+
+    def _possible(self, robots: Option, state: int) -> bool:
+        return all(applicable(self.encoding.op(i), state) for i in robots.actions)
+
+    def _close(self, node: Node, best: Ended | None, limit: int) -> Ended | None:
+        """Rule 3: the window ends after the node."""
+        cap = limit if best is None else min(limit, best.key)
+        left = self.horizon - node.epoch
+        rest = self.suffix.key(node.state, left, node.start, cap - node.key)
+        if node.key + rest >= cap:
+            return best
+        tail = self.suffix.actions(node.state, left, node.start)
+        return Ended(node.key + rest, node, node.epoch + 1, tail)
+
+    def _goes_on(self, node: Node) -> bool:
+        return node.epoch < self.horizon and node.epoch - node.start + 1 < self.max_window
+
+    def _place(self, node: Node) -> _Place:
+        told_apart = self.per_start or self.max_window < self.horizon
+        return node.state, node.start if told_apart else 0
+
+    def _bound(self, follows: Node | None, inside: dict[_Place, Node], ended: Ended | None) -> int:
+        again = self.keys.epoch_weight
+        bounds = [node.key + again + self.private(node.state) for node in inside.values()]
+        if follows is not None:
+            bounds.append(follows.key + again + self.private(follows.state))
+        if ended is not None:
+            bounds.append(ended.key)
+        return min(bounds, default=INFINITE_KEY)

@@ -1,0 +1,190 @@
+"""Planning where the human's goal is not known: answers of ``plan(goals=..., observed=...)`` (SPEC 8).
+
+Epoch 1 is the first epoch of the human's plans, and observations are actions of those plans:
+his current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
+"""
+
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any, Final
+
+from search import Clock
+from search.goals import Candidate, Expected, Served, explanations, solve_expected
+from serendipity.goals.candidates import (
+    CandidateGoal,
+    GoalsGiven,
+    ObservedGiven,
+    candidate_goals,
+    observed_actions,
+)
+from serendipity.goals.recognise import posterior, strictness
+from serendipity.goals.recognition import Recognition
+from serendipity.model import Options, PlanStep, Result, Step, Task, UsageError
+from serendipity.model.numbers import Number
+from serendipity.model.task import HumanPlan
+
+Solve = Callable[[Task, tuple[str, ...] | None], Result]
+"""Section 3 for a task, and ``pi_H`` or None to predict it."""
+
+_FIXED: Final[dict[str, object]] = {"ties": "fixed", "human_model": "omniscient", "max_cost": None}
+"""Options that have one value only where there are several goals."""
+
+
+def plan_for_goals(
+    task: Task,
+    goals: GoalsGiven,
+    observed: ObservedGiven,
+    beta: Number,
+    options: Options,
+    solve: Solve,
+    *,
+    cancelled: threading.Event | None = None,
+) -> Result:
+    """The robots' plan of least expected cost over the posterior; with one goal, section 3.
+
+    ``cost``, ``human_cost``, ``saving`` and ``objective`` are expectations, ``plan`` is what
+    robots do by themselves whatever the goal is, and ``statistics["goals"]`` says for each
+    goal what happens then.  Goals of posterior 0, or that the human can't reach alone, are not
+    considered.
+
+    Raises:
+        InputError: a file or an entry of it is wrong.
+        UsageError: an option that has no meaning here.
+    """
+    if options.mode != "serendipity":
+        raise UsageError(f"goals: are for mode 'serendipity' only, not for '{options.mode}'")
+    clock = Clock(options.time_limit, cancelled)
+    candidates = candidate_goals(task, goals)
+    names = observed_actions(task, observed)
+    if len(candidates) > 1:
+        _refuse(task, options)
+    conditions = [candidate.goal for candidate in candidates]
+    found = explanations(task, conditions, names)
+    recognition = posterior(task, candidates, names, found, strictness(beta))
+    if not recognition.explained:  # his plans, as if nothing had been observed
+        found = explanations(task, conditions, ())
+    plans = [explanation.plan for explanation in found]
+    considered = [
+        i
+        for i, known in enumerate(recognition.goals)
+        if plans[i] is not None and Fraction(str(known.posterior)) > 0
+    ]
+    if not considered:
+        result = Result("serendipity", "infeasible", recognition.human, options, reason="no-human-plan")
+        return _with(result, recognition, clock, [])
+    if len(considered) == 1:
+        return _certain(task, candidates, considered[0], plans, recognition, solve)
+    total = sum(Fraction(str(recognition.goals[i].posterior)) for i in considered)
+    asked = []
+    for i in considered:
+        plan = plans[i]
+        assert plan is not None, "only goals with a plan are considered"
+        asked.append(
+            Candidate(candidates[i].goal, plan, Fraction(str(recognition.goals[i].posterior)) / total)
+        )
+    if options.horizon is not None and int(options.horizon) < max(len(c.plan) for c in asked):
+        longest = max(len(c.plan) for c in asked)
+        raise UsageError(
+            f"horizon: expected at least {longest}, the length of his longest plan, got {options.horizon}"
+        )
+    answer = solve_expected(task, options, asked, clock)
+    entries = [
+        _entry(task, options, recognition.goals[i].name, candidate, served)
+        for i, candidate, served in zip(considered, asked, answer.served, strict=True)
+    ]
+    return _with(_result(task, options, answer, asked), recognition, clock, entries)
+
+
+def _refuse(task: Task, options: Options) -> None:
+    for name, value in _FIXED.items():
+        if getattr(options, name) != value:
+            raise UsageError(f"{name}: with several goals only {value!r} is possible")
+    if options.horizon == "inf":
+        raise UsageError("horizon: with several goals it has to be finite")
+    if task.robot_goal:
+        raise UsageError("goals: robots that have goals of their own can be asked about one goal only")
+
+
+def _certain(
+    task: Task,
+    candidates: tuple[CandidateGoal, ...],
+    index: int,
+    plans: list[HumanPlan | None],
+    recognition: Recognition,
+    solve: Solve,
+) -> Result:
+    """One goal is left: section 3, with the plan that explains the observations."""
+    goal = replace(task, goal=candidates[index].goal)
+    plan = plans[index]
+    names = None
+    if recognition.observed and recognition.explained and plan is not None:
+        names = tuple(task.actions[i].name for i in plan)
+    result = solve(goal, names)
+    entry = {
+        "name": recognition.goals[index].name,
+        "probability": 1.0,
+        "human_plan": None if result.human_plan is None else list(result.human_plan),
+        "cost": result.cost,
+        "window": result.to_dict()["window"],
+        "plan": result.to_dict()["plan"],
+    }
+    return _with(result, recognition, None, [entry])
+
+
+def _with(
+    result: Result, recognition: Recognition, clock: Clock | None, entries: list[dict[str, Any]]
+) -> Result:
+    statistics = {**result.statistics, "recognition": recognition.to_dict(), "goals": entries}
+    if clock is not None:
+        statistics["elapsed_seconds"] = clock.elapsed()
+    return replace(result, statistics=statistics)
+
+
+def _result(task: Task, options: Options, answer: Expected, asked: list[Candidate]) -> Result:
+    shares: dict[str, Fraction] = {agent: Fraction(0) for agent in task.agents}
+    for candidate, served in zip(asked, answer.served, strict=True):
+        for step in served.steps:
+            action = task.actions[step.action]
+            each = candidate.weight * task.team_cost(action, options.discount) / len(action.participants)
+            for agent in action.participants:
+                shares[task.agents[agent]] += each
+    return Result(
+        mode=options.mode,
+        status=answer.status,
+        human=task.agents[task.human],
+        options=options,
+        human_cost=float(answer.baseline),
+        opportunity=answer.opportunity,
+        cost=float(answer.cost),
+        saving=float(answer.baseline - answer.cost) if answer.opportunity else 0.0,
+        objective=float(answer.objective),
+        lower_bound=float(answer.lower_bound),
+        horizon=answer.horizon,
+        saving_alone=float(answer.saving_alone),
+        plan=tuple(_step(task, options, step) for step in answer.robots),
+        agent_costs={agent: float(cost) for agent, cost in shares.items()},
+        statistics={"expanded": answer.expanded, "generated": answer.generated},
+    )
+
+
+def _entry(
+    task: Task, options: Options, name: str, candidate: Candidate, served: Served
+) -> dict[str, Any]:
+    """What happens if one goal is his, as plain values."""
+    window = served.window
+    return {
+        "name": name,
+        "probability": float(candidate.weight),
+        "human_plan": [task.actions[i].name for i in candidate.plan],
+        "cost": float(served.cost),
+        "window": None if window is None else {"start": window.start, "end": window.end},
+        "plan": [_step(task, options, step).to_dict() for step in served.steps],
+    }
+
+
+def _step(task: Task, options: Options, step: Step) -> PlanStep:
+    action = task.actions[step.action]
+    agents = tuple(task.agents[i] for i in action.participants)
+    return PlanStep(step.epoch, agents, action.name, float(task.team_cost(action, options.discount)))

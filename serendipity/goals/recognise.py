@@ -1,0 +1,112 @@
+"""The posterior over the human's goals (SPEC 8, after Ramirez and Geffner 2010)."""
+
+import math
+from collections.abc import Sequence
+
+from search.goals import Explanation, explanations
+from serendipity.goals.candidates import (
+    CandidateGoal,
+    GoalsGiven,
+    ObservedGiven,
+    candidate_goals,
+    observed_actions,
+)
+from serendipity.goals.recognition import GoalPosterior, Recognition
+from serendipity.model import Task, UsageError, exact
+from serendipity.model.numbers import Number
+
+
+def recognise(
+    task: Task, goals: GoalsGiven, observed: ObservedGiven = (), beta: Number = 1
+) -> Recognition:
+    """How probable each candidate goal is, given what the human has done from ``I`` on.
+
+    ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``.  Where only one of the costs
+    is finite it is exactly 0 or 1.  Observations are actions of his in their order, from the
+    task's initial state on; he may have done more between them.
+
+    Args:
+        task: the task; its own goal plays no part.
+        goals: a file, or a list of ``{"name": ..., "goal": [literals], "prior": ...}``; literals
+            are ``"fact"``, ``"!fact"`` or ``"(not (fact))"``.
+        observed: a file with an action a line, or a list of names.
+        beta: at least 0; 0 learns only from what is impossible.
+
+    Raises:
+        InputError: a file or an entry in it is wrong; it says where, and what was expected.
+        UsageError: ``beta`` is not a number of at least 0.
+    """
+    candidates = candidate_goals(task, goals)
+    names = observed_actions(task, observed)
+    found = explanations(task, [candidate.goal for candidate in candidates], names)
+    return posterior(task, candidates, names, found, strictness(beta))
+
+
+def strictness(beta: Number) -> float:
+    """``beta`` as a float.
+
+    Raises:
+        UsageError: it is not a number of at least 0.
+    """
+    value = exact(beta, "beta")
+    if value < 0:
+        raise UsageError(f"beta: expected a number of at least 0, got {float(value):g}")
+    return float(value)
+
+
+def posterior(
+    task: Task,
+    candidates: Sequence[CandidateGoal],
+    observed: tuple[str, ...],
+    found: Sequence[Explanation],
+    beta: float,
+) -> Recognition:
+    """Bayes' rule over the candidates; their priors, if none explains the observations."""
+    logs = [_log_likelihood(explanation, beta) for explanation in found]
+    weighted = [
+        log + math.log(candidate.prior) if candidate.prior and log > -math.inf else -math.inf
+        for log, candidate in zip(logs, candidates, strict=True)
+    ]
+    most = max(weighted)
+    explained = most > -math.inf
+    shares = [math.exp(value - most) for value in weighted] if explained else [
+        float(candidate.prior) for candidate in candidates
+    ]
+    total = math.fsum(shares)
+    return Recognition(
+        human=task.agents[task.human],
+        observed=observed,
+        beta=beta,
+        explained=explained,
+        goals=tuple(
+            GoalPosterior(
+                name=candidate.name,
+                goal=candidate.literals,
+                prior=candidate.prior,
+                likelihood=_likelihood(explanation, log),
+                posterior=share / total,
+                with_observed=explanation.with_observed,
+                without_observed=explanation.without_observed,
+                plan=None
+                if explanation.plan is None
+                else tuple(task.actions[i].name for i in explanation.plan),
+            )
+            for candidate, explanation, log, share in zip(candidates, found, logs, shares, strict=True)
+        ),
+    )
+
+
+def _log_likelihood(explanation: Explanation, beta: float) -> float:
+    """``log P(O|G)``: logarithms, because dear detours would be 0 as they are."""
+    if explanation.with_observed is None:
+        return -math.inf
+    if explanation.without_observed is None:
+        return 0.0
+    gain = beta * float(explanation.without_observed - explanation.with_observed)
+    return -math.log1p(math.exp(-gain)) if gain >= 0 else gain - math.log1p(math.exp(gain))
+
+
+def _likelihood(explanation: Explanation, log: float) -> float | None:
+    if explanation.with_observed is None and explanation.without_observed is None:
+        return None
+    return math.exp(log)

@@ -1,0 +1,85 @@
+"""What recognition answers, and its JSON form (schema ``serendipity.recognition/1``)."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Final
+
+SCHEMA: Final = "serendipity.recognition/1"
+
+
+@dataclass(frozen=True, slots=True)
+class GoalPosterior:
+    """What is known of one candidate goal; costs are the human's own, in the domain's unit.
+
+    Attributes:
+        name: for people.
+        goal: its literals.
+        prior: before the observations.
+        likelihood: ``P(O | G)``; None where the human can't reach the goal alone at all.
+        posterior: given the observations.
+        with_observed: ``cost(G, O)``; None if no plan of his embeds the observations.
+        without_observed: ``cost(G, not O)``; None if all of his plans embed them.
+        plan: the canonical optimal plan that embeds the observations, or None.
+    """
+
+    name: str
+    goal: tuple[str, ...]
+    prior: Fraction
+    likelihood: float | None
+    posterior: float
+    with_observed: Fraction | None
+    without_observed: Fraction | None
+    plan: tuple[str, ...] | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return {
+            "name": self.name,
+            "goal": list(self.goal),
+            "prior": float(self.prior),
+            "likelihood": self.likelihood,
+            "posterior": self.posterior,
+            "cost_with_observed": _float(self.with_observed),
+            "cost_without_observed": _float(self.without_observed),
+            "plan": None if self.plan is None else list(self.plan),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Recognition:
+    """The posterior over the human's goals.
+
+    Attributes:
+        human: his name.
+        observed: names of the actions that were observed.
+        beta: how strictly he is taken to minimise cost.
+        explained: whether some candidate explains the observations; if none does, the
+            posterior is the prior.
+        goals: in the order in which they were given; posteriors add up to 1.
+    """
+
+    human: str
+    observed: tuple[str, ...]
+    beta: float
+    explained: bool
+    goals: tuple[GoalPosterior, ...]
+
+    @property
+    def most_likely(self) -> GoalPosterior:
+        """The goal with the highest posterior; the first of equals."""
+        return max(self.goals, key=lambda goal: goal.posterior)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return {
+            "schema": SCHEMA,
+            "human": self.human,
+            "observed": list(self.observed),
+            "beta": self.beta,
+            "explained": self.explained,
+            "goals": [goal.to_dict() for goal in self.goals],
+        }
+
+
+def _float(value: Fraction | None) -> float | None:
+    return None if value is None else float(value)
