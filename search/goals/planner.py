@@ -81,9 +81,7 @@ class _Best:
 class _Search:
     """One call."""
 
-    def __init__(
-        self, task: Task, options: Options, candidates: Sequence[Candidate], clock: Clock
-    ) -> None:
+    def __init__(self, task: Task, options: Options, candidates: Sequence[Candidate], clock: Clock) -> None:
         self._task = task
         self._candidates = candidates
         longest = max(len(candidate.plan) for candidate in candidates)
@@ -203,7 +201,9 @@ class _Search:
         states = {label.state for label in fewest.inside.values()}
         if fewest.follows is not None:
             states.add(fewest.follows.state)
-        offered = {(): NOTHING}  # also where all that is left is the end of a window
+        offered: dict[tuple[int, ...], Option] = {
+            (): NOTHING
+        }  # also where all that is left is the end of a window
         for state in sorted(states):
             for option in self._acting.robots(state):
                 offered.setdefault(option.actions, option)
@@ -312,9 +312,7 @@ class _Search:
 
     def _served(self, end: Ended) -> Served:
         window = Window(end.node.start, end.end) if end.end else None
-        return Served(
-            path_steps(end.node) + plan_steps(end.tail, end.end), window, self._keys.cost(end.key)
-        )
+        return Served(path_steps(end.node) + plan_steps(end.tail, end.end), window, self._keys.cost(end.key))
 
 
 def _joined(first: Option, second: Option) -> Option:

@@ -144,9 +144,7 @@ class Timeline:
             nodes.append(at._replace(key=key, phase=WINDOW, start=start))
         return nodes
 
-    def _play(
-        self, node: Node, epoch: int, robots: Option, acting: Successors, limit: int
-    ) -> list[Node]:
+    def _play(self, node: Node, epoch: int, robots: Option, acting: Successors, limit: int) -> list[Node]:
         """Rule 2: he is free, and robots that are idle in their own plan can join him."""
         found = []
         for part in (NOTHING, *acting.human(node.state), *acting.joint(node.state)):

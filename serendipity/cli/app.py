@@ -17,6 +17,7 @@ from serendipity.cli import (
     generate,
     interruptions,
     plan,
+    recognise,
     reproduce,
     show,
     simulate,
@@ -44,6 +45,7 @@ app.command("verify", epilog=epilog("verify"))(verify.verify)
 app.command("simulate", epilog=epilog("simulate"))(simulate.simulate)
 app.command("explain", epilog=epilog("explain"))(explain.explain)
 app.command("interruptions", epilog=epilog("interruptions"))(interruptions.interruptions)
+app.command("recognise", epilog=epilog("recognise"))(recognise.recognise)
 app.command("reproduce", epilog=epilog("reproduce"))(reproduce.reproduce)
 app.command("show", epilog=epilog("show"))(show.show)
 app.command("solve", epilog=epilog("solve"))(solve.solve)

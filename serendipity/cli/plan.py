@@ -8,10 +8,11 @@ from typing import Annotated
 import typer
 
 import serendipity
+from serendipity.cli import goals as goal_options
 from serendipity.cli import naming, output, plan_options
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.human_plan import read_human_plan
-from serendipity.model import Result
+from serendipity.model import Result, UsageError
 
 
 def plan(
@@ -40,6 +41,9 @@ def plan(
     ties: plan_options.Ties = None,
     max_ties: plan_options.MaxTies = None,
     no_block: plan_options.NoBlock = None,
+    goals: goal_options.Goals = None,
+    observed: goal_options.Observed = None,
+    beta: goal_options.Beta = None,
     time_limit: plan_options.TimeLimit = None,
     certify: Annotated[bool, typer.Option("--verify", help="Add the certificate of `verify`.")] = False,
     format: output.Format = None,  # noqa: A002 - the option's name
@@ -76,6 +80,14 @@ def plan(
     )
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
+    if goals is not None:
+        if certify:
+            raise UsageError("--verify: a certificate is about one goal, not about --goals")
+        options |= plan_options.given(goals=goals, observed=observed, beta=beta)
+        return _for_goals(serendipity.plan(task, **options), form, output_file)
+    for option, value in (("--observed", observed), ("--beta", beta)):
+        if value is not None:
+            raise UsageError(f"{option}: goes with --goals only")
     result, interrupted = _last(serendipity.plan_anytime(task, **options))
     if result is None:
         sys.stderr.write("Interrupted before there was any plan.\n")
@@ -91,6 +103,17 @@ def plan(
     if certificate.verdict == "refuted":
         return ExitCode.REFUTED
     return ExitCode.INTERRUPTED if interrupted else OF_STATUS[result.status]
+
+
+def _for_goals(result: Result, form: str, output_file: Path | None) -> int:
+    """Write the answer where the goal is not known."""
+    if form == "json":
+        output.write_answer(output.as_json(result.to_dict()), output_file)
+    else:
+        from serendipity.cli.render import rendered
+
+        output.write_answer(rendered(goal_options.plan_text(result)), output_file)
+    return OF_STATUS[result.status]
 
 
 def _last(answers: Iterable[Result]) -> tuple[Result | None, bool]:

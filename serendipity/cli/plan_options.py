@@ -5,6 +5,7 @@ validates them: here they are text, so that ``0.1`` stays exactly a tenth.
 """
 
 from dataclasses import fields
+from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
@@ -68,6 +69,6 @@ def seconds(text: str | None) -> float | None:
     return Options(time_limit=text).time_limit  # type: ignore[arg-type]
 
 
-def given(**options: str | bool | None) -> dict[str, Any]:
+def given(**options: str | bool | Path | None) -> dict[str, Any]:
     """The options that the user gave; what he left out keeps its default."""
     return {name: value for name, value in options.items() if value is not None}

@@ -169,9 +169,7 @@ def _result(task: Task, options: Options, answer: Expected, asked: list[Candidat
     )
 
 
-def _entry(
-    task: Task, options: Options, name: str, candidate: Candidate, served: Served
-) -> dict[str, Any]:
+def _entry(task: Task, options: Options, name: str, candidate: Candidate, served: Served) -> dict[str, Any]:
     """What happens if one goal is his, as plain values."""
     window = served.window
     return {

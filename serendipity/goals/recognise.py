@@ -16,9 +16,7 @@ from serendipity.model import Task, UsageError, exact
 from serendipity.model.numbers import Number
 
 
-def recognise(
-    task: Task, goals: GoalsGiven, observed: ObservedGiven = (), beta: Number = 1
-) -> Recognition:
+def recognise(task: Task, goals: GoalsGiven, observed: ObservedGiven = (), beta: Number = 1) -> Recognition:
     """How probable each candidate goal is, given what the human has done from ``I`` on.
 
     ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``.  Where only one of the costs
@@ -69,9 +67,11 @@ def posterior(
     ]
     most = max(weighted)
     explained = most > -math.inf
-    shares = [math.exp(value - most) for value in weighted] if explained else [
-        float(candidate.prior) for candidate in candidates
-    ]
+    shares = (
+        [math.exp(value - most) for value in weighted]
+        if explained
+        else [float(candidate.prior) for candidate in candidates]
+    )
     total = math.fsum(shares)
     return Recognition(
         human=task.agents[task.human],

@@ -1,0 +1,53 @@
+"""``serendipity recognise``: which goal the human has, from what he has done."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import serendipity
+from serendipity.cli import goals as goal_options
+from serendipity.cli import naming, output
+from serendipity.cli.exit_codes import ExitCode
+
+
+def recognise(
+    *,
+    files: naming.Files = None,
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    goals: Annotated[
+        Path,
+        typer.Option(
+            "--goals", metavar="FILE", help="Goals he may have: JSON, or 'prior: fact, fact' on each line."
+        ),
+    ],
+    observed: goal_options.Observed = None,
+    beta: goal_options.Beta = None,
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """How probable each goal is, given what the human has done so far."""
+    output.start_logging(verbose)
+    form = output.choose_format(format, output_file)
+    output.check_output(output_file)
+    name = naming.TaskName(
+        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    found = serendipity.recognise(
+        task, goals, () if observed is None else observed, 1 if beta is None else beta
+    )
+    if form == "json":
+        output.write_answer(output.as_json(found.to_dict()), output_file)
+    else:
+        from serendipity.cli.render import rendered
+
+        output.write_answer(rendered(goal_options.recognition_text(found)), output_file)
+    return ExitCode.ANSWERED
