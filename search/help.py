@@ -21,7 +21,7 @@ from search.provision import Distances, Places, Provision
 from search.touches import Touches
 from search.ways import Ways
 
-_MOST_TOUCHES = 64
+_MOST_TOUCHES = 1024
 """More surviving needs than this make the bound dearer than what it saves."""
 
 Timed = Callable[[int, int], int]
