@@ -1,7 +1,9 @@
 """From a task and options to the answer of mode ``assistance`` (SPEC 7)."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TypeVar
 
 from search.assistance.bound import Bound
 from search.assistance.branching import Branching
@@ -17,6 +19,8 @@ from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.policy import Policy
 from serendipity.model.task import HumanPlan, Task
+
+_T = TypeVar("_T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,11 +98,15 @@ def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None)
     if search is not None:
         known = search.solution(floors=False)
         if known.upper is not None:
-            return _answer(writer, search, "optimal" if known.lower == known.upper else "feasible")
+            if known.lower == known.upper:
+                return _answer(writer, search, "optimal")
+            answer = _answer(writer, search, "feasible")
+            lower = max(answer.lower, game.pair(joint_lower_bound(game)))
+            return replace(answer, lower=lower, status="optimal" if lower == answer.upper else "feasible")
     lower = game.pair(min(joint_lower_bound(game), INFINITE - 1))
     if search is not None:
         lower = max(lower, search.solution(floors=False).lower or ZERO)
-    alone = game.alone(game.init)
+    alone = game.alone(game.init)  # known since the first phase
     if alone >= INFINITE:
         return Assistance("unknown", lower, reason="time-limit")
     idle = Solution(lower, game.pair(alone))
@@ -106,9 +114,9 @@ def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None)
         "feasible",
         lower,
         upper=idle.upper,
-        human_plan=writer.human_plan(),
+        human_plan=_in_time(writer.human_plan),
         policy=Policy((), None),
-        plan=writer.plan(idle),
+        plan=_in_time(partial(writer.plan, idle)),
     )
 
 
@@ -127,12 +135,20 @@ def _answer(writer: Writer, search: Shortest | Branching, status: str) -> Assist
         status,
         lower=solution.lower or ZERO,
         upper=solution.upper,
-        human_plan=writer.human_plan(),
+        human_plan=_in_time(writer.human_plan),
         policy=writer.policy(solution, with_floors=status == "optimal") if has_policy else None,
-        plan=writer.plan(solution) if has_policy else None,
+        plan=_in_time(partial(writer.plan, solution)) if has_policy else None,
         reason={"infeasible": "no-plan", "unknown": "time-limit"}.get(status),
         expanded=search.expanded,
     )
+
+
+def _in_time(write: Callable[[], _T]) -> _T | None:
+    """What ``write`` returns; None where the time is up before it knows the prime's choices."""
+    try:
+        return write()
+    except OutOfTimeError:
+        return None
 
 
 def joint_optimum(task: Task, clock: Clock | None = None) -> Costs | None:

@@ -45,8 +45,8 @@ class OwnCosts:
         """The scaled cost in a key."""
         return key >> LENGTH_BITS
 
-    def key(self, state: int) -> int:
-        """His optimal key; ``UNREACHABLE`` if he has no plan."""
+    def key(self, state: int, limit: int = UNREACHABLE) -> int:
+        """His optimal key; ``UNREACHABLE`` if he has no plan; at or above ``limit`` any such value."""
         context = state & self._mask & ~self._changed
         if context in self._tables:
             table = self._tables[context]
@@ -59,7 +59,7 @@ class OwnCosts:
                 return table.key(state & self._changed)
             except TooManyStatesError:
                 self._too_large = True
-        return self._search(state)
+        return self._search(state, limit)
 
     def optimal(self, state: int) -> list[tuple[Op, int]]:
         """Actions that start an optimal plan, ascending, with their successors."""
@@ -70,7 +70,8 @@ class OwnCosts:
         for op in sorted(self._index.candidates(state), key=lambda op: op.action):
             if applicable(op, state):
                 after = state & op.keep | op.put
-                if after != state and self.key(after) + self._weights[op.cost] == key:
+                rest = key - self._weights[op.cost]
+                if after != state and self.key(after, rest + 1) == rest:
                     found.append((op, after))
         return found
 
@@ -88,12 +89,12 @@ class OwnCosts:
         fields = [field for field in self._encoding.fields if field & changed]
         return Closure(arcs, goal, fields, MAX_STATES, self._clock)
 
-    def _search(self, state: int) -> int:
+    def _search(self, state: int, limit: int) -> int:
         if self._single is None:
             encoding, weights = self._encoding, self._weights
             blind = Projection(0, {0: 0})
             self._single = Alone(encoding, encoding.goal, lambda op: weights[op.cost], blind, self._clock)
-        return self._single.key(state)
+        return self._single.key(state, limit)
 
 
 def _within(condition: Goal, changed: int, context: int) -> Goal | None:
