@@ -16,8 +16,8 @@ def _doubled(original: Any, *arguments: Any) -> dict[int, int]:
     return {state: 2 * key for state, key in original(*arguments).items()}
 
 
-def _halved(original: Any, *arguments: Any) -> dict[int, int]:
-    return {state: key // 2 for state, key in original(*arguments).items()}
+def _zero(original: Any, *arguments: Any) -> dict[int, int]:
+    return dict.fromkeys(original(*arguments), 0)
 
 
 def _own_moves(original: Any, self: Any, fields: Any, ops: Any) -> None:
@@ -90,7 +90,8 @@ _SLOWER = "a weaker bound is still a bound: the search only takes longer"
 
 BUGS = (
     Bug("projection", "distances are doubled", wrapped(projection, "_distances", _doubled)),
-    Bug("projection", "distances are halved", wrapped(projection, "_distances", _halved), _SLOWER),
+    Bug("projection", "distances are all zero", wrapped(projection, "_distances", _zero)),
+    Bug("help: Helped", "says nothing", replaced(Helped, "__call__", always(0)), _SLOWER),
     Bug("projection", "joint actions are forgotten", wrapped(projection._Moves, "__init__", _own_moves)),
     Bug(
         "alone: _search",

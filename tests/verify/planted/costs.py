@@ -108,14 +108,22 @@ BUGS = (
     ),
     Bug("labels: add", "later but cheaper dominates", replaced(Labels, "_covered", _by_key_alone)),
     Bug("labels: add", "earlier but dearer dominates", replaced(Labels, "_covered", _by_epoch_alone)),
-    Bug("labels: no_worse", "limits don't count in dominance", wrapped(Labels, "__init__", _no_other_order)),
+    Bug(
+        "labels: no_worse",
+        "limits don't count in dominance",
+        wrapped(Labels, "__init__", _no_other_order),
+        "not met: in the corpus bounds cut off what passes a limit before it dominates",
+    ),
     Bug("suffix: Replan", "the suffix may pass T", wrapped(Replan, "key", _any_length)),
     Bug("suffix: Replan", "the robots' goal is forgotten", replaced(Replan, "key", _whatever_robots_want)),
     Bug("suffix: Subplan", "the suffix may pass T", wrapped(Subplan, "key", _all_steps)),
     Bug("suffix: Subplan", "the robots' goal is forgotten", wrapped(Subplan, "__init__", _any_goal)),
     Bug("suffix: Preserved", "any state is preserved", replaced(Preserved, "_fitting", _any_state)),
     Bug(
-        "suffix: Preserved", "the rest may start before the window", wrapped(Preserved, "_fitting", _any_end)
+        "suffix: Preserved",
+        "the rest may start before the window",
+        wrapped(Preserved, "_fitting", _any_end),
+        "such a plan does steps of pi_H twice, so it costs no less than pi_H",
     ),
     Bug(
         "alone: PlanGraph.canonical",

@@ -57,6 +57,14 @@ def _horizons() -> Iterator[PlanCall]:
     for mode in ("serendipity", "communication", "composite"):
         for horizon in ("2", "3"):
             yield PlanCall(build(goal="g", actions=actions), {"mode": mode, "horizon": horizon})
+    two_ways = {
+        "do h": "-> g @ 5",
+        "open r": "-> o",
+        "first h": "o -> m",
+        "then h": "m -> g",
+        "direct h": "o -> g @ 3",
+    }
+    yield PlanCall(build(goal="g", actions=two_ways), {"horizon": "2"})
     shared = {
         "one h": "-> a @ 5",
         "two h": "a -> b",
@@ -100,6 +108,14 @@ def _limits() -> Iterator[PlanCall]:
     yield PlanCall(case_1(), {"discount": "0.6", "max_cost": "9.6"})
     yield PlanCall(case_4(), {"discount": "0.9", "max_cost": "6", "mode": "communication"})
     yield PlanCall(case_4(), {"discount": "0.9", "max_cost": "6"})
+    # The longer window has the higher objective, but only its plan is within max_cost.
+    twice = {
+        "one h": "a -> b !a @ 3",
+        "two h": "b -> c !b @ 3",
+        "carry h r": "a -> b !a",
+        "pull h r": "b -> c !b",
+    }
+    yield PlanCall(build(init="a", goal="c", actions=twice), {"max_cost": "3", "window_weight": "3"})
     # Dear and short against cheap and long: the limit on the window keeps the first.
     either = {
         "do h": "-> g @ 9",
