@@ -69,8 +69,10 @@ bench: $(READY)  ## measure parsing, search and the whole process on the 200 pro
 	@$(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 --contenders search,automata,paper \
 	  --time-limit 30
 
-fuzz: $(READY)  ## thousands of random tasks, and the slow tests
+fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests
 	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
+	@$(BIN)/serendipity crosscheck --count 10000 --judges search,automata -o build/disagreement
+	@$(BIN)/serendipity crosscheck --count 1000 --seed 10000 --judges search,automata,paper,cbc -o build/disagreement
 
 requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
