@@ -66,24 +66,18 @@ def plan_for_goals(
     if not recognition.explained:  # his plans, as if nothing had been observed
         found = explanations(task, conditions, ())
     plans = [explanation.plan for explanation in found]
-    considered = [
-        i
-        for i, known in enumerate(recognition.goals)
-        if plans[i] is not None and Fraction(str(known.posterior)) > 0
-    ]
+    considered = [i for i, known in enumerate(recognition.goals) if plans[i] is not None and known.weight > 0]
     if not considered:
         result = Result("serendipity", "infeasible", recognition.human, options, reason="no-human-plan")
         return _with(result, recognition, clock, [])
     if len(considered) == 1:
         return _certain(task, candidates, considered[0], plans, recognition, solve)
-    total = sum(Fraction(str(recognition.goals[i].posterior)) for i in considered)
+    total = sum(recognition.goals[i].weight for i in considered)
     asked = []
     for i in considered:
         plan = plans[i]
         assert plan is not None, "only goals with a plan are considered"
-        asked.append(
-            Candidate(candidates[i].goal, plan, Fraction(str(recognition.goals[i].posterior)) / total)
-        )
+        asked.append(Candidate(candidates[i].goal, plan, recognition.goals[i].weight / total))
     if options.horizon is not None and int(options.horizon) < max(len(c.plan) for c in asked):
         longest = max(len(c.plan) for c in asked)
         raise UsageError(
@@ -101,8 +95,6 @@ def _refuse(task: Task, options: Options) -> None:
     for name, value in _FIXED.items():
         if getattr(options, name) != value:
             raise UsageError(f"{name}: with several goals only {value!r} is possible")
-    if options.horizon == "inf":
-        raise UsageError("horizon: with several goals it has to be finite")
     if task.robot_goal:
         raise UsageError("goals: robots that have goals of their own can be asked about one goal only")
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 
 from search.goals import Explanation, explanations
 from serendipity.goals.candidates import (
@@ -61,18 +62,15 @@ def posterior(
 ) -> Recognition:
     """Bayes' rule over the candidates; their priors, if none explains the observations."""
     logs = [_log_likelihood(explanation, beta) for explanation in found]
-    weighted = [
-        log + math.log(candidate.prior) if candidate.prior and log > -math.inf else -math.inf
-        for log, candidate in zip(logs, candidates, strict=True)
-    ]
-    most = max(weighted)
+    known = [log for log, candidate in zip(logs, candidates, strict=True) if candidate.prior]
+    most = max(known)
     explained = most > -math.inf
-    shares = (
-        [math.exp(value - most) for value in weighted]
-        if explained
-        else [float(candidate.prior) for candidate in candidates]
-    )
-    total = math.fsum(shares)
+    # Relative to the best one, so that likelihoods that are equal leave the ratio of the priors exact.
+    factors = [math.exp(min(log - most, 0)) if explained else 1.0 for log in logs]
+    shares = [
+        candidate.prior * Fraction(str(factor)) for candidate, factor in zip(candidates, factors, strict=True)
+    ]
+    total = sum(shares)
     return Recognition(
         human=task.agents[task.human],
         observed=observed,
@@ -84,7 +82,8 @@ def posterior(
                 goal=candidate.literals,
                 prior=candidate.prior,
                 likelihood=_likelihood(explanation, log),
-                posterior=share / total,
+                posterior=float(share / total),
+                weight=share / total,
                 with_observed=explanation.with_observed,
                 without_observed=explanation.without_observed,
                 plan=None

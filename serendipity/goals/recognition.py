@@ -17,6 +17,7 @@ class GoalPosterior:
         prior: before the observations.
         likelihood: ``P(O | G)``; None where the human can't reach the goal alone at all.
         posterior: given the observations.
+        weight: the rational that the posterior is rounded from; planning adds up these.
         with_observed: ``cost(G, O)``; None if no plan of his embeds the observations.
         without_observed: ``cost(G, not O)``; None if all of his plans embed them.
         plan: the canonical optimal plan that embeds the observations, or None.
@@ -27,6 +28,7 @@ class GoalPosterior:
     prior: Fraction
     likelihood: float | None
     posterior: float
+    weight: Fraction
     with_observed: Fraction | None
     without_observed: Fraction | None
     plan: tuple[str, ...] | None

@@ -1,0 +1,46 @@
+"""Candidate goals for the small tasks of ``tests.strategies``; everything by construction."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from hypothesis import strategies as st
+
+from search.goals import Candidate
+from serendipity.model import Condition, Task
+from tests.oracle import Alone, optimal_human_plan
+from tests.strategies import tasks
+
+WEIGHTS = (Fraction(1, 2), Fraction(1, 4), Fraction(9, 10))
+
+
+@st.composite
+def reachable_goals(draw: st.DrawFn, task: Task) -> Condition:
+    """One literal that holds after a random walk of the human."""
+    state, alone = task.init, Alone(task)
+    for _ in range(draw(st.integers(1, 4))):
+        ways = [way for way in alone.successors(state) if way[1] != state]
+        if not ways:
+            break
+        state = draw(st.sampled_from(ways))[1]
+    changed = sorted(state ^ task.init) or sorted(range(len(task.facts)))
+    fact = draw(st.sampled_from(changed))
+    return Condition((fact,), ()) if fact in state else Condition((), (fact,))
+
+
+@st.composite
+def rivals(draw: st.DrawFn) -> tuple[Task, list[Candidate]]:
+    """A task without goals of the robots' own, and two goals that the human can reach alone."""
+    task = replace(draw(tasks()), robot_goal=Condition())
+    weight = draw(st.sampled_from(WEIGHTS))
+    found = []
+    for share in (weight, 1 - weight):
+        goal = draw(reachable_goals(task))
+        plan = optimal_human_plan(replace(task, goal=goal))
+        assert plan is not None, "a walk of his leads there"
+        found.append(Candidate(goal, plan, share))
+    return task, found
+
+
+def literals(task: Task, goal: Condition) -> list[str]:
+    """A goal as callers write it."""
+    return [task.facts[f] for f in goal.positive] + [f"!{task.facts[f]}" for f in goal.negative]

@@ -1,0 +1,118 @@
+"""Hand-checked help for goals that are not known."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.model import InputError, Result, Task, UsageError
+from tests.builders import task as build
+from tests.cases import CASE_3_PLAN, case_3
+from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
+
+
+def workshop(keep: str) -> Task:
+    """p costs 5, or 1 once the robot has lifted; z is another goal, reached by ``keep``."""
+    return build(
+        goal="p",
+        actions={
+            "do1 h": "-> p @ 5",
+            "do2 h": "q -> p @ 1",
+            "lift r": "-> q @ 1",
+            "prepare h": "-> ready @ 1",
+            "keep h": keep,
+        },
+    )
+
+
+def helped(task: Task, p: object, z: object, **more: object) -> Result:
+    goals = [{"name": "p", "goal": ["p"], "prior": p}, {"name": "z", "goal": ["z"], "prior": z}]
+    return serendipity.plan(task, goals=goals, horizon=2, **more)  # type: ignore[arg-type]
+
+
+def test_help_that_leaves_the_other_plan_alone() -> None:
+    answer = helped(workshop("!q -> z @ 5"), 1, 1)
+    assert (answer.status, answer.opportunity) == ("optimal", True)
+    assert (answer.cost, answer.human_cost, answer.saving) == (4, 5, 1)  # (2 + 6) / 2
+    assert [(step.epoch, step.action) for step in answer.plan or ()] == [(1, "lift r")]
+    p, z = answer.statistics["goals"]
+    assert (p["cost"], p["window"]) == (2, {"start": 1, "end": 2})
+    assert (z["cost"], z["window"]) == (6, None)
+    assert answer.agent_costs == {"h": 3, "r": 1}
+
+
+@pytest.mark.parametrize(("p", "z", "cost"), [(9, 1, 2.4), (1, 3, 5), ("1/4", "3/4", 5), (1, 9, 5)])
+def test_the_less_sure_the_less_help(p: object, z: object, cost: float) -> None:
+    """Lifting costs 1 and saves 4 with p: at odds of 1 to 3 it is a tie, and no opportunity."""
+    answer = helped(workshop("!q -> z @ 5"), p, z)
+    assert answer.cost == cost
+    assert answer.opportunity == (cost < 5)
+    assert (answer.plan == ()) == (cost == 5)
+
+
+def test_no_considered_plan_is_broken() -> None:
+    """Lifting would make the second action of his plan for z inapplicable, however unlikely z is."""
+    answer = helped(workshop("ready !q -> z @ 4"), 1_000_000, 1)
+    assert (answer.status, answer.opportunity, answer.cost, answer.plan) == ("optimal", False, 5, ())
+    assert [goal["window"] for goal in answer.statistics["goals"]] == [None, None]
+
+
+def test_impossible_goals_are_not_considered() -> None:
+    task = workshop("ready !q -> z @ 4")
+    assert helped(task, 1, 0).cost == 2
+    unexplained = helped(task, 1, 1, observed=["do2 h"])  # he can't without the robot
+    assert unexplained.cost == 5
+    assert not unexplained.statistics["recognition"]["explained"]
+
+
+def test_what_was_seen_settles_the_goal() -> None:
+    """After ``keep`` once more, p is possible but dear, and lifting no longer pays."""
+    task = workshop("!q -> z @ 5")
+    assert helped(task, 1, 1).opportunity
+    answer = helped(task, 1, 1, observed=["keep h"])
+    p, z = answer.statistics["recognition"]["goals"]
+    assert (p["cost_with_observed"], p["cost_without_observed"]) == (10, 5)
+    assert (z["cost_with_observed"], z["cost_without_observed"]) == (5, None)
+    assert not answer.opportunity
+
+
+def test_an_observed_plan_is_the_plan() -> None:
+    """Case 3: the robot knows which of two plans he follows, as if it had been given."""
+    task = case_3()
+    goal = [{"name": "it", "goal": [task.facts[f] for f in task.goal.positive]}]
+    seen = serendipity.plan(task, goals=goal, observed=CASE_3_PLAN, discount="0.9", window_weight=0)
+    given = serendipity.plan(task, human_plan=CASE_3_PLAN, discount="0.9", window_weight=0)
+    assert (seen.cost, seen.window, seen.human_plan) == (given.cost, given.window, given.human_plan)
+    assert seen.cost == 5.2
+
+
+def test_nobody_reaches_anything() -> None:
+    answer = serendipity.plan(workshop("nothing -> z"), goals=[{"goal": ["z"]}])
+    assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
+
+
+def test_one_source_for_his_plan() -> None:
+    with pytest.raises(UsageError, match="human_plan"):
+        serendipity.plan(workshop("-> z"), goals=[{"goal": ["p"]}], human_plan=["do1 h"])
+    with pytest.raises(InputError, match="at least one goal"):
+        serendipity.plan(workshop("-> z"), goals=[])
+
+
+def test_a_time_limit_leaves_him_alone_at_worst() -> None:
+    answer = helped(workshop("!q -> z @ 5"), 1, 1, time_limit=0)
+    assert answer.status in ("feasible", "optimal")
+    assert answer.cost is not None and answer.lower_bound is not None
+    assert answer.lower_bound <= answer.objective
+
+
+def test_text_and_json(run: Callable[[str], Run]) -> None:  # noqa: F811
+    Path("goals.txt").write_text("9: conducted_triage commx room1\n1: conducted_triage commx hall1\n")
+    text = run("plan --example room2 --discount 0.9 --goals goals.txt")
+    assert text.code == 0
+    assert "expected cost 11.3, 1.6 less than 12.9 (proved)" in text.out
+    saved = run("plan --example room2 --discount 0.9 --goals goals.txt -o answer.json")
+    assert (saved.code, saved.out) == (0, "")
+    again = Result.from_dict(json.loads(Path("answer.json").read_text()))
+    assert again.cost == 11.3
