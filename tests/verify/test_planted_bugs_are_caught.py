@@ -53,5 +53,5 @@ def test_planted_bugs_are_refuted(name: str) -> None:
 @pytest.mark.parametrize("name", BY_NAME)
 def test_every_planted_bug_is_caught_or_explained(name: str) -> None:
     bug = BY_NAME[name]
-    seen = fate(bug, 1000)
+    seen = fate(bug, 600)
     assert (seen.how == "survived") == bool(bug.survives), seen
