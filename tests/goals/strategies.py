@@ -29,12 +29,15 @@ def reachable_goals(draw: st.DrawFn, task: Task) -> Condition:
 
 @st.composite
 def rivals(draw: st.DrawFn) -> tuple[Task, list[Candidate]]:
-    """A task without goals of the robots' own, and two goals that the human can reach alone."""
+    """A task without goals of the robots' own, and two goals that the human can reach alone.
+
+    The first is the task's own where he can, since robots are most often of use there.
+    """
     task = replace(draw(tasks()), robot_goal=Condition())
     weight = draw(st.sampled_from(WEIGHTS))
+    first = task.goal if optimal_human_plan(task) is not None else draw(reachable_goals(task))
     found = []
-    for share in (weight, 1 - weight):
-        goal = draw(reachable_goals(task))
+    for share, goal in ((weight, first), (1 - weight, draw(reachable_goals(task)))):
         plan = optimal_human_plan(replace(task, goal=goal))
         assert plan is not None, "a walk of his leads there"
         found.append(Candidate(goal, plan, share))

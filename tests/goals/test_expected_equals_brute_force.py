@@ -16,7 +16,7 @@ from tests.goals.strategies import literals, rivals
 from tests.oracle import optimal_human_plan
 from tests.strategies import Call, calls
 
-_MOST_PLANS = 1000
+_MOST_PLANS = 300
 _OPTIONS = st.builds(
     Options,
     discount=st.sampled_from(["0", "0.5", "0.9", "1"]),
@@ -33,7 +33,7 @@ def unguided(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @given(rivals(), _OPTIONS)
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_two_goals(rivalry: tuple[Task, list[Candidate]], options: Options) -> None:
     task, candidates = rivalry
     horizon = max(len(candidate.plan) for candidate in candidates)
@@ -54,7 +54,7 @@ def test_two_goals(rivalry: tuple[Task, list[Candidate]], options: Options) -> N
 
 
 @given(rivals(), _OPTIONS)
-@settings(max_examples=40)
+@settings(max_examples=25)
 def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]], options: Options) -> None:
     task, candidates = rivalry
     answer = solve_expected(task, options, candidates)
@@ -67,6 +67,8 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
             his = [s.action for s in served.steps if task.human in task.actions[s.action].participants]
             assert tuple(his) == candidate.plan
             continue
+        if served.cost >= task.cost_of(candidate.plan):
+            continue  # dear for this goal, for the sake of another: section 3 would not answer so
         certificate = serendipity.check(own, _as_result(own, options, candidate, served, answer.horizon))
         verdicts = {claim.claim: (claim.verdict, claim.reason) for claim in certificate.claims}
         for claim in ("replay", "cost", "window"):
@@ -108,7 +110,7 @@ def test_the_search_by_itself_is_section_3_with_one_goal() -> None:
 @pytest.mark.usefixtures("unguided")
 def test_the_answers_for_single_goals_only_save_time() -> None:
     @given(rivals(), _OPTIONS)
-    @settings(max_examples=25)
+    @settings(max_examples=12)
     def law(rivalry: tuple[Task, list[Candidate]], options: Options) -> None:
         task, candidates = rivalry
         unguided = solve_expected(task, options, candidates)
