@@ -67,9 +67,7 @@ def plan(
         def known(about: Task, names: tuple[str, ...] | None) -> Result:
             return plan(about, human_plan=names, visible=visible, cancelled=cancelled, **options)
 
-        return plan_for_goals(
-            task, goals, observed, beta, options_from(options), known, cancelled=cancelled
-        )
+        return plan_for_goals(task, goals, observed, beta, options_from(options), known, cancelled=cancelled)
     *_, last = _answers(task, human_plan, visible, options, cancelled)
     return last()
 
