@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from time import perf_counter
 from typing import Final
 
-from serendipity.model import Certificate, Claim, InputError, Result, Task
+from serendipity.model import Certificate, Claim, InputError, Result, Task, UsageError
 from verify.rules import RuleReport
 from verify.rules import check as check_rules
 
@@ -61,8 +61,12 @@ def verify(
 
     Raises:
         InputError: the result is for another task.
-        UsageError: there is no such solver or encoding.
+        UsageError: there is no such solver or encoding, or the result is for several goals.
     """
+    if "goals" in result.statistics:
+        raise UsageError(
+            "verify: an answer for several goals has no certificate yet; verify one of a single goal"
+        )
     from verify.certify import certify  # loads the solvers
 
     return certify(task, result, encoding=encoding, solver=solver, time_limit=time_limit)
