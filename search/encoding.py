@@ -114,10 +114,13 @@ class Encoding:
         fact_bits: per fact id its field's mask and value, or None where it is not packed.
         fields: masks of the fields.
         costs: the different undiscounted costs of the task's actions, ascending.
+        human_bit: the human in a bit set of agents.
     """
 
     def __init__(self, task: Task, extra: frozenset[int] = frozenset()) -> None:
         self.task = task
+        self.human_bit = 1 << task.human
+        self._agents: dict[tuple[int, ...], int] = {}
         relevant, useful = _relevant(task, extra)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
@@ -161,26 +164,30 @@ class Encoding:
             moved.__dict__.pop("_derived", None)
         return moved
 
-    @cached_property
+    @property
     def own(self) -> tuple[Op, ...]:
         """Useful ops that the human does alone."""
-        return tuple(op for op in self._useful_ops if op.agents == self.human_bit)
+        return self._by_actor[0]
 
-    @cached_property
+    @property
     def joint(self) -> tuple[Op, ...]:
         """Useful ops in which the human and others take part."""
-        return tuple(
-            op for op in self._useful_ops if op.agents & self.human_bit and op.agents != self.human_bit
-        )
+        return self._by_actor[1]
 
-    @cached_property
+    @property
     def others(self) -> tuple[Op, ...]:
         """Useful ops without the human."""
-        return tuple(op for op in self._useful_ops if not op.agents & self.human_bit)
+        return self._by_actor[2]
 
     @cached_property
-    def _useful_ops(self) -> list[Op]:
-        return [self.op(i) for i in self.useful]
+    def _by_actor(self) -> tuple[tuple[Op, ...], tuple[Op, ...], tuple[Op, ...]]:
+        own: list[Op] = []
+        joint: list[Op] = []
+        others: list[Op] = []
+        human = self.human_bit
+        for op in map(self.op, self.useful):
+            (own if op.agents == human else joint if op.agents & human else others).append(op)
+        return tuple(own), tuple(joint), tuple(others)
 
     @cached_property
     def outside(self) -> int:
@@ -224,11 +231,6 @@ class Encoding:
         if build not in self._derived:
             self._derived[build] = build(self)
         return self._derived[build]  # type: ignore[no-any-return]
-
-    @property
-    def human_bit(self) -> int:
-        """The human in a bit set of agents."""
-        return 1 << self.task.human
 
     def pack(self, state: Iterable[int]) -> int:
         """The packed form of a set of true facts."""
@@ -277,13 +279,18 @@ class Encoding:
         need_mask = need = 0
         forbidden = []
         impossible = False
+        fact_bits = self.fact_bits
         for fact in positive:
-            mask, value = self._bits(fact)
+            bits = fact_bits[fact]
+            assert bits is not None, "a condition asks only for packed facts"
+            mask, value = bits
             impossible |= bool(need_mask & mask) and need & mask != value
             need_mask |= mask
             need |= value
         for fact in negative:
-            mask, value = self._bits(fact)
+            bits = fact_bits[fact]
+            assert bits is not None, "a condition asks only for packed facts"
+            mask, value = bits
             if fact in self.boolean:
                 impossible |= bool(need & mask)
                 need_mask |= mask
@@ -291,11 +298,6 @@ class Encoding:
                 forbidden.append((mask, value))
         # Two values of one variable: a test that no state passes.
         return need_mask, (-1 if impossible else need), tuple(forbidden)
-
-    def _bits(self, fact: int) -> tuple[int, int]:
-        bits = self.fact_bits[fact]
-        assert bits is not None, "a condition asks only for packed facts"
-        return bits
 
     def _pack_action(self, action_id: int) -> Op:
         action = self.task.actions[action_id]
@@ -310,7 +312,10 @@ class Encoding:
             if bits is not None:
                 clear |= bits[0]
                 put |= bits[1]
-        agents = sum(1 << agent for agent in action.participants)
+        agents = self._agents.get(action.participants)
+        if agents is None:
+            agents = sum(1 << agent for agent in action.participants)
+            self._agents[action.participants] = agents
         cost = self._cost_class(action.cost)
         return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
 
@@ -363,9 +368,7 @@ def _relevant(task: Task, extra: frozenset[int]) -> tuple[set[int], tuple[int, .
     relevant.update(task.robot_goal.positive, task.robot_goal.negative)
     changers: dict[int, list[int]] = {}
     for i, action in enumerate(task.actions):
-        for fact in action.add:
-            changers.setdefault(fact, []).append(i)
-        for fact in action.delete:
+        for fact in action.add + action.delete:
             changers.setdefault(fact, []).append(i)
     useful: set[int] = set()
     pending = list(relevant)

@@ -41,7 +41,8 @@ class Places:
             bit = 1 << robot
             mine = [op for op in encoding.others if op.agents & bit]
             foreign = encoding.changed_by(op for op in changers if not op.agents & bit)
-            counts = {f: 0 for f in encoding.fields if f & encoding.changed_by(mine) and not f & foreign}
+            private = encoding.changed_by(mine) & ~foreign
+            counts = {f: 0 for f in encoding.fields if f & private}
             for op in mine:
                 for field in counts:
                     counts[field] += op.need_mask & field != 0
