@@ -1,10 +1,11 @@
 """Reading the files that a command line names: one clear line for what is wrong with them."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from serendipity.model import InputError
+from serendipity.model import InputError, Result, UsageError
 
 
 def read_text(path: Path) -> str:
@@ -37,3 +38,20 @@ def read_json(path: Path) -> Any:
         raise InputError(f"expected JSON: {error.msg} at column {error.colno}", path, error.lineno) from None
     except RecursionError:
         raise InputError("expected JSON: it is nested too deeply", path) from None
+
+
+def read_result(files: Sequence[Path], command: str) -> tuple[list[Path], Path, Result]:
+    """The files that name the task, the file of the result behind them, and the result.
+
+    Args:
+        files: ``TASK RESULT.json``, at least one.
+        command: named in errors.
+
+    Raises:
+        UsageError: the last file can't be a result.
+        InputError: it can't be read, or is no result.
+    """
+    *named, answer = files
+    if answer.suffix == ".pddl" or answer.is_dir():
+        raise UsageError(f"{command}: expected TASK and then RESULT.json, got {answer} last")
+    return named, answer, Result.from_dict(read_json(answer), answer)

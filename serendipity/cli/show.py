@@ -6,8 +6,8 @@ from typing import Annotated, Final
 import typer
 
 from serendipity.cli import naming, output
-from serendipity.cli.reading import read_json
-from serendipity.model import InputError, Result, UsageError
+from serendipity.cli.reading import read_result
+from serendipity.model import InputError, UsageError
 
 SUFFIXES: Final = (".html", ".svg", ".png")
 
@@ -47,10 +47,7 @@ def show(
     if epoch is not None and output_file.suffix == ".html":
         raise UsageError("--epoch: is for stills (.svg, .png) only; a page shows every epoch")
     output.check_output(output_file)
-    *named, answer = files
-    if answer.suffix == ".pddl" or answer.is_dir():
-        raise UsageError(f"show: expected TASK and then RESULT.json, got {answer} last")
-    result = Result.from_dict(read_json(answer), answer)
+    named, answer, result = read_result(files, "show")
     name = naming.TaskName(
         tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
     )

@@ -7,8 +7,8 @@ import typer
 
 import serendipity
 from serendipity.cli import naming, output
-from serendipity.cli.reading import read_json
-from serendipity.model import InputError, Result, UsageError
+from serendipity.cli.reading import read_result
+from serendipity.model import InputError
 
 
 def simulate(
@@ -37,10 +37,7 @@ def simulate(
     output.start_logging(verbose)
     form = output.choose_format(format, output_file)
     output.check_output(output_file)
-    *named, answer = files
-    if answer.suffix == ".pddl" or answer.is_dir():
-        raise UsageError(f"simulate: expected TASK and then RESULT.json, got {answer} last")
-    result = Result.from_dict(read_json(answer), answer)
+    named, answer, result = read_result(files, "simulate")
     name = naming.TaskName(
         tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
     )

@@ -8,8 +8,8 @@ import typer
 import serendipity
 from serendipity.cli import naming, output, plan_options, program_options
 from serendipity.cli.exit_codes import OF_VERDICT
-from serendipity.cli.reading import read_json
-from serendipity.model import InputError, Result, UsageError
+from serendipity.cli.reading import read_result
+from serendipity.model import InputError
 
 
 def verify(
@@ -38,10 +38,7 @@ def verify(
     output.start_logging(verbose)
     form = output.choose_format(format, output_file)
     output.check_output(output_file)
-    *named, answer = files
-    if answer.suffix == ".pddl" or answer.is_dir():
-        raise UsageError(f"verify: expected TASK and then RESULT.json, got {answer} last")
-    result = Result.from_dict(read_json(answer), answer)
+    named, answer, result = read_result(files, "verify")
     name = naming.TaskName(
         tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
     )
