@@ -157,6 +157,8 @@ class _Moves:
             for need_mask, need, keep, put, forbidden, cost in entries:
                 if state & need_mask == need:
                     after = state & keep | put
-                    if after != state and all(state & m != value for m, value in forbidden):
+                    if after == state:
+                        continue
+                    if not forbidden or all(state & m != value for m, value in forbidden):
                         found.append((after, cost))
         return found
