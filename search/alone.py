@@ -118,7 +118,7 @@ class Alone:
         best = {start: 0}
         parents: dict[int, tuple[int, int]] = {}
         closed: set[int] = set()
-        target, end = limit, -1
+        target, end, beyond = limit, -1, False
         while queue and queue[0][0] < target:
             _, negative, state = heappop(queue)
             if state in closed:
@@ -132,6 +132,7 @@ class Alone:
             if rest is not None:
                 if g + rest < target:
                     target, end = g + rest, state
+                beyond = beyond or rest < INFINITE_KEY
                 continue
             for option in self._lookup.options(state):
                 after = state & option.keep | option.put
@@ -141,7 +142,7 @@ class Alone:
                     parents[after] = (state, option.weight)
                     heappush(queue, (cost + bound(after), -cost, after))
         if end < 0:
-            if not queue or queue[0][0] >= INFINITE_KEY:
+            if not beyond and (not queue or queue[0][0] >= INFINITE_KEY):
                 known[start] = INFINITE_KEY
                 return INFINITE_KEY
             self._at_least[start] = max(limit, self._at_least.get(start, 0))
