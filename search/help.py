@@ -12,6 +12,7 @@ distances: a first pass leaves few of them.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
+from typing import Protocol
 
 from search.clock import Clock
 from search.encoding import Encoding, Op
@@ -19,13 +20,17 @@ from search.keys import INFINITE_KEY
 from search.projection import Projection
 from search.provision import Distances, Places, Provision
 from search.touches import Touches
-from search.ways import Ways
+from search.ways import NEVER, Ways
 
 _MOST_TOUCHES = 1024
 """More surviving needs than this make the bound dearer than what it saves."""
 
-Timed = Callable[[int, int], int]
-"""Lower bound of the key increment from an epoch and a packed state after it."""
+
+class Timed(Protocol):
+    """Lower bound of the key increment from an epoch and a packed state after it."""
+
+    def __call__(self, epoch: int, state: int, until: int = NEVER, /) -> int:
+        """The bound, if robots act up to the epoch ``until`` at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +76,7 @@ class Providers:
             for field in encoding.fields:
                 if field & ~op.keep:
                     self._changes.setdefault(field, epoch)
-        self._shared = _shared_fields(encoding, touches)
+        self._shared = _shared_fields(encoding, touches, clock)
         used = {weights[index] for index in encoding.derived(_robots_costs)}
         self._uniform = len(used) <= 1
         self._unit = max(used, default=1)
@@ -168,9 +173,9 @@ def _robots_costs(encoding: Encoding) -> frozenset[int]:
     return frozenset(op.cost for op in encoding.others)
 
 
-def _shared_fields(encoding: Encoding, touches: Touches) -> list[int]:
+def _shared_fields(encoding: Encoding, touches: Touches, clock: Clock) -> list[int]:
     """Outside fields that are no robot's place, the largest first."""
-    places = set(encoding.derived(Places).field.values())
+    places = set(encoding.derived(Places, clock).field.values())
     outside = [f for f in encoding.fields if f & touches.outside and f not in places]
     return sorted(outside, key=lambda f: (-len(encoding.values(f)), f))
 
@@ -208,8 +213,8 @@ class Helped:
         self._without: dict[int, int] | None = None
         self._pairs: list[tuple[dict[int, int], Provided, int]] = []
 
-    def __call__(self, epoch: int, state: int) -> int:
-        """Lower bound of the key increment from a packed state after an epoch."""
+    def __call__(self, epoch: int, state: int, until: int = NEVER, /) -> int:
+        """See :class:`Timed`."""
         if self._without is None:
             self._prepare()
         assert self._without is not None
@@ -220,7 +225,7 @@ class Helped:
             if cost >= least:
                 continue
             cost += provided.cost(state)
-            if cost < least and epoch + provided.steps(state) // provided.unit <= latest:
+            if cost < least and epoch + provided.steps(state) // provided.unit <= min(latest, until):
                 least = cost
         return least
 
@@ -231,7 +236,7 @@ class Helped:
             self._pairs.append((self._ways.through(need), provided, latest))
 
 
-def no_bound(_epoch: int, _state: int) -> int:
+def no_bound(_epoch: int, _state: int, _until: int = NEVER, /) -> int:
     """The bound that is always right."""
     return 0
 
@@ -338,10 +343,17 @@ class HelpedOnTheWay:
 
     def opening(self, epoch: int, state: int) -> int:
         """Least key increment if the window opens right after ``epoch``."""
+        return self.opening_after(epoch, epoch, state, epoch + self._openings.reach)
+
+    def opening_after(self, opens: int, epoch: int, state: int, until: int) -> int:
+        """Least key increment from a packed state after ``epoch``.
+
+        The window opens right after the epoch ``opens``, and robots act up to ``until``.
+        """
         openings = self._openings
-        least = openings.without[epoch]
+        least = openings.without[opens]
         for need, provided, _ in self._needs:
-            total = openings.now[need][epoch]
+            total = openings.now[need][opens]
             if total >= least:
                 continue
             if provided is not None:
@@ -349,7 +361,7 @@ class HelpedOnTheWay:
                 if total >= least:
                     continue
                 steps = provided.steps(state) // provided.unit
-                if steps > openings.reach or epoch + steps > openings.latest[need]:
+                if epoch + steps > min(openings.latest[need], until):
                     continue
             least = total
         return least - self._spent[epoch]

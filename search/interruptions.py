@@ -1,25 +1,22 @@
 """For each single window: the least the human pays, and the least the team pays (SPEC 3.2).
 
-The search is that of ``search.windowed`` with both ends of the window fixed.  What
-the human pays comes first in the one objective and what the team pays in the other,
-so either can be as small as any plan that fits the window makes it.
+One search per window and objective, in the space of ``search.fixed_window``.  What the
+human pays comes first in the one objective and what the team pays in the other, so either
+can be as small as any plan that fits the window makes it.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.best_first import Incumbent, Node, Progress, best_first
+from search.best_first import Incumbent, Progress, best_first
 from search.clock import Clock
-from search.encoding import Op, applicable
+from search.encoding import Op
+from search.fixed_window import FixedWindow, Weighed
 from search.keys import INFINITE_KEY
-from search.labels import Labels
 from search.outcome import path_steps, plan_steps
 from search.planner import solve
-from search.successors import NOTHING, Option, Successors
-from search.suffix import Suffix
 from search.tables import Tables
-from search.windows import suffix_rule
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window
 from serendipity.model.task import HumanPlan, Task
@@ -95,22 +92,32 @@ def interruptions(
     starts = range(1, len(plan) + 1)
     windows = [Window(start, end) for start in starts for end in range(start + 1, horizon + 2)]
     count = _Count(2 * len(windows), on_progress)
-    human = _Objective(tables, plan, horizon, _human_first(tables), count).best(windows)
-    team = _Objective(tables, plan, horizon, tables.weights.team, count).best(windows)
-    found = (_outcome(tables, plan, window, human[window], team[window]) for window in windows)
-    return Interruptions(plan, horizon, idle.baseline, tuple(found))
+    idling = _idle_key(tables, plan)
+    found: list[dict[Window, Incumbent]] = []
+    for weight, robots in (_human_first(tables), (tables.weights.team, tables.weights.robots)):
+        weighed = Weighed(tables, plan, horizon, weight, robots, idling)
+        found.append(_Objective(tables, weighed, idling, count).best(windows) if windows else {})
+    human, team = found
+    outcomes = (_outcome(tables, plan, window, human[window], team[window]) for window in windows)
+    return Interruptions(plan, horizon, idle.baseline, tuple(outcomes))
 
 
-def _human_first(tables: Tables) -> Callable[[Op], int]:
+def _idle_key(tables: Tables, plan: HumanPlan) -> int:
+    """The key of ``pi_H`` with robots idle, which fits every window (SPEC 3.1)."""
+    if tables.task.robot_goal:
+        return INFINITE_KEY
+    return sum(option.weight for _, option in tables.followed(plan))
+
+
+def _human_first(tables: Tables) -> tuple[Callable[[Op], int], list[int]]:
     """Weights under which what the human pays is the objective, and what the team pays comes next."""
     keys, human_bit = tables.keys, tables.encoding.human_bit
-    cost_only = (1 << keys.objective_shift) - 1
+    robots = [weight & (1 << keys.objective_shift) - 1 for weight in tables.weights.robots]
 
     def weight(op: Op) -> int:
-        full = tables.weights.team(op)
-        return full if op.agents & human_bit else full & cost_only
+        return tables.weights.team(op) if op.agents & human_bit else robots[op.cost]
 
-    return weight
+    return weight, robots
 
 
 def _outcome(
@@ -150,25 +157,21 @@ class _Objective:
     either end come first, since each of them bounds a row or a column of the rest.
     """
 
-    def __init__(
-        self, tables: Tables, plan: HumanPlan, horizon: int, weight: Callable[[Op], int], count: _Count
-    ) -> None:
-        self._tables = tables
+    def __init__(self, tables: Tables, weighed: Weighed, idle: int, count: _Count) -> None:
+        self._clock = tables.clock
         self._count = count
-        self._plan = plan
-        self._horizon = horizon
-        self._successors = Successors(tables.encoding, weight, strict=tables.options.strict)
-        self._suffix = suffix_rule(tables, plan)
+        self._weighed = weighed
+        self._idle = idle
         self._nested = tables.options.preservation == "kernel"
         self._found: dict[Window, Incumbent] = {}
 
     def best(self, windows: list[Window]) -> dict[Window, Incumbent]:
         """By window; an infinite key where no plan fits."""
-        last = self._horizon + 1
+        last = self._weighed.horizon + 1
         early = [Window(1, end) for end in range(2, last)]
-        late = [Window(start, last) for start in range(len(self._plan), 1, -1)]
+        late = [Window(start, last) for start in range(len(self._weighed.steps), 1, -1)]
         rest = sorted(windows, key=lambda window: (len(window), window))
-        for window in (Window(1, last), *late, *early, *rest) if windows else ():
+        for window in (Window(1, last), *late, *early, *rest):
             if window not in self._found:
                 self._found[window] = self._best(window)
                 self._count.one_more()
@@ -179,21 +182,15 @@ class _Objective:
         if known.key <= least:
             return known
         best = Incumbent(known.key, known.node, known.end, known.tail)
-        space = _FixedWindow(self._tables, self._plan, self._horizon, window, self._successors, self._suffix)
-        for _ in best_first(space, best, Progress(), self._tables.clock):
+        space = FixedWindow(self._weighed, window)
+        for _ in best_first(space, best, Progress(), self._clock):
             if best.key <= least:
                 break
         return best
 
-    def _idle(self) -> Incumbent:
-        """``pi_H`` with robots idle, which fits every window (SPEC 3.1)."""
-        if self._tables.task.robot_goal:
-            return Incumbent(INFINITE_KEY)
-        return Incumbent(sum(option.weight for _, option in self._tables.followed(self._plan)))
-
     def _inside(self, window: Window) -> Incumbent:
         """The best of the windows inside that are known already."""
-        best = self._idle()
+        best = Incumbent(self._idle)
         if self._nested and len(window) > 1:
             smaller = (Window(window.start, window.end - 1), Window(window.start + 1, window.end))
             for known in filter(None, map(self._found.get, smaller)):
@@ -205,97 +202,8 @@ class _Objective:
         if not self._nested:
             return 0
         larger = (
-            Window(1, self._horizon + 1),
-            Window(window.start, self._horizon + 1),
+            Window(1, self._weighed.horizon + 1),
+            Window(window.start, self._weighed.horizon + 1),
             Window(1, window.end),
         )
         return max((known.key for known in filter(None, map(self._found.get, larger))), default=0)
-
-
-class _FixedWindow:
-    """The search space of plans that fit one window.
-
-    Only the window's end is left open to waiting: a node inside it stands for everybody
-    waiting until the end, too.
-    """
-
-    def __init__(
-        self,
-        tables: Tables,
-        plan: HumanPlan,
-        horizon: int,
-        window: Window,
-        successors: Successors,
-        suffix: Suffix,
-    ) -> None:
-        self._tables = tables
-        self._window = window
-        self._left = horizon + 1 - window.end
-        self._steps = tables.followed(plan)[: window.start - 1]
-        self._successors = successors
-        self._suffix = suffix
-        self._prefix: dict[tuple[int, int], int] = {}
-        self._labels = Labels()
-        self._bounds = self._bounds_along()
-
-    def _bounds_along(self) -> list[int]:
-        """Least key increment after each epoch of the prefix, in which he follows ``pi_H``."""
-        state = self._tables.encoding.init
-        for op, _ in self._steps:
-            state = state & op.keep | op.put
-        bounds = [self._tables.bound(state)]
-        for _, option in reversed(self._steps):
-            bounds.append(bounds[-1] + option.weight)
-        return bounds[::-1]
-
-    def roots(self) -> Iterator[tuple[int, Node]]:
-        """The initial state."""
-        initial = self._tables.encoding.init
-        self._remember(0, initial, 0)
-        yield self._bounds[0], Node(0, 0, initial, 0, 0, None, ())
-
-    def alive(self, node: Node) -> bool:
-        """Whether no better node makes this one superfluous."""
-        if node.epoch < len(self._steps):
-            return self._prefix[node.epoch, node.state] == node.key
-        return self._labels.alive(node.state, node.epoch, node.key)
-
-    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
-        """Successors; a node of the window is offered to ``best`` as the last in which anybody acts."""
-        if node.epoch < len(self._steps):
-            op, option = self._steps[node.epoch]
-            if applicable(op, node.state):
-                yield from self._children(node, option, best)
-            return
-        self._end(node, best)
-        if node.epoch + 1 < self._window.end:
-            state = node.state
-            for part in (NOTHING, *self._successors.human(state), *self._successors.joint(state)):
-                yield from self._children(node, part, best)
-
-    def _children(self, node: Node, part: Option, best: Incumbent) -> Iterator[tuple[int, Node]]:
-        epoch = node.epoch + 1
-        for option in self._successors.with_robots(part, node.state):
-            state = node.state & option.keep | option.put
-            key = node.key + option.weight
-            inside = epoch >= len(self._steps)
-            bound = key + (self._tables.bound(state) if inside else self._bounds[epoch])
-            if bound < best.key and self._remember(epoch, state, key):
-                yield bound, Node(key, epoch, state, 0, 0, node, option.actions)
-
-    def _remember(self, epoch: int, state: int, key: int) -> bool:
-        """Whether the state was not reached as cheaply before: in that epoch, or in the window by then."""
-        if epoch >= len(self._steps):
-            return self._labels.add(state, epoch, key)
-        known = self._prefix.get((epoch, state))
-        if known is not None and known <= key:
-            return False
-        self._prefix[epoch, state] = key
-        return True
-
-    def _end(self, node: Node, best: Incumbent) -> None:
-        limit = best.key - node.key
-        rest = self._suffix.key(node.state, self._left, self._window.start, limit)
-        if rest < limit:
-            best.key, best.node, best.end = node.key + rest, node, self._window.end
-            best.tail = self._suffix.actions(node.state, self._left, self._window.start)

@@ -1,9 +1,9 @@
 """Puts a windowed space together from the options (SPEC 3.1, 3.3, 3.4)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from search.encoding import human_facts
-from search.help import Bounds, Helped, HelpedOnTheWay, Openings, Timed, no_bound, survivors
+from search.help import Bounds, Helped, HelpedOnTheWay, Openings, Providers, Timed, no_bound, survivors
 from search.keys import INFINITE_KEY, Keys
 from search.labels import Labels
 from search.suffix import Preserved, Replan, Subplan, Suffix
@@ -41,7 +41,11 @@ def window_space(
             horizon=horizon,
         )
     else:
-        on_the_way, untouched = _along(tables, plan, horizon, limit, idle=idle)
+        keys = tables.keys
+        opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
+        on_the_way, untouched = bounds_along(
+            tables, plan, horizon, limit, opened, tables.weights.robots, idle=idle
+        )
         prefix = Timetable(tables.followed(plan), on_the_way)
     return Windowed(
         initial=tables.encoding.init,
@@ -72,20 +76,37 @@ def _no_worse(keys: Keys, options: Options, most_cost: int | None) -> Callable[[
     return no_worse
 
 
-def _along(
-    tables: Tables, plan: HumanPlan, horizon: int, limit: int, *, idle: bool
+def bounds_along(
+    tables: Tables,
+    plan: HumanPlan,
+    horizon: int,
+    limit: int,
+    opened: Sequence[int],
+    robots: Sequence[int],
+    *,
+    idle: bool,
 ) -> tuple[HelpedOnTheWay, Timed]:
     """Bounds along ``pi_H`` and off it, up to the first touch that is not on the plan.
 
     His private fields follow ``pi_H``, so his part of the first is known in advance.
+
+    Args:
+        tables: tables of the call.
+        plan: ``pi_H``.
+        horizon: ``T``, at least ``|pi_H|``.
+        limit: key that a plan has to beat.
+        opened: key increment of opening a window after ``0 .. |pi_H| - 1`` epochs.
+        robots: key increment of a robots' op by the index of its cost.
+        idle: robots do nothing.
     """
-    keys, ways = tables.keys, tables.ways
+    ways = tables.ways
     steps = tables.followed(plan)
-    providers = tables.providers([op for op, _ in steps])
+    followed = [op for op, _ in steps]
+    providers = Providers(tables.encoding, tables.touches, robots, followed, tables.clock)
     state, cost = tables.encoding.init, 0
     sources, spent = [], []
     for epoch, (op, option) in enumerate(steps):
-        sources.append((cost + keys.of_start(epoch + 1, horizon) + keys.epoch_weight, state))
+        sources.append((cost + opened[epoch], state))
         spent.append(cost)
         state = state & op.keep | op.put
         cost += option.weight
