@@ -19,6 +19,7 @@ from verify.alone import OptimalPlans, TooManyStatesError
 from verify.answer import TIED_MODES, answer, calls
 from verify.call import Call, UndecidedError
 from verify.claims import Examiner
+from verify.humans import HumanExaminer, human_cost
 from verify.minimise import Effort
 from verify.policy import check_policy
 from verify.rules import Checker, RuleReport
@@ -100,11 +101,11 @@ class _Certifier:
         yield from self._rule_claims(report, given)
         yield from self._realised(report)
         wanted = self._wanted()
-        out = self._out_of_scope() if report.ok else "the result breaks a rule already"
-        if out is None:
+        if report.ok:
             yield from self._solved_claims(wanted)
         else:
             refuted = {violation.claim for violation in report.violations}
+            out = "the result breaks a rule already"
             yield from (Claim(name, "not_in_scope", out) for name in wanted if name not in refuted)
 
     def _realised(self, report: RuleReport) -> Iterator[Claim]:
@@ -131,12 +132,6 @@ class _Certifier:
             if not result.opportunity and result.human_plan is not None:
                 wanted.append("no_opportunity")
         return wanted if result.lower_bound is None else [*wanted, "lower_bound"]
-
-    def _out_of_scope(self) -> str | None:
-        result = self.result
-        if result.options.human_model != "omniscient":
-            return "optimal under a human who replans: no integer program"
-        return None
 
     def _rule_claims(self, report: RuleReport, given: Iterable[str] | None) -> Iterator[Claim]:
         for name in ("replay", "cost", "window"):
@@ -226,7 +221,8 @@ class _Certifier:
             assert call.horizon is not None
         sets = replay(self.task, result.plan or (), strict=result.options.strict).sets
         steps = tuple(Step(epoch, i) for epoch, chosen in sets.items() for i in chosen)
-        return Examiner(call, result, steps, self.checker)
+        kind = Examiner if result.options.human_model == "omniscient" else HumanExaminer
+        return kind(call, result, steps, self.checker)
 
     def _individual(self, wanted: list[str]) -> Iterator[Claim]:
         """Mode ``individual``: his least cost alone, by exhaustive search."""
@@ -262,7 +258,8 @@ class _Certifier:
         verdict, reason = "undecided", ""
         try:
             tied = calls(self.task, self.result.options, None, self.effort, self.plans)
-            costs = [answer(call).cost for call in tied]
+            replans = self.result.options.human_model != "omniscient"
+            costs = [human_cost(call) if replans else answer(call).cost for call in tied]
         except (UndecidedError, TooManyStatesError) as error:
             reason = str(error) or "the human's own problem is too large"
         except UsageError as error:

@@ -49,6 +49,25 @@ def cheapest(question: Question, deadline: float | None) -> Minimum:
     return JointSearch(question, part).run(deadline)
 
 
+class LeastLeft:
+    """A lower bound on what is left to pay, in units: distances in the human's automaton.
+
+    Robots' costs are only left out, so it holds whatever they do.
+    """
+
+    def __init__(self, question: Question, part: Relevant) -> None:
+        groups = [frozenset(variable.facts) for variable in question.task.variables]
+        machine = automata(question.task, part, groups)[question.task.human]
+        weights = list(question.prices.team)
+        left = distances(machine, weights, goal_states(question, machine))[0]
+        self._facts = machine.facts
+        self._left = dict(zip(machine.states, left, strict=True))
+
+    def __call__(self, state: State) -> int:
+        """The bound in a state."""
+        return self._left.get(state & self._facts, 0)
+
+
 class JointSearch:
     """Uniform-cost search of one question; what a timetable changes can be overridden."""
 
@@ -63,7 +82,7 @@ class JointSearch:
         conditions = [self.task.goal, *([self.task.robot_goal] if question.robots_goal else [])]
         self.wanted = part.facts.intersection([f for c in conditions for f in c.positive])
         self.unwanted = part.facts.intersection([f for c in conditions for f in c.negative])
-        self.watched, self.left = self._estimates(part)
+        self.left = LeastLeft(question, part)
 
     def run(self, deadline: float | None) -> Minimum:
         """The cheapest plan within the question's limits."""
@@ -125,17 +144,9 @@ class JointSearch:
                 if bundle.pre <= state and bundle.neg.isdisjoint(state):
                     yield bundle
 
-    def _estimates(self, part: Relevant) -> tuple[State, dict[State, int]]:
-        """Distances in the human's automaton: robots' costs are only left out."""
-        groups = [frozenset(variable.facts) for variable in self.task.variables]
-        machine = automata(self.task, part, groups)[self.task.human]
-        weights = list(self.question.prices.team)
-        left = distances(machine, weights, goal_states(self.question, machine))[0]
-        return machine.facts, dict(zip(machine.states, left, strict=True))
-
     def estimate(self, state: State) -> int:
         """A lower bound on the cost that is left."""
-        return self.left.get(state & self.watched, 0)
+        return self.left(state)
 
     def _bundles(self, part: Relevant) -> Iterator[Bundle]:
         for i in part.actions:

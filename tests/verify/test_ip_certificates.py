@@ -195,8 +195,9 @@ def test_what_no_program_answers(options: Options) -> None:
 
 def test_claims_out_of_scope_say_why() -> None:
     answer = solved(case_4(), discount="0.9")
-    answer = replace(answer, options=answer.options.but(human_model="observant"), realised={})
-    certificate = certify(case_4(), answer)
-    for name in ("optimal", "lower_bound"):
-        claim = _claim(certificate, name)
-        assert (claim.verdict, bool(claim.reason)) == ("not_in_scope", True)
+    observant = replace(answer, options=answer.options.but(human_model="observant"), realised={})
+    for doctored, names in ((observant, ["window"]), (replace(answer, cost=1.0), ["optimal"])):
+        certificate = certify(case_4(), doctored)
+        for name in names:
+            claim = _claim(certificate, name)
+            assert (claim.verdict, bool(claim.reason)) == ("not_in_scope", True)

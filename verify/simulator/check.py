@@ -59,7 +59,7 @@ class _Examination:
             elif self._play(model).realised(self._promised()) is not said:
                 yield f"{model}: the result says {str(said).lower()}, playing it says otherwise"
         model = self.result.options.human_model
-        if model in _MODELS and self.result.opportunity:
+        if model in _MODELS and (self.result.opportunity or self.task.robot_goal):
             yield from self._reaction(self._play(model))
 
     def _reaction(self, played: Played) -> Iterator[str]:

@@ -1,8 +1,9 @@
 """SPEC 6, step by step: what becomes of a plan with a human who replans."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from serendipity.model import Options, Step, Task, Visible, surroundings
 from verify.alone import OptimalPlans
@@ -18,10 +19,27 @@ class Deed:
     Attributes:
         executed: action ids, ascending.
         skipped: action ids that were inapplicable, in conflict or refused, ascending.
+        blocks: whether robots took the human's last plan away.
     """
 
     executed: tuple[int, ...]
     skipped: tuple[int, ...]
+    blocks: bool
+
+
+class Moment(NamedTuple):
+    """Between two epochs: the true state, what he believes, and ``rho``, what remains of his plan."""
+
+    state: Facts
+    belief: Facts
+    rho: tuple[int, ...]
+
+
+class Look(NamedTuple):
+    """The moment after step 1, with ``h`` (None: infinite)."""
+
+    now: Moment
+    best: Fraction | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +50,11 @@ class Played:
         deeds: by epoch from 1, until the goals hold, ``T``, or nothing happens any more.
         goals_hold: whether the goals hold at the end.
         cost: of what took place, for the team.
-        blocked: the first epoch in which robots took the human's last plan away, or None.
     """
 
     deeds: tuple[Deed, ...]
     goals_hold: bool
     cost: Fraction
-    blocked: int | None
 
     def realised(self, promised: Fraction) -> bool:
         """Goals hold, nothing was skipped or refused, and it costs at most what was promised."""
@@ -48,6 +64,11 @@ class Played:
     def steps(self) -> list[Step]:
         """What took place, in order."""
         return [Step(t, i) for t, deed in enumerate(self.deeds, start=1) for i in deed.executed]
+
+    @property
+    def blocked(self) -> int | None:
+        """The first epoch in which robots took the human's last plan away, or None."""
+        return next((t for t, deed in enumerate(self.deeds, start=1) if deed.blocks), None)
 
 
 def play(
@@ -81,126 +102,137 @@ def play(
         if task.actions[step.action].participants != (task.human,):
             orders.setdefault(step.epoch, []).append(step.action)
     sees = (visible or surroundings(task).visible) if human_model == "local" else None
-    return _Game(task, options, person or Person(task, OptimalPlans(task)), sees, orders).play(
-        list(human_plan), horizon
+    game = Game(task, options, person or Person(task, OptimalPlans(task)), sees)
+    last = max(orders, default=0)
+    now, deeds = game.start(human_plan), list[Deed]()
+    while not game.done(now.state) and len(deeds) != horizon:
+        before = now
+        deed, now = game.epoch(now, orders.get(len(deeds) + 1, ()))
+        deeds.append(deed)
+        expected = game.looked(now)
+        if len(deeds) >= last and before[:2] == (now.state, expected) and not deed.executed:
+            break  # nothing will ever change again
+    cost = sum(
+        (task.team_cost(task.actions[i], options.discount) for d in deeds for i in d.executed), Fraction(0)
     )
+    return Played(tuple(deeds), game.done(now.state), cost)
 
 
-class _Game:
-    def __init__(
-        self,
-        task: Task,
-        options: Options,
-        person: Person,
-        sees: Visible | None,
-        orders: Mapping[int, list[int]],
-    ) -> None:
+class Game:
+    """The rules of SPEC 6 for one task and one human.
+
+    Args:
+        task: the task.
+        options: interference.
+        person: his costs and plans alone.
+        sees: what he sees of a state; None for everything.
+    """
+
+    def __init__(self, task: Task, options: Options, person: Person, sees: Visible | None) -> None:
         self.task = task
         self.strict = options.strict
-        self.discount = options.discount
         self.person = person
         self.sees = sees
-        self.orders = orders
-        self.state: Facts = task.init
-        self.belief: Facts = task.init
-        self.rho: list[int] = []
-        self.blocked: int | None = None
 
-    def play(self, human_plan: list[int], horizon: int | None) -> Played:
-        self.rho = human_plan
-        last = max(self.orders, default=0)
-        deeds: list[Deed] = []
-        while not self._done() and len(deeds) != horizon:
-            before = self.state, self.belief
-            deeds.append(self._epoch(len(deeds) + 1))
-            if len(deeds) >= last and before == (self.state, self._looked()) and not deeds[-1].executed:
-                break
-        cost = sum((self._price(i) for deed in deeds for i in deed.executed), Fraction(0))
-        return Played(tuple(deeds), self._done(), cost, self.blocked)
+    def start(self, human_plan: Sequence[int]) -> Moment:
+        """Before the first epoch, with ``pi_H`` in his mind."""
+        return Moment(self.task.init, self.task.init, tuple(human_plan))
 
-    def _epoch(self, epoch: int) -> Deed:
-        had_plan = not self._stuck(self.state)
-        self.belief = self._looked()
-        best = self._make_up_mind()
-        offers = [self._as_possible(i) for i in sorted(self.orders.get(epoch, ()))]
-        joint = self._accepted(offers, best)
-        his, learned = self._own_step(best) if joint is None else (joint, None)
-        executed = [] if his is None else [his]
-        skipped = [i for i in offers if self._with_him(i) and i != joint]
-        for i in offers:
-            if not self._with_him(i):
-                (executed if self._fits(i, executed) else skipped).append(i)
-        if learned is not None:
-            self.belief = learned
-        elif his is not None:
-            self.belief = self._after(self.belief, [his])
-        alone = self._after(self.state, [] if his is None else [his])
-        self.state = self._after(self.state, executed)
-        if self.blocked is None and had_plan and self._stuck(self.state) and not self._stuck(alone):
-            self.blocked = epoch
-        return Deed(tuple(sorted(executed)), tuple(sorted(skipped)))
+    def done(self, state: Facts) -> bool:
+        """Whether the goals hold."""
+        return self.task.goal.holds(state) and self.task.robot_goal.holds(state)
 
-    def _looked(self) -> Facts:
+    def epoch(self, now: Moment, offers: Sequence[int]) -> tuple[Deed, Moment]:
+        """One epoch in which robots try the actions ``offers``, joint ones included."""
+        return self.act(self.look(now), offers)
+
+    def looked(self, now: Moment) -> Facts:
         """His belief after a look: all of the state, or what is visible of it."""
         if self.sees is None:
-            return self.state
-        doubtful = self.state ^ self.belief
+            return now.state
+        doubtful = now.state ^ now.belief
         human = self.task.human
-        return self.belief ^ frozenset(f for f in doubtful if self.sees(human, f, self.state))
+        return now.belief ^ frozenset(f for f in doubtful if self.sees(human, f, now.state))
 
-    def _make_up_mind(self) -> Fraction | None:
-        """Step 1: ``rho`` is kept or replaced; returns ``h``."""
-        kept, best = self.person.cost_of(self.rho, self.belief), self.person.cost(self.belief)
+    def look(self, now: Moment) -> Look:
+        """Step 1: ``rho`` is kept or replaced."""
+        belief, rho = self.looked(now), now.rho
+        kept, best = self.person.cost_of(rho, belief), self.person.cost(belief)
         if best is not None and (kept is None or best < kept):
-            self.rho = self.person.plan(self.belief)
-        return best
+            rho = tuple(self.person.plan(belief))
+        return Look(Moment(now.state, belief, rho), best)
 
-    def _accepted(self, offers: Sequence[int], best: Fraction | None) -> int | None:
+    def act(self, look: Look, offers: Sequence[int]) -> tuple[Deed, Moment]:
+        """Steps 2 to 4."""
+        now = look.now
+        offers = [self._as_possible(i, now.state) for i in sorted(offers)]
+        joint = self._accepted(offers, look)
+        his, learned = self._own_step(look) if joint is None else (joint, None)
+        executed = [] if his is None else [his]
+        skipped = [i for i in offers if self.with_him(i) and i != joint]
+        for i in offers:
+            if not self.with_him(i):
+                (executed if self._fits(i, executed, now.state) else skipped).append(i)
+        belief = now.belief
+        if learned is not None:
+            belief = learned
+        elif his is not None:
+            belief = self._after(belief, [his])
+        alone = self._after(now.state, [] if his is None else [his])
+        state = self._after(now.state, executed)
+        blocks = self._stuck(state) and not self._stuck(now.state) and not self._stuck(alone)
+        rho = now.rho[1:] if his is not None and joint is None else now.rho
+        deed = Deed(tuple(sorted(executed)), tuple(sorted(skipped)), blocks)
+        return deed, Moment(state, belief, rho)
+
+    def with_him(self, i: int) -> bool:
+        """Whether the human takes part in an action."""
+        return self.task.human in self._team(i)
+
+    def _accepted(self, offers: Sequence[int], look: Look) -> int | None:
         """Step 2: the joint action that he takes part in."""
-        return next((i for i in self._joint_offers(offers) if self._worth_it(i, best)), None)
+        return next((i for i in self._joint_offers(offers, look.now) if self._worth_it(i, look)), None)
 
-    def _joint_offers(self, offers: Sequence[int]) -> Iterator[int]:
+    def _joint_offers(self, offers: Sequence[int], now: Moment) -> Iterator[int]:
         for i in offers:
             action = self.task.actions[i]
-            if self._with_him(i) and applicable(action, self.state) and applicable(action, self.belief):
+            if self.with_him(i) and applicable(action, now.state) and applicable(action, now.belief):
                 yield i
 
-    def _worth_it(self, joint: int, best: Fraction | None) -> bool:
-        if best is None:
+    def _worth_it(self, joint: int, look: Look) -> bool:
+        if look.best is None:
             return True
-        rest = self.person.cost(self._after(self.belief, [joint]))
-        return rest is not None and self.task.actions[joint].cost + rest <= best
+        rest = self.person.cost(self._after(look.now.belief, [joint]))
+        return rest is not None and self.task.actions[joint].cost + rest <= look.best
 
-    def _own_step(self, best: Fraction | None) -> tuple[int | None, Facts | None]:
+    def _own_step(self, look: Look) -> tuple[int | None, Facts | None]:
         """Step 3: what he does by himself; where it fails, what he believes then."""
-        if best is None or not self.rho:
+        now = look.now
+        if look.best is None or not now.rho:
             return None, None
-        action = self.task.actions[self.rho[0]]
-        if applicable(action, self.state):
-            return self.rho.pop(0), None
+        action = self.task.actions[now.rho[0]]
+        if applicable(action, now.state):
+            return now.rho[0], None
         tested = frozenset((*action.pre, *action.neg))
-        return None, (self.belief - tested) | (self.state & tested)
+        return None, (now.belief - tested) | (now.state & tested)
 
-    def _fits(self, i: int, executed: Sequence[int]) -> bool:
+    def _fits(self, i: int, executed: Sequence[int], state: Facts) -> bool:
         """Whether robots can do it beside what is being done."""
         action = self.task.actions[i]
         others = (self.task.actions[j] for j in executed)
-        return applicable(action, self.state) and not any(
+        return applicable(action, state) and not any(
             conflicting(action, other, strict=self.strict) for other in others
         )
 
-    def _as_possible(self, i: int) -> int:
+    def _as_possible(self, i: int, state: Facts) -> int:
         """Several ground actions may be one action by name: one that is applicable."""
         action = self.task.actions[i]
         same = [j for j in self.task.named[action.name] if self._team(j) == action.participants]
-        possible = [j for j in [i, *same] if applicable(self.task.actions[j], self.state)]
+        possible = [j for j in [i, *same] if applicable(self.task.actions[j], state)]
         return possible[0] if possible else i
 
     def _team(self, i: int) -> tuple[int, ...]:
         return self.task.actions[i].participants
-
-    def _with_him(self, i: int) -> bool:
-        return self.task.human in self._team(i)
 
     def _after(self, state: Facts, chosen: Sequence[int]) -> Facts:
         actions = [self.task.actions[i] for i in chosen]
@@ -210,9 +242,3 @@ class _Game:
 
     def _stuck(self, state: Facts) -> bool:
         return self.person.cost(state) is None
-
-    def _price(self, i: int) -> Fraction:
-        return self.task.team_cost(self.task.actions[i], self.discount)
-
-    def _done(self) -> bool:
-        return self.task.goal.holds(self.state) and self.task.robot_goal.holds(self.state)
