@@ -10,8 +10,8 @@ from heapq import heappop, heappush
 
 from search.clock import Clock
 from search.encoding import Encoding, Goal, Op
-from search.keys import INFINITE_KEY
-from search.projection import Projection
+from search.keys import INFINITE_KEY, Weights, own_weights
+from search.projection import Projection, own_projection
 from search.successors import Lookup
 
 Edges = dict[int, list[tuple[int, int]]]
@@ -72,6 +72,16 @@ class PlanGraph:
         return counts[self._start]
 
 
+class Memory:
+    """What has been found out about the human alone; good for calls that weigh alike."""
+
+    def __init__(self, lookup: Lookup) -> None:
+        self.lookup = lookup
+        self.known: dict[int, int] = {}
+        self.at_least: dict[int, int] = {}
+        self.plans: tuple[int, PlanGraph] | None = None
+
+
 class Alone:
     """The human's optimal key to a goal with every robot idle.
 
@@ -81,6 +91,7 @@ class Alone:
         weight: key increment of one of his own ops.
         bound: admissible lower bound to ``goal``.
         clock: asked for time.
+        memory: what earlier calls have found with the same goal and weights.
     """
 
     def __init__(
@@ -90,14 +101,16 @@ class Alone:
         weight: Callable[[Op], int],
         bound: Projection,
         clock: Clock,
+        memory: Memory | None = None,
     ) -> None:
         self._goal = goal
-        self._lookup = Lookup(encoding.own_index, weight)
         self._bound = bound
         self._clock = clock
         self._mask = goal.mask | bound.mask | encoding.own_mask
-        self._known: dict[int, int] = {}
-        self._at_least: dict[int, int] = {}
+        self._memory = memory or Memory(Lookup(encoding.own_index, weight))
+        self._lookup = self._memory.lookup
+        self._known = self._memory.known
+        self._at_least = self._memory.at_least
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """His optimal key from a packed state; at or above ``limit`` any value means "not below"."""
@@ -158,7 +171,10 @@ class Alone:
     def optimal_plans(self, state: int) -> "PlanGraph":
         """All his optimal plans from a packed state that has one."""
         start = state & self._mask
-        return PlanGraph(start, self._optimal_edges(start))
+        last = self._memory.plans
+        if last is None or last[0] != start:
+            last = self._memory.plans = start, PlanGraph(start, self._optimal_edges(start))
+        return last[1]
 
     def _optimal_edges(self, start: int) -> Edges:
         """Per state on an optimal path the actions, ascending, that continue one.
@@ -191,6 +207,40 @@ class Alone:
                     distance[after] = cost
                     heappush(queue, (cost + self._bound(after), cost, after))
         return _edges_into(goals, expanded, distance)
+
+
+class Priced:
+    """:class:`Alone` to ``G_H``, in the keys of a call; what it finds is kept with the packed task.
+
+    Args:
+        encoding: the packed task.
+        weights: key increments of the call, which say nothing of communication.
+        clock: asked for time.
+    """
+
+    def __init__(self, encoding: Encoding, weights: Weights, clock: Clock) -> None:
+        own = own_weights(encoding)
+        bound = encoding.derived(own_projection, clock)
+        memory = encoding.derived(_memory)
+        self._alone = Alone(encoding, encoding.goal, lambda op: own[op.cost], bound, clock, memory)
+        self._weights = weights
+
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """See :meth:`Alone.key`."""
+        if limit >= INFINITE_KEY:
+            found = self._alone.key(state)
+        else:
+            found = self._alone.key(state, self._weights.own_limit(limit))
+        return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
+
+    def optimal_plans(self, state: int) -> PlanGraph:
+        """See :meth:`Alone.optimal_plans`."""
+        return self._alone.optimal_plans(state)
+
+
+def _memory(encoding: Encoding) -> Memory:
+    own = own_weights(encoding)
+    return Memory(Lookup(encoding.own_index, lambda op: own[op.cost]))
 
 
 def _edges_into(

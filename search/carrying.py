@@ -1,6 +1,7 @@
 """Replanning calls: what was packed for a task serves it in another state."""
 
-from search.encoding import Encoding, encoding
+from search.clock import Clock
+from search.encoding import encoding, plain_encoding
 from search.projection import human_graph
 from serendipity.model.task import Task
 
@@ -14,9 +15,9 @@ def at_state(task: Task, state: frozenset[int]) -> Task:
     """
     moved = task.at(state)
     if moved.variables is task.variables:
-        packed = encoding(task)
-        graph = packed.derived(human_graph)
+        packed = encoding(task, Clock())
+        graph = packed.derived(human_graph, Clock())
         # What can be reached from a state that was reached has been reached.
         known = packed.pack(state) & graph.mask in graph.predecessors
-        moved.keep_derived(Encoding, packed.moved_to(moved, derived=known))
+        moved.keep_derived(plain_encoding, packed.moved_to(moved, derived=known))
     return moved

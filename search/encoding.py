@@ -14,12 +14,14 @@ from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
+from search.clock import Clock
 from serendipity.model.actions import Condition, GroundAction, conflicting
 from serendipity.model.task import Task
 
 T = TypeVar("T")
+P = ParamSpec("P")
 
 
 class Op(NamedTuple):
@@ -44,8 +46,8 @@ class OpIndex:
 
     __slots__ = ("always", "by_value", "field")
 
-    def __init__(self, ops: Sequence[Op], fields: Sequence[int]) -> None:
-        asked = _asked_for(ops, fields)
+    def __init__(self, ops: Sequence[Op], fields: Sequence[int], clock: Clock) -> None:
+        asked = _asked_for(ops, fields, clock)
         self.field = max(fields, key=lambda field: asked[field], default=0)
         self.by_value: dict[int, list[Op]] = {}
         self.always: list[Op] = []
@@ -61,11 +63,12 @@ class OpIndex:
         return self.by_value.get(state & self.field, []) + self.always
 
 
-def _asked_for(ops: Sequence[Op], fields: Sequence[int]) -> Counter[int]:
+def _asked_for(ops: Sequence[Op], fields: Sequence[int], clock: Clock) -> Counter[int]:
     """How many ops ask for each field; linear in what they ask for."""
     by_lowest_bit = {field & -field: field for field in fields}
     asked: Counter[int] = Counter()
     for op in ops:
+        clock.tick()
         left = op.need_mask
         while left:
             field = by_lowest_bit[left & -left]
@@ -108,6 +111,7 @@ class Encoding:
     Args:
         task: the task.
         extra: ids of facts to pack although no useful action asks for them.
+        clock: asked for time.
 
     Attributes:
         useful: ids of the actions that can contribute to a goal or an ``extra`` fact.
@@ -115,13 +119,19 @@ class Encoding:
         fields: masks of the fields.
         costs: the different undiscounted costs of the task's actions, ascending.
         human_bit: the human in a bit set of agents.
+        own: useful ops that the human does alone.
+        joint: useful ops in which the human and others take part.
+        others: useful ops without the human.
+        own_index: ``own`` by their busiest field.
+        joint_index: ``joint`` by theirs.
+        robot_indices: ``others`` by theirs, an index for each first participant.
     """
 
-    def __init__(self, task: Task, extra: frozenset[int] = frozenset()) -> None:
+    def __init__(self, task: Task, extra: frozenset[int], clock: Clock) -> None:
         self.task = task
         self.human_bit = 1 << task.human
         self._agents: dict[tuple[int, ...], int] = {}
-        relevant, useful = _relevant(task, extra)
+        relevant, useful = _relevant(task, extra, clock)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
@@ -149,6 +159,8 @@ class Encoding:
         self._cost_by_identity: dict[int, int] = {}
         self._ops: dict[int, Op] = {}
         self._compatible: dict[tuple[int, int, bool], bool] = {}
+        self._derived: dict[Any, Any] = {}
+        self._sort_by_actor(clock)
 
     def moved_to(self, task: Task, *, derived: bool) -> "Encoding":
         """The same packing for a task that differs in its initial state only.
@@ -161,33 +173,35 @@ class Encoding:
         moved.task = task
         moved.init = moved.pack(task.init)
         if not derived:
-            moved.__dict__.pop("_derived", None)
+            moved._derived = {}
         return moved
 
-    @property
-    def own(self) -> tuple[Op, ...]:
-        """Useful ops that the human does alone."""
-        return self._by_actor[0]
+    def for_goal(self, task: Task) -> "Encoding":
+        """The same packing for a task that differs in the human's goal, over packed facts, only."""
+        other = copy(self)
+        other.task = task
+        other.goal = other.condition(task.goal)
+        other._derived = {}
+        return other
 
-    @property
-    def joint(self) -> tuple[Op, ...]:
-        """Useful ops in which the human and others take part."""
-        return self._by_actor[1]
-
-    @property
-    def others(self) -> tuple[Op, ...]:
-        """Useful ops without the human."""
-        return self._by_actor[2]
-
-    @cached_property
-    def _by_actor(self) -> tuple[tuple[Op, ...], tuple[Op, ...], tuple[Op, ...]]:
+    def _sort_by_actor(self, clock: Clock) -> None:
         own: list[Op] = []
         joint: list[Op] = []
-        others: list[Op] = []
+        led: dict[int, list[Op]] = {}
         human = self.human_bit
         for op in map(self.op, self.useful):
-            (own if op.agents == human else joint if op.agents & human else others).append(op)
-        return tuple(own), tuple(joint), tuple(others)
+            clock.tick()
+            if op.agents == human:
+                own.append(op)
+            elif op.agents & human:
+                joint.append(op)
+            else:
+                led.setdefault(op.agents & -op.agents, []).append(op)
+        self.own, self.joint = tuple(own), tuple(joint)
+        self.others = tuple(op for ops in led.values() for op in ops)
+        self.own_index = OpIndex(own, self.fields, clock)
+        self.joint_index = OpIndex(joint, self.fields, clock)
+        self.robot_indices = tuple(OpIndex(ops, self.fields, clock) for _, ops in sorted(led.items()))
 
     @cached_property
     def outside(self) -> int:
@@ -204,32 +218,13 @@ class Encoding:
                 mask |= field
         return mask
 
-    @cached_property
-    def own_index(self) -> OpIndex:
-        """What the human does alone, by his busiest field."""
-        return OpIndex(self.own, self.fields)
+    def derived(self, build: "Callable[Concatenate[Encoding, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
+        """``build(self, ...)``, computed once: tables that depend on nothing but the packed task.
 
-    @cached_property
-    def joint_index(self) -> OpIndex:
-        """Joint actions with the human, by their busiest field."""
-        return OpIndex(self.joint, self.fields)
-
-    @cached_property
-    def robot_indices(self) -> tuple[OpIndex, ...]:
-        """What robots do, an index for each first participant."""
-        led: dict[int, list[Op]] = {}
-        for op in self.others:
-            led.setdefault(op.agents & -op.agents, []).append(op)
-        return tuple(OpIndex(ops, self.fields) for _, ops in sorted(led.items()))
-
-    @cached_property
-    def _derived(self) -> dict[Any, Any]:
-        return {}
-
-    def derived(self, build: "Callable[[Encoding], T]") -> T:
-        """``build(self)``, computed once: tables that depend on nothing but the packed task."""
+        What else is given may only say how it is built (a clock to ask for time, say), not what.
+        """
         if build not in self._derived:
-            self._derived[build] = build(self)
+            self._derived[build] = build(self, *args, **kwargs)
         return self._derived[build]  # type: ignore[no-any-return]
 
     def pack(self, state: Iterable[int]) -> int:
@@ -326,9 +321,14 @@ class Encoding:
         return known
 
 
-def encoding(task: Task) -> Encoding:
+def encoding(task: Task, clock: Clock) -> Encoding:
     """The encoding of the facts that matter to the goals, kept with the task."""
-    return task.derived(Encoding)
+    return task.derived(plain_encoding, clock)
+
+
+def plain_encoding(task: Task, clock: Clock) -> Encoding:
+    """An encoding of the facts that matter to the goals."""
+    return Encoding(task, frozenset(), clock)
 
 
 def prepare(task: Task, *, afresh: bool = False) -> None:
@@ -340,13 +340,12 @@ def prepare(task: Task, *, afresh: bool = False) -> None:
     """
     if afresh:
         task.forget_derived()
-    packed = encoding(task)
-    _ = packed.own_index, packed.joint_index, packed.robot_indices
+    encoding(task, Clock())
 
 
-def full_encoding(task: Task) -> Encoding:
+def full_encoding(task: Task, clock: Clock) -> Encoding:
     """The encoding that also holds every fact of the human's own domain (SPEC 3.3)."""
-    return task.derived(_with_human_facts)
+    return task.derived(_with_human_facts, clock)
 
 
 def human_facts(task: Task) -> frozenset[int]:
@@ -358,16 +357,17 @@ def human_facts(task: Task) -> frozenset[int]:
     return frozenset(mentioned)
 
 
-def _with_human_facts(task: Task) -> Encoding:
-    return Encoding(task, human_facts(task))
+def _with_human_facts(task: Task, clock: Clock) -> Encoding:
+    return Encoding(task, human_facts(task), clock)
 
 
-def _relevant(task: Task, extra: frozenset[int]) -> tuple[set[int], tuple[int, ...]]:
+def _relevant(task: Task, extra: frozenset[int], clock: Clock) -> tuple[set[int], tuple[int, ...]]:
     """Facts and actions from which the goals can be influenced (backward closure)."""
     relevant = {*extra, *task.goal.positive, *task.goal.negative}
     relevant.update(task.robot_goal.positive, task.robot_goal.negative)
     changers: dict[int, list[int]] = {}
     for i, action in enumerate(task.actions):
+        clock.tick()
         for fact in action.add + action.delete:
             changers.setdefault(fact, []).append(i)
     useful: set[int] = set()
@@ -376,6 +376,7 @@ def _relevant(task: Task, extra: frozenset[int]) -> tuple[set[int], tuple[int, .
         for i in changers.get(pending.pop(), ()):
             if i in useful:
                 continue
+            clock.tick()
             useful.add(i)
             cause: GroundAction = task.actions[i]
             for fact in (*cause.pre, *cause.neg):

@@ -8,6 +8,7 @@ components in that order.
 Costs are scaled to integers by the least common denominator, so ties are exact.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
@@ -17,6 +18,7 @@ from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan
 
 _ACTIONS_BITS = 24
+_ACTIONS = (1 << _ACTIONS_BITS) - 1
 _EPOCH_BITS = 20
 
 INFINITE_KEY = 1 << 4096
@@ -139,6 +141,8 @@ class Weights:
         self._planned = frozenset(plan or ())
         self.human = [self.keys.of_action(cost) for cost in costs]
         self.robots = [self.keys.of_action(cost * (1 - options.discount)) for cost in costs]
+        per_cost = scale // _own_scale(packed)
+        self._per_cost = (per_cost << layout.cost_shift) + (per_cost << layout.objective_shift)
         self._announced = [int(cost * announced * scale) for cost in costs]
 
     def team(self, op: Op) -> int:
@@ -150,9 +154,40 @@ class Weights:
             weight += self._announced[op.cost] << self.keys.objective_shift
         return weight
 
+    def of_own(self, costs: Mapping[int, int]) -> dict[int, int]:
+        """Key increments of costs in the unit of :func:`own_weights`, by whatever they are listed."""
+        per_cost, action = self._per_cost, self.keys.action_shift
+        return {
+            at: (cost >> _ACTIONS_BITS) * per_cost + ((cost & _ACTIONS) << action)
+            for at, cost in costs.items()
+        }
+
+    def own_limit(self, limit: int) -> int:
+        """A cost in the unit of :func:`own_weights` from which on no key is below a limit."""
+        return limit // self._per_cost + 1 << _ACTIONS_BITS
+
     def alone(self, op: Op) -> int:
         """Increment of an op for the human's own preferences; communication ranks last."""
         weight = self.human[op.cost]
         if self.announces and op.action not in self._planned:
             weight += self._announced[op.cost]
         return weight
+
+
+def own_weights(packed: Encoding) -> list[int]:
+    """Undiscounted costs by their index, in a unit that no option changes.
+
+    Cost (in the least unit of the task's costs) and number of actions are the two fields of
+    an int: what the human prefers by himself (SPEC 1).  :meth:`Weights.of_own` makes keys of sums.
+    """
+    scale = _own_scale(packed)
+    return [(int(cost * scale) << _ACTIONS_BITS) + 1 for cost in packed.costs]
+
+
+def own_actions(cost: int) -> int:
+    """The number of actions in a sum of :func:`own_weights`."""
+    return cost & _ACTIONS
+
+
+def _own_scale(packed: Encoding) -> int:
+    return lcm(*(cost.denominator for cost in packed.costs))

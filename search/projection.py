@@ -5,8 +5,8 @@ onto them, with every other condition dropped, each of his actions (joint ones
 included) is a weighted transition; exact distances to the projected goal bound
 his share of any plan from below, in every mode, since robots' costs are only
 left out.  This is a pattern database (Culberson and Schaeffer 1998) on one
-agent's variables.  The projected graph depends on the task alone and is kept
-with it; distances are computed for each call, in its keys.
+agent's variables.  It depends on the task alone and is kept with it; a call has
+the distances in its keys.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from heapq import heapify, heappop, heappush
 
 from search.clock import Clock
 from search.encoding import Encoding, Goal, Op
-from search.keys import INFINITE_KEY
+from search.keys import INFINITE_KEY, Weights, own_actions, own_weights
 
 _MAX_STATES = 50_000
 
@@ -56,20 +56,34 @@ class Projected:
     predecessors: Predecessors
 
 
-def human_projection(encoding: Encoding, goal: Goal, weights: Sequence[int], clock: Clock) -> Projection:
-    """The projection onto the human's private variables, or onto as many as stay tractable.
+def human_projection(encoding: Encoding, weights: Weights, clock: Clock) -> Projection:
+    """Key increments to his goal in his private variables, or in as many as stay tractable.
 
     Args:
         encoding: the packed task.
-        goal: what he wants.
-        weights: key increment of an action of his by the index of its cost.
+        weights: key increments of the call.
         clock: asked for time while the table is built.
     """
-    graph = encoding.derived(human_graph)
-    return Projection(graph.mask, _distances(graph, goal, weights, clock))
+    own = encoding.derived(own_projection, clock)
+    return Projection(own.mask, weights.of_own(own.distances))
 
 
-def human_graph(encoding: Encoding) -> Projected:
+def own_projection(encoding: Encoding, clock: Clock) -> Projection:
+    """The same in the unit of :func:`search.keys.own_weights`."""
+    graph = encoding.derived(human_graph, clock)
+    return Projection(graph.mask, _distances(graph, encoding.goal, own_weights(encoding), clock))
+
+
+def human_steps(encoding: Encoding, clock: Clock) -> Projection:
+    """The least number of his actions to his goal, in the same variables."""
+    if len(encoding.costs) == 1:  # every action costs the same, so the cheapest way is the shortest
+        own = encoding.derived(own_projection, clock)
+        return Projection(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
+    graph = encoding.derived(human_graph, clock)
+    return Projection(graph.mask, _distances(graph, encoding.goal, [1] * len(encoding.costs), clock))
+
+
+def human_graph(encoding: Encoding, clock: Clock) -> Projected:
     """His graph over all his private fields, or over as many as stay tractable."""
     own = (*encoding.own, *encoding.joint)
     changed, shared = encoding.changed_by(own), encoding.outside
@@ -78,7 +92,7 @@ def human_graph(encoding: Encoding) -> Projected:
     for count in range(len(private), 0, -1):
         fields = goal_first[:count]
         mask = sum(fields)
-        predecessors = _explore(encoding.init & mask, _Moves(fields, own))
+        predecessors = _explore(encoding.init & mask, _Moves(fields, own, clock), clock)
         if predecessors is not None:
             return Projected(mask, predecessors)
     return Projected(0, {0: []})
@@ -107,12 +121,13 @@ def _satisfies(state: int, mask: int, goal: Goal) -> bool:
     return all(not m & mask or state & m != value for m, value in goal.forbidden)
 
 
-def _explore(start: int, moves: "_Moves") -> Predecessors | None:
+def _explore(start: int, moves: "_Moves", clock: Clock) -> Predecessors | None:
     """Predecessors of every projected state reachable from ``start``; None if too many."""
     predecessors: Predecessors = {start: []}
     pending = [start]
     while pending:
         state = pending.pop()
+        clock.tick()
         for after, cost in moves(state):
             known = predecessors.get(after)
             if known is not None:
@@ -132,10 +147,11 @@ Transition = tuple[int, int, int, int, tuple[tuple[int, int], ...], int]
 class _Moves:
     """Successors in the projection; ops that look alike there are merged, the cheapest kept."""
 
-    def __init__(self, fields: Sequence[int], ops: Sequence[Op]) -> None:
+    def __init__(self, fields: Sequence[int], ops: Sequence[Op], clock: Clock) -> None:
         mask = sum(fields)
         merged: dict[tuple[int, int, int, int, tuple[tuple[int, int], ...]], int] = {}
         for op in ops:
+            clock.tick()
             if op.keep & mask == mask or op.need < 0:
                 continue
             forbidden = tuple((m, v) for m, v in op.forbidden if m & mask) if op.forbidden else ()

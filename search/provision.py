@@ -11,7 +11,7 @@ Glossary: *place* - the value of the field that most of a robot's own ops ask
 for; *label* - value of the field, team of the last op on it (0 at the start).
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from heapq import heappop, heappush
 from typing import TypeVar
 
@@ -33,7 +33,7 @@ Edge = tuple[int, Spot]
 class Places:
     """The place field of each robot, and what moves it; kept with the packed task."""
 
-    def __init__(self, encoding: Encoding) -> None:
+    def __init__(self, encoding: Encoding, clock: Clock) -> None:
         self.field: dict[int, int] = {}
         self.moves: dict[int, dict[int, list[tuple[int, Op]]]] = {}
         changers = (*encoding.own, *encoding.joint, *encoding.others)
@@ -44,6 +44,7 @@ class Places:
             private = encoding.changed_by(mine) & ~foreign
             counts = {f: 0 for f in encoding.fields if f & private}
             for op in mine:
+                clock.tick()
                 for field in counts:
                     counts[field] += op.need_mask & field != 0
             field = max(counts, key=lambda f: counts[f], default=0)
@@ -66,10 +67,10 @@ class Acts:
             place, and the index of the cost.  Walks that are possible anywhere stand under -1.
     """
 
-    def __init__(self, encoding: Encoding, field: int) -> None:
+    def __init__(self, encoding: Encoding, field: int, clock: Clock) -> None:
         values = encoding.values(field)
-        places = encoding.derived(Places)
-        self.on = _by_value(field, (op for op in encoding.others if _mentions(op, field)), values)
+        places = encoding.derived(Places, clock)
+        self.on = _by_value(field, _mentioning(field, encoding.others, clock), values)
         self._places = places.field
         self._here: dict[tuple[int, int], dict[int, list[Op]]] = {}
         self.walks: dict[int, dict[int, list[tuple[int, int]]]] = {}
@@ -101,10 +102,10 @@ class AllActs:
         self._encoding = encoding
         self._known: dict[int, Acts] = {}
 
-    def on(self, field: int) -> Acts:
+    def on(self, field: int, clock: Clock) -> Acts:
         """What robots' ops are to a field."""
         if field not in self._known:
-            self._known[field] = Acts(self._encoding, field)
+            self._known[field] = Acts(self._encoding, field, clock)
         return self._known[field]
 
 
@@ -129,13 +130,13 @@ class Provision:
         flips: Iterable[Op],
         clock: Clock,
     ) -> None:
-        self._places = encoding.derived(Places)
+        self._places = encoding.derived(Places, clock)
         self._field = field
         self._weights = weights
         self._clock = clock
         self._initial = encoding.init
         self._encoding = encoding
-        self._acts = encoding.derived(AllActs).on(field)
+        self._acts = encoding.derived(AllActs).on(field, clock)
         self._flips = _by_value(field, (op for op in flips if field & ~op.keep), encoding.values(field))
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
@@ -320,6 +321,13 @@ def _with_anywhere(by_place: dict[int, list[Item]], place: int) -> list[Item]:
     anywhere = by_place.get(-1)
     known = by_place.get(place, [])
     return known + anywhere if anywhere else known
+
+
+def _mentioning(field: int, ops: Iterable[Op], clock: Clock) -> Iterator[Op]:
+    for op in ops:
+        clock.tick()
+        if _mentions(op, field):
+            yield op
 
 
 def _mentions(op: Op, field: int) -> bool:

@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from search.alone import Alone
+from search.alone import Alone, Priced
 from search.encoding import Encoding, Goal, applicable
 from search.keys import INFINITE_KEY, Keys
 from serendipity.model.task import HumanPlan
@@ -36,7 +36,7 @@ class Replan:
         keys: layout of keys.
     """
 
-    def __init__(self, alone: Alone, both: Alone | None, robot_goal: Goal, keys: Keys) -> None:
+    def __init__(self, alone: Alone | Priced, both: Alone | None, robot_goal: Goal, keys: Keys) -> None:
         self._alone = alone
         self._both = both
         self._robot_goal = robot_goal

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from functools import cached_property
 
-from search.alone import Alone, PlanGraph
+from search.alone import Alone, PlanGraph, Priced
 from search.clock import Clock
 from search.encoding import Encoding, Goal, Op, encoding, full_encoding, human_facts
 from search.help import Providers
 from search.keys import INFINITE_KEY, Weights
-from search.projection import Projection, human_projection
+from search.projection import Projection, human_projection, human_steps
 from search.successors import Option, Successors, as_option
 from search.touches import Touches
 from search.ways import Ways
@@ -31,11 +31,12 @@ class Tables:
         self.task = task
         self.options = options
         self.clock = clock
-        self.encoding = full_encoding(task) if options.preservation == "state" else encoding(task)
+        packing = full_encoding if options.preservation == "state" else encoding
+        self.encoding = packing(task, clock)
         if plan is not None and not self._covers(plan):
             needed = {f for i in plan for f in (*task.actions[i].pre, *task.actions[i].neg)}
             extra = human_facts(task) if options.preservation == "state" else frozenset()
-            self.encoding = Encoding(task, extra | needed)
+            self.encoding = Encoding(task, extra | needed, clock)
         self.weights = Weights(self.encoding, options, plan)
         self.keys = self.weights.keys
 
@@ -55,20 +56,18 @@ class Tables:
     @cached_property
     def bound(self) -> Projection:
         """Lower bound on what the human still has to pay for ``G_H``."""
-        return human_projection(self.encoding, self.encoding.goal, self.weights.human, self.clock)
+        return human_projection(self.encoding, self.weights, self.clock)
 
-    @cached_property
+    @property
     def steps(self) -> Projection:
         """Lower bound on the number of his actions to ``G_H``."""
-        weights = self.weights.human
-        if len(weights) == 1:  # every action costs the same, so the cheapest way is the shortest
-            distances = self.bound.distances
-            return Projection(self.bound.mask, {at: key // weights[0] for at, key in distances.items()})
-        return human_projection(self.encoding, self.encoding.goal, [1] * len(weights), self.clock)
+        return self.encoding.derived(human_steps, self.clock)
 
     @cached_property
-    def alone(self) -> Alone:
+    def alone(self) -> Alone | Priced:
         """The human by himself, to ``G_H``."""
+        if not self.weights.announces:
+            return Priced(self.encoding, self.weights, self.clock)
         return Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, self.clock)
 
     @cached_property
@@ -88,7 +87,7 @@ class Tables:
     @property
     def touches(self) -> Touches:
         """What the human's ops mention."""
-        return self.encoding.derived(Touches)
+        return self.encoding.derived(Touches, self.clock)
 
     @cached_property
     def ways(self) -> Ways:

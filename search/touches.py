@@ -9,6 +9,7 @@ outside part of the condition of a touch.
 
 from typing import NamedTuple
 
+from search.clock import Clock
 from search.encoding import Encoding, Op, OpIndex
 from search.projection import human_graph
 
@@ -42,8 +43,8 @@ class Touches:
         needs: the needs met so far; a need's id is its index.
     """
 
-    def __init__(self, encoding: Encoding) -> None:
-        self.mask = encoding.derived(human_graph).mask
+    def __init__(self, encoding: Encoding, clock: Clock) -> None:
+        self.mask = encoding.derived(human_graph, clock).mask
         self.needs: list[Need] = []
         self._ids: dict[Need, int] = {}
         self._encoding = encoding

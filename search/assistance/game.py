@@ -53,14 +53,14 @@ class Game:
         self.task = replace(task, robot_goal=Condition()) if task.robot_goal else task
         self.clock = clock
         self._own_clock = own_clock or clock
-        self.encoding: Encoding = encoding(self.task)
+        self.encoding: Encoding = encoding(self.task, clock)
         self.init = self.encoding.init
         self.goal = self.encoding.goal
         self.scale = lcm(1, *(cost.denominator for cost in self.encoding.costs))
         self._scaled = [int(cost * self.scale) for cost in self.encoding.costs]
         robot = 1 << task.robots[0]
         self.supporter_ops = tuple(op for op in self.encoding.others if op.agents == robot)
-        self._supporter_index = OpIndex(self.supporter_ops, self.encoding.fields)
+        self._supporter_index = OpIndex(self.supporter_ops, self.encoding.fields, clock)
         self._prime_moves: dict[int, tuple[Move, ...]] = {}
 
     @cached_property

@@ -37,7 +37,7 @@ class OwnCosts:
         self._changed = encoding.changed_by(encoding.own)
         self._mask = encoding.own_mask | encoding.goal.mask
         self._tables: dict[int, Closure | None] = {}
-        self._index = OpIndex(sorted(encoding.own, key=lambda op: op.action), encoding.fields)
+        self._index = OpIndex(sorted(encoding.own, key=lambda op: op.action), encoding.fields, clock)
         self._single: Alone | None = None
         self._too_large = False
 

@@ -63,14 +63,14 @@ class _Search:
     def __init__(self, task: Task, observed: tuple[str, ...], clock: Clock) -> None:
         seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
         asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
-        packed = Encoding(task, frozenset(asked))
+        packed = Encoding(task, frozenset(asked), clock)
         weights = Weights(packed, Options(), None)
         own = sorted({op.action for op in packed.own} | seen)
-        self._lookup = Lookup(OpIndex([packed.op(i) for i in own], packed.fields), weights.alone)
+        self._lookup = Lookup(OpIndex([packed.op(i) for i in own], packed.fields, clock), weights.alone)
         self._keys = weights.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal
-        self._bound = human_projection(packed, packed.goal, weights.human, clock)
+        self._bound = human_projection(packed, weights, clock)
         self._observed = observed
         self._clock = clock
         self._start: _At = (packed.init, 0)

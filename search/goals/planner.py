@@ -100,7 +100,7 @@ class _Search:
 
     def prepare(self) -> None:
         """Tables, incumbents and floors: what each candidate alone would allow."""
-        packed = shared_packing(self._task, self._options, self._candidates)
+        packed = shared_packing(self._task, self._options, self._candidates, self._clock)
         tables = [
             SharedTables(packed, task_for(self._task, candidate), self._options, self._clock)
             for candidate in self._candidates

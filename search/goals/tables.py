@@ -1,7 +1,6 @@
 """Tables for several candidate goals over one packing, so that robots' actions mean the same in all."""
 
 from collections.abc import Sequence
-from copy import copy
 from dataclasses import replace
 
 from search.clock import Clock
@@ -29,21 +28,19 @@ class SharedTables(Tables):
         self.task = task
         self.options = options
         self.clock = clock
-        self.encoding = copy(packed)
-        self.encoding.task = task
-        self.encoding.goal = packed.condition(task.goal)
+        self.encoding = packed.for_goal(task)
         self.weights = Weights(packed, options, None)
         self.keys = self.weights.keys
 
 
-def shared_packing(task: Task, options: Options, candidates: Sequence[Candidate]) -> Encoding:
+def shared_packing(task: Task, options: Options, candidates: Sequence[Candidate], clock: Clock) -> Encoding:
     """A packing of every fact that a candidate or its plan asks for."""
     asked: set[int] = set(human_facts(task)) if options.preservation == "state" else set()
     for candidate in candidates:
         asked.update(candidate.goal.positive, candidate.goal.negative)
         for action in (task.actions[i] for i in candidate.plan):
             asked.update(action.pre, action.neg)
-    return Encoding(task, frozenset(asked))
+    return Encoding(task, frozenset(asked), clock)
 
 
 def timeline(tables: SharedTables, candidate: Candidate, horizon: int) -> Timeline:

@@ -10,6 +10,7 @@ from dataclasses import fields
 from functools import cached_property
 from typing import Any, Protocol
 
+from search.clock import Clock
 from search.encoding import Encoding
 from serendipity.model.task import Task
 from serendipity.model.variables import Variable, find_variables
@@ -109,29 +110,30 @@ class Doubtful(Task):
         return tuple(sorted(found, key=lambda variable: variable.facts))
 
 
-def doubtful_encoding(task: Task, extra: frozenset[int]) -> Encoding:
+def doubtful_encoding(task: Task, extra: frozenset[int], clock: Clock) -> Encoding:
     """The task packed for a human who may be wrong, location facts included.
 
     Args:
         task: the task.
         extra: facts to pack besides; without any the encoding is kept with the task.
+        clock: asked for time.
     """
     if not extra:
-        return task.derived(_doubtful)
-    return Encoding(_doubted(task), extra.union(surroundings(task).located))
+        return task.derived(_doubtful, clock)
+    return Encoding(_doubted(task), extra.union(surroundings(task).located), clock)
 
 
-def complete_encoding(task: Task) -> Encoding:
+def complete_encoding(task: Task, clock: Clock) -> Encoding:
     """The same with every fact packed, for callers who say what is visible; kept with it."""
-    return task.derived(_complete)
+    return task.derived(_complete, clock)
 
 
-def _doubtful(task: Task) -> Encoding:
-    return Encoding(_doubted(task), frozenset(surroundings(task).located))
+def _doubtful(task: Task, clock: Clock) -> Encoding:
+    return Encoding(_doubted(task), frozenset(surroundings(task).located), clock)
 
 
-def _complete(task: Task) -> Encoding:
-    return Encoding(_doubted(task), frozenset(range(len(task.facts))))
+def _complete(task: Task, clock: Clock) -> Encoding:
+    return Encoding(_doubted(task), frozenset(range(len(task.facts))), clock)
 
 
 def _doubted(task: Task) -> Doubtful:

@@ -4,7 +4,7 @@ from bisect import bisect_left
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from search.alone import Alone
+from search.alone import Alone, Priced
 from search.clock import Clock
 from search.encoding import Encoding, Op, applicable, encoding
 from search.keys import INFINITE_KEY, Weights
@@ -60,12 +60,16 @@ class Human:
     ) -> None:
         local = human_model == "local"
         told = local and visible is not None
-        plain, self.encoding = _encodings(task, actions, local=local, told=told)
+        plain, self.encoding = _encodings(task, actions, clock, local=local, told=told)
         self.weights = Weights(self.encoding, options, None)
         self.keys = self.weights.keys
-        bound = human_projection(plain, plain.goal, self.weights.human, clock)
+        bound = human_projection(plain, self.weights, clock)
         self.bound = _translated(bound, plain, self.encoding) if local else bound
-        self.alone = Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, clock)
+        self.alone = (
+            Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, clock)
+            if local
+            else Priced(self.encoding, self.weights, clock)
+        )
         self.intentions = Intentions(self.encoding, self.keys, self.weights.human)
         self.eyes: Eyes = _eyes(task, self.encoding, visible) if local else Everywhere()
         self.concern = self.encoding.own_mask | self.encoding.goal.mask
@@ -124,17 +128,19 @@ class Human:
         return self.alone.optimal_plans(init).canonical()
 
 
-def _encodings(task: Task, actions: Collection[int], *, local: bool, told: bool) -> tuple[Encoding, Encoding]:
+def _encodings(
+    task: Task, actions: Collection[int], clock: Clock, *, local: bool, told: bool
+) -> tuple[Encoding, Encoding]:
     """The task packed as it is, and as he sees it; both hold what the actions ask for."""
-    plain = encoding(task)
+    plain = encoding(task, clock)
     missing = _missing(plain, actions)
     if missing:
-        plain = Encoding(task, missing)
+        plain = Encoding(task, missing, clock)
     if not local:
         return plain, plain
     if told:
-        return plain, complete_encoding(task)
-    return plain, doubtful_encoding(task, missing)
+        return plain, complete_encoding(task, clock)
+    return plain, doubtful_encoding(task, missing, clock)
 
 
 def _missing(packed: Encoding, actions: Collection[int]) -> frozenset[int]:

@@ -4,13 +4,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from serendipity.model.actions import Condition, GroundAction
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.variables import Variable, find_variables
 
 T = TypeVar("T")
+P = ParamSpec("P")
 
 HumanPlan = tuple[int, ...]
 """``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t."""
@@ -80,14 +81,17 @@ class Task:
     def _derived(self) -> dict[Any, Any]:
         return {}
 
-    def derived(self, build: "Callable[[Task], T]") -> T:
-        """``build(self)``, computed once: tables that a layer above keeps with the task."""
+    def derived(self, build: "Callable[Concatenate[Task, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
+        """``build(self, ...)``, computed once: tables that a layer above keeps with the task.
+
+        What else is given may only say how it is built (a clock to ask for time, say), not what.
+        """
         if build not in self._derived:
-            self._derived[build] = build(self)
+            self._derived[build] = build(self, *args, **kwargs)
         return self._derived[build]  # type: ignore[no-any-return]
 
-    def keep_derived(self, build: "Callable[[Task], T]", value: T) -> None:
-        """Let :meth:`derived` give ``value``, which is known to be ``build(self)``."""
+    def keep_derived(self, build: "Callable[Concatenate[Task, P], T]", value: T) -> None:
+        """Let :meth:`derived` give ``value``, which is known to be what ``build`` would give."""
         self._derived[build] = value
 
     def forget_derived(self) -> None:

@@ -164,7 +164,7 @@ class _Numbering:
         self.kept = kept
 
     def task(self, blueprint: Blueprint, goal: list[Literal], robot_goal: list[Literal]) -> Task:
-        return Task(
+        task = Task(
             name=blueprint.name,
             agents=blueprint.agents,
             human=blueprint.human,
@@ -175,6 +175,8 @@ class _Numbering:
             robot_goal=self._condition(robot_goal),
             warnings=tuple(blueprint.warnings),
         )
+        _ = task.variables  # part of grounding: found here, so that no planning call's deadline pays for it
+        return task
 
     def _condition(self, literals: Sequence[Literal]) -> Condition:
         return Condition(
