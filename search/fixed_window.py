@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from search.best_first import Incumbent, Node
 from search.encoding import Op, applicable
-from search.help import Bounds, HelpedOnTheWay
+from search.help import Bounds, Choice, HelpedOnTheWay, no_bound
 from search.labels import Labels
 from search.successors import NOTHING, Option, Successors
 from search.suffix import Suffix
@@ -42,9 +42,19 @@ class Weighed:
         self.successors = Successors(tables.encoding, weight, strict=tables.options.strict)
         self.suffix: Suffix = suffix_rule(tables, plan)
         opened = [0] * len(plan)
-        on_the_way, untouched = bounds_along(tables, plan, horizon, limit, opened, robots, idle=False)
+        on_the_way, self._helped = bounds_along(tables, plan, horizon, limit, opened, robots, idle=False)
         self.on_the_way: HelpedOnTheWay = on_the_way
-        self.bounds = Bounds(tables.bound, tables.steps, untouched, tables.touches)
+        self.bounds = Bounds(tables.bound, tables.steps, no_bound, tables.touches)
+        self._choices: dict[int, list[Choice]] = {}
+
+    def untouched(self, epoch: int, state: int, until: int) -> int:
+        """Least key increment before the first touch in the window, if robots act up to ``until``."""
+        if self._helped is None:
+            return 0
+        choices = self._choices.get(state)
+        if choices is None:
+            choices = self._choices[state] = self._helped.choices(state)
+        return next(c.total for c in choices if epoch + c.steps <= min(until, c.latest))
 
 
 class FixedWindow:
@@ -120,7 +130,7 @@ class FixedWindow:
                 break
             state = node.state & option.keep | option.put
             if not touched:
-                bound = max(bound, key + bounds.untouched(epoch, state, self._window.end - 1))
+                bound = max(bound, key + weighed.untouched(epoch, state, self._window.end - 1))
             if bound < best.key and self._remember(epoch, state, key):
                 yield bound, Node(key, epoch, state, phase, 0, node, option.actions)
 

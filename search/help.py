@@ -12,7 +12,7 @@ distances: a first pass leaves few of them.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from typing import Protocol
+from typing import NamedTuple
 
 from search.clock import Clock
 from search.encoding import Encoding, Op
@@ -25,12 +25,22 @@ from search.ways import NEVER, Ways
 _MOST_TOUCHES = 1024
 """More surviving needs than this make the bound dearer than what it saves."""
 
+Timed = Callable[[int, int], int]
+"""Lower bound of the key increment from an epoch and a packed state after it."""
 
-class Timed(Protocol):
-    """Lower bound of the key increment from an epoch and a packed state after it."""
 
-    def __call__(self, epoch: int, state: int, until: int = NEVER, /) -> int:
-        """The bound, if robots act up to the epoch ``until`` at most."""
+class Choice(NamedTuple):
+    """One way on from a packed state before the first touch.
+
+    Attributes:
+        total: least key increment.
+        steps: least number of epochs in which robots act first.
+        latest: the last epoch by which they must have.
+    """
+
+    total: int
+    steps: int
+    latest: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,9 +222,10 @@ class Helped:
         self._horizon = horizon
         self._without: dict[int, int] | None = None
         self._pairs: list[tuple[dict[int, int], Provided, int]] = []
+        self._cheap: dict[int, list[tuple[int, Provided, int]]] = {}
 
-    def __call__(self, epoch: int, state: int, until: int = NEVER, /) -> int:
-        """See :class:`Timed`."""
+    def __call__(self, epoch: int, state: int) -> int:
+        """Lower bound of the key increment from a packed state after an epoch."""
         if self._without is None:
             self._prepare()
         assert self._without is not None
@@ -225,9 +236,38 @@ class Helped:
             if cost >= least:
                 continue
             cost += provided.cost(state)
-            if cost < least and epoch + provided.steps(state) // provided.unit <= min(latest, until):
+            if cost < least and epoch + provided.steps(state) // provided.unit <= latest:
                 least = cost
         return least
+
+    def choices(self, state: int) -> list[Choice]:
+        """All that the bound is the least of, ascending; none has a cheaper one that is never later."""
+        if self._without is None:
+            self._prepare()
+        assert self._without is not None
+        at = state & self._mask
+        least = self._without.get(at, INFINITE_KEY)
+        found = []
+        for cost, provided, latest in self._from(at, least):
+            total = cost + provided.cost(state)
+            if total < least:
+                found.append((total, provided.steps(state) // provided.unit, latest))
+        found.sort()
+        kept: list[Choice] = []
+        soonest = NEVER
+        for total, steps, latest in (*found, (least, 0, NEVER)):
+            if steps < soonest or all(k.steps > steps or k.latest < latest for k in kept):
+                kept.append(Choice(total, steps, latest))
+                soonest = min(soonest, steps)
+        return kept
+
+    def _from(self, at: int, least: int) -> list[tuple[int, Provided, int]]:
+        """What costs less than doing without, from a projected state."""
+        known = self._cheap.get(at)
+        if known is None:
+            costs = ((way.get(at, INFINITE_KEY), provided, latest) for way, provided, latest in self._pairs)
+            known = self._cheap[at] = [entry for entry in costs if entry[0] < least]
+        return known
 
     def _prepare(self) -> None:
         self._without = self._ways.to_goal()
@@ -236,7 +276,7 @@ class Helped:
             self._pairs.append((self._ways.through(need), provided, latest))
 
 
-def no_bound(_epoch: int, _state: int, _until: int = NEVER, /) -> int:
+def no_bound(_epoch: int, _state: int) -> int:
     """The bound that is always right."""
     return 0
 

@@ -43,9 +43,10 @@ def window_space(
     else:
         keys = tables.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
-        on_the_way, untouched = bounds_along(
+        on_the_way, helped = bounds_along(
             tables, plan, horizon, limit, opened, tables.weights.robots, idle=idle
         )
+        untouched = helped or no_bound
         prefix = Timetable(tables.followed(plan), on_the_way)
     return Windowed(
         initial=tables.encoding.init,
@@ -85,10 +86,11 @@ def bounds_along(
     robots: Sequence[int],
     *,
     idle: bool,
-) -> tuple[HelpedOnTheWay, Timed]:
+) -> tuple[HelpedOnTheWay, Helped | None]:
     """Bounds along ``pi_H`` and off it, up to the first touch that is not on the plan.
 
-    His private fields follow ``pi_H``, so his part of the first is known in advance.
+    His private fields follow ``pi_H``, so his part of the first is known in advance.  The
+    second is None where there is nothing to tell apart.
 
     Args:
         tables: tables of the call.
@@ -121,7 +123,7 @@ def bounds_along(
     least = openings.least
     openings.latest = {i: horizon - 1 - ways.steps_after[providers.touched(i)] for i in least}
     if idle or not least:
-        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), no_bound
+        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), None
 
     def pays(cost: int) -> bool:
         return cost + openings.least_after(providers.epochs(cost)) < limit
@@ -129,7 +131,7 @@ def bounds_along(
     costs = providers.costs(sorted(least), pays)
     paying = survivors(costs, limit, lambda i, cost: openings.rough(i, cost, providers.epochs(cost)))
     if paying is None:
-        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), no_bound
+        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), None
     for first, end, corridor, ids in corridors:
         for i in ids.keys() & paying:
             rest = corridor.through(ids[i])
