@@ -64,10 +64,18 @@ docs: $(READY)  ## build the documentation into build/docs; a broken link or any
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict --site-dir build/docs
 	@echo "build/docs/index.html"
 
-bench: $(READY)  ## measure parsing, search and the whole process on the 200 problems of the paper
+bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders side by side; then scaling series
+	@$(BIN)/python -c 'import sys; from serendipity.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \
+	  || { if command -v uv >/dev/null 2>&1; then \
+	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-bench.txt; \
+	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+	         -r requirements-bench.txt; fi; } \
+	  || echo "No Fast Downward, and it can't be installed here: it is left out."
+	@mkdir -p build/bench
 	@$(BIN)/python -m benchmarks.usar
-	@$(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 --contenders search,automata,paper \
-	  --time-limit 30
+	@echo && $(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 \
+	  --contenders search,automata,paper,fast-downward -o build/bench/side-by-side.csv --plot build/bench/side-by-side.png
+	@echo && $(BIN)/serendipity bench --scaling all --seeds 3 -o build/bench/scaling.csv --plot build/bench/scaling.png
 
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests
 	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
@@ -83,6 +91,8 @@ requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	  --no-emit-index-url --extra browser -c requirements-dev.txt pyproject.toml -o requirements-browser.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	  --no-emit-index-url --extra docs -c requirements-dev.txt pyproject.toml -o requirements-docs.txt
+	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
+	  --no-emit-index-url --extra bench -c requirements-dev.txt pyproject.toml -o requirements-bench.txt
 
 clean:  ## remove the environment and all caches
 	@rm -rf .venv .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache build dist *.egg-info

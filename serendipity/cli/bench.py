@@ -1,21 +1,22 @@
-"""``serendipity bench``: planning calls and integer programs on the same tasks, side by side."""
+"""``serendipity bench``: the search, integer programs and Fast Downward on the same calls; scaling series."""
 
 import csv
 import io
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import astuple, fields
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from serendipity.cli import output
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.render import Grid, Line, rendered
-from serendipity.model import InputError, Task
+from serendipity.model import InputError, Task, UsageError
 
-HEADER = ("mode", "contender", "ratio", "calls", "solved", "median", "95 %", "max")
+if TYPE_CHECKING:
+    from serendipity.benchmark import Sample, Timing
 
 
 def bench(
@@ -27,44 +28,124 @@ def bench(
     rooms: Annotated[int, typer.Option(min=2, help="Rooms of generated buildings.")] = 21,
     medkits: Annotated[int, typer.Option(min=1, help="Their medkits.")] = 2,
     robots: Annotated[int, typer.Option(min=1, help="Their robots.")] = 1,
-    seeds: Annotated[int, typer.Option(min=1, help="How many to generate.")] = 10,
-    modes: Annotated[str, typer.Option(help="Modes, separated by commas.")] = "serendipity,communication",
+    seeds: Annotated[
+        int | None,
+        typer.Option(min=1, help="How many to generate: 10; for each value of a scaling series 5."),
+    ] = None,
+    modes: Annotated[
+        str,
+        typer.Option(
+            help="Modes, separated by commas; composite-inf is composite mode without a horizon, the "
+            "only one that Fast Downward knows."
+        ),
+    ] = "serendipity,communication,composite-inf",
     discounts: Annotated[str, typer.Option(help="Discounts, separated by commas.")] = "0,0.5,0.9",
     contenders: Annotated[
-        str, typer.Option(help="Some of search, automata, paper, separated by commas.")
-    ] = "search,automata",
-    repeat: Annotated[int, typer.Option(min=1, help="Calls of the search per figure.")] = 5,
-    time_limit: Annotated[float, typer.Option(min=0, help="Seconds for each call.")] = 60.0,
+        str, typer.Option(help="Some of search, automata, paper, fast-downward, separated by commas.")
+    ] = "search,automata,fast-downward",
+    scaling: Annotated[
+        str | None,
+        typer.Option(
+            metavar="AXES|all",
+            help="How the search scales instead: some of rooms, medkits, robots, length, modes, discounts.",
+        ),
+    ] = None,
+    repeat: Annotated[int, typer.Option(min=1, help="Calls per figure, after a warm-up.")] = 5,
+    time_limit: Annotated[float, typer.Option(min=0, help="Seconds for each call.")] = 20.0,
     output_file: output.Output = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option("--plot", metavar="FILE", help="Log-log plot: .png, .svg or .pdf (needs matplotlib)."),
+    ] = None,
+    quiet: output.Quiet = False,
 ) -> int:
-    """Measure the search beside our integer program and the paper's; -o writes every timing as CSV."""
+    """Measure the search beside integer programs and Fast Downward; -o writes every timing as CSV."""
+    _check_files(output_file, plot)
+    if scaling is not None:
+        if folder is not None:
+            raise UsageError("--scaling: generates its buildings, so it takes no folder")
+        return _scaling(scaling, seeds, time_limit, output_file, plot)
     from serendipity import benchmark
 
-    output.check_output(output_file)
+    chosen = _present(contenders.split(","), quiet=quiet)
     with tempfile.TemporaryDirectory() as scratch:
         if folder is None:
-            tasks = list(_generated(Path(scratch), rooms, medkits, robots, seeds))
+            tasks = list(_generated(Path(scratch), rooms, medkits, robots, seeds or 10))
         else:
             tasks = list(_loaded(folder, stride))
     timings = list(
         benchmark.measure(
-            tasks,
-            modes.split(","),
-            discounts.split(","),
-            contenders.split(","),
-            repeat=repeat,
-            time_limit=time_limit,
+            tasks, modes.split(","), discounts.split(","), chosen, repeat=repeat, time_limit=time_limit
         )
     )
-    print_parts = [Line(f"{len(tasks)} tasks; {benchmark.machine()}"), Line()]
-    typer.echo(rendered([*print_parts, Grid(HEADER, benchmark.summary(timings))]))
-    if output_file is not None:
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow([field.name for field in fields(benchmark.Timing)])
-        writer.writerows(astuple(timing) for timing in timings)
-        output.write_answer(text.getvalue(), output_file)
+    most = f"{benchmark.peak_memory():.0f} MiB with all tasks in memory"
+    parts: list[Line | Grid] = [
+        Line(f"{len(tasks)} tasks; {benchmark.machine()}"),
+        Line(f"Processor time; at most {time_limit:g} s a call; {most}."),
+        Line(),
+        Grid(benchmark.HEADER, benchmark.summary(timings)),
+    ]
+    typer.echo(rendered(parts), nl=False)
+    _write_csv(timings, output_file)
+    if plot is not None:
+        from serendipity.benchmark.plot import side_by_side
+
+        output.write_answer(side_by_side(timings, plot.suffix), plot)
     return ExitCode.ANSWERED
+
+
+def _scaling(
+    axes: str, seeds: int | None, time_limit: float, output_file: Path | None, plot: Path | None
+) -> int:
+    from serendipity import benchmark
+
+    names = list(benchmark.AXES) if axes == "all" else axes.split(",")
+    samples = list(benchmark.scale(names, seeds=seeds or 5, time_limit=time_limit))
+    parts: list[Line | Grid] = [
+        Line(f"{len(samples)} tasks, each in a process of its own; {benchmark.machine()}"),
+        Line(f"Medians of processor time, at most {time_limit:g} s a call; the most memory."),
+        Line(),
+        Grid(benchmark.SCALING_HEADER, benchmark.scaling_table(samples)),
+        Line(),
+        Line("Exponents of time and memory, fitted to all tasks of an axis on a log-log scale:"),
+        Line(),
+        Grid(benchmark.EXPONENTS_HEADER, benchmark.exponents(samples)),
+    ]
+    typer.echo(rendered(parts), nl=False)
+    _write_csv(samples, output_file)
+    if plot is not None:
+        from serendipity.benchmark.plot import series
+
+        output.write_answer(series(samples, plot.suffix), plot)
+    return ExitCode.ANSWERED
+
+
+def _check_files(output_file: Path | None, plot: Path | None) -> None:
+    output.check_output(output_file)
+    if plot is not None:
+        from serendipity.benchmark.plot import check_suffix
+
+        output.check_output(plot)
+        check_suffix(plot.suffix)
+
+
+def _present(names: Sequence[str], *, quiet: bool) -> list[str]:
+    """The contenders that can run here; a line on stderr for each that can't."""
+    from serendipity.benchmark import CONTENDERS
+
+    reasons = {name: CONTENDERS[name].absent() for name in names if name in CONTENDERS}
+    output.warn(tuple(reason for reason in reasons.values() if reason is not None), quiet=quiet)
+    return [name for name in names if reasons.get(name) is None]
+
+
+def _write_csv(rows: "Sequence[Timing] | Sequence[Sample]", output_file: Path | None) -> None:
+    if output_file is None or not rows:
+        return
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([field.name for field in fields(rows[0])])
+    writer.writerows(astuple(row) for row in rows)
+    output.write_answer(text.getvalue(), output_file)
 
 
 def _loaded(folder: Path, stride: int) -> Iterator[Task]:

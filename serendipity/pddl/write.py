@@ -8,7 +8,9 @@ no goal needs are not in it.
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import lcm
 from pathlib import Path
 from typing import Final
 
@@ -54,6 +56,43 @@ def task_files(task: Task) -> dict[str, tuple[str, str]]:
     everything = set(range(len(facts)))
     files[TEAM] = (_domain(joint, facts, everything), _problem(task, facts, everything, goal))
     return files
+
+
+@dataclass(frozen=True, slots=True)
+class CompositeFiles:
+    """A task as one problem of the super-agent, for planners that know one agent.
+
+    Attributes:
+        domain: its text.
+        problem: its text; the goal is that of all agents.
+        scale: costs in the texts are whole numbers: team costs times this.
+    """
+
+    domain: str
+    problem: str
+    scale: int
+
+
+def composite_files(task: Task, discount: Fraction) -> CompositeFiles:
+    """One domain and problem whose optimal plans are the composite ones without a horizon.
+
+    Plans of such a problem are sequences.  Where actions may share an epoch although each
+    spoils a precondition of another (``interference="paper"``), no sequence does the same.
+    """
+    costs = [task.team_cost(action, discount) for action in task.actions]
+    scale = lcm(*(cost.denominator for cost in costs))
+    facts = _fact_names(task)
+    used: set[str] = set()
+    actions = {
+        _unique(_legal(action.name), used): replace(action, cost=cost * scale)
+        for action, cost in zip(task.actions, costs, strict=True)
+    }
+    everything = set(range(len(facts)))
+    goals = (task.goal, task.robot_goal)
+    literals = [text for goal in goals for text in _goal(goal.positive, goal.negative, facts)]
+    return CompositeFiles(
+        _domain(actions, facts, everything), _problem(task, facts, everything, literals), scale
+    )
 
 
 def _mentioned(actions: Iterable[GroundAction]) -> set[int]:

@@ -1,17 +1,20 @@
 """``serendipity bench`` measures contenders on the same calls and writes every timing."""
 
 import csv
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from serendipity.benchmark import AXES, CONTENDERS, fast_downward
+from serendipity.benchmark.scaling import Axis, Size
 from serendipity.cli.app import main
 
 
 def test_contenders_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = tmp_path / "timings.csv"
     arguments = ["bench", "--rooms", "8", "--seeds", "2", "--modes", "communication", "--discounts", "0.9"]
-    assert main([*arguments, "--repeat", "1", "-o", str(table)]) == 0
+    assert main([*arguments, "--repeat", "1", "--contenders", "search,automata", "-o", str(table)]) == 0
     printed = capsys.readouterr().out
     assert "2 tasks" in printed
     rows = list(csv.DictReader(table.read_text().splitlines()))
@@ -19,6 +22,51 @@ def test_contenders_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFix
     for search, program in zip(rows[::2], rows[1::2], strict=True):
         assert search["cost"] == program["cost"]
         assert search["status"] == program["status"] == "optimal"
+
+
+def test_an_absent_contender_is_left_out_with_one_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here = CONTENDERS["fast-downward"]
+    monkeypatch.setitem(CONTENDERS, "fast-downward", replace(here, absent=lambda: "it is not here"))
+    arguments = ["bench", "--rooms", "4", "--seeds", "1", "--modes", "composite-inf", "--repeat", "1"]
+    assert main([*arguments, "--contenders", "search,fast-downward"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == "Warning: it is not here\n"
+    assert "fast-downward" not in printed.out
+
+
+def test_absence_is_noticed_without_an_import(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fast_downward, "_has_translator", lambda: False)
+    monkeypatch.setattr(fast_downward, "_binary", lambda: None)
+    reason = fast_downward.absent()
+    assert reason is not None
+    assert "no fast-downward.translate and no up-fast-downward" in reason
+
+
+def test_plots_are_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib")
+    arguments = ["bench", "--rooms", "6", "--seeds", "2", "--discounts", "0.9", "--repeat", "1"]
+    assert main([*arguments, "--contenders", "search,automata", "--plot", str(tmp_path / "b.png")]) == 0
+    monkeypatch.setitem(AXES, "rooms", Axis("rooms", "rooms", tuple((n, Size(rooms=n)) for n in (4, 8))))
+    monkeypatch.setitem(AXES, "modes", Axis("modes", "mode", ((0, Size(rooms=4)),), labels=("serendipity",)))
+    series = ["bench", "--scaling", "rooms,modes", "--seeds", "2", "-o", str(tmp_path / "s.csv")]
+    assert main([*series, "--plot", str(tmp_path / "s.svg")]) == 0
+    assert (tmp_path / "b.png").read_bytes().startswith(b"\x89PNG")
+    assert "<svg" in (tmp_path / "s.svg").read_text()
+    rows = list(csv.DictReader((tmp_path / "s.csv").read_text().splitlines()))
+    assert [(row["axis"], row["rooms"]) for row in rows] == [("rooms", "4")] * 2 + [("rooms", "8")] * 2 + [
+        ("modes", "4")
+    ] * 2
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [["--plot", "timings.txt"], ["--scaling", "width"], ["here", "--scaling", "rooms"], ["--modes", "x"]],
+)
+def test_wrong_usage_is_one_line(wrong: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", "--rooms", "4", "--seeds", "1", *wrong]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_an_unknown_contender_is_named(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,0 +1,33 @@
+"""The same calls, in one run, side by side: the search, integer programs, Fast Downward.
+
+Times are seconds of processor time, of child processes too: every contender works in one
+thread, and what else the machine does leaves them as they are.  :mod:`plot` is loaded by
+who wants a plot.
+"""
+
+from serendipity.benchmark.contenders import CONTENDERS, Contender
+from serendipity.benchmark.measure import MODES, Timing, measure
+from serendipity.benchmark.report import HEADER, machine, summary
+from serendipity.benchmark.scaling import AXES, Axis, Sample, scale
+from serendipity.benchmark.scaling_report import EXPONENTS_HEADER, SCALING_HEADER, exponents, scaling_table
+from serendipity.benchmark.usage import peak_memory
+
+__all__ = [
+    "AXES",
+    "CONTENDERS",
+    "EXPONENTS_HEADER",
+    "HEADER",
+    "MODES",
+    "SCALING_HEADER",
+    "Axis",
+    "Contender",
+    "Sample",
+    "Timing",
+    "exponents",
+    "machine",
+    "measure",
+    "peak_memory",
+    "scale",
+    "scaling_table",
+    "summary",
+]
