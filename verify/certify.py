@@ -19,6 +19,7 @@ from verify.alone import OptimalPlans, TooManyStatesError
 from verify.answer import TIED_MODES, answer, calls
 from verify.call import Call, UndecidedError
 from verify.claims import Examiner
+from verify.goals import check_goals
 from verify.humans import HumanExaminer, human_cost
 from verify.minimise import Effort
 from verify.policy import check_policy
@@ -70,7 +71,14 @@ def certify(
     deadline = None if time_limit is None else started + time_limit
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     version = solver_version(solver)
-    claims = tuple(_Certifier(task, result, effort).claims(human_plan))
+    if "goals" in result.statistics:
+
+        def one_goal(about: Task, answer: Result) -> tuple[Claim, ...]:
+            return tuple(_Certifier(about, answer, effort).claims(None))
+
+        claims = tuple(check_goals(task, result, one_goal, effort))
+    else:
+        claims = tuple(_Certifier(task, result, effort).claims(human_plan))
     return Certificate(claims, perf_counter() - started, version, encoding, effort.size)
 
 

@@ -12,7 +12,7 @@ from serendipity.cli import goals as goal_options
 from serendipity.cli import naming, output, plan_options
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.human_plan import read_human_plan
-from serendipity.model import Result, UsageError
+from serendipity.model import Certificate, Result, UsageError
 
 
 def plan(
@@ -81,10 +81,10 @@ def plan(
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     if goals is not None:
-        if certify:
-            raise UsageError("--verify: a certificate is about one goal, not about --goals")
         options |= plan_options.given(goals=goals, observed=observed, beta=beta)
-        return _for_goals(serendipity.plan(task, **options), form, output_file)
+        expected = serendipity.plan(task, **options)
+        proof = serendipity.verify(task, expected) if certify else None
+        return _for_goals(expected, proof, form, output_file)
     for option, value in (("--observed", observed), ("--beta", beta)):
         if value is not None:
             raise UsageError(f"{option}: goes with --goals only")
@@ -105,15 +105,21 @@ def plan(
     return ExitCode.INTERRUPTED if interrupted else OF_STATUS[result.status]
 
 
-def _for_goals(result: Result, form: str, output_file: Path | None) -> int:
+def _for_goals(result: Result, certificate: Certificate | None, form: str, output_file: Path | None) -> int:
     """Write the answer where the goal is not known."""
     if form == "json":
-        output.write_answer(output.as_json(result.to_dict()), output_file)
+        answer = result.to_dict() | ({} if certificate is None else {"certificate": certificate.to_dict()})
+        output.write_answer(output.as_json(answer), output_file)
     else:
         from serendipity.cli.render import rendered
+        from serendipity.cli.text import certificate_report
 
-        output.write_answer(rendered(goal_options.plan_text(result)), output_file)
-    return OF_STATUS[result.status]
+        text = rendered(goal_options.plan_text(result))
+        if certificate is not None:
+            text += f"\n{certificate_report(certificate)}"
+        output.write_answer(text, output_file)
+    refuted = certificate is not None and certificate.verdict == "refuted"
+    return ExitCode.REFUTED if refuted else OF_STATUS[result.status]
 
 
 def _last(answers: Iterable[Result]) -> tuple[Result | None, bool]:

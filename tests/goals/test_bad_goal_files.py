@@ -67,7 +67,6 @@ def test_observations(text: str, words: list[str], run: Callable[[str], Run]) ->
         ("--beta 1", ["--beta", "--goals"]),
         ("--goals goals.txt --beta -1", ["beta", "at least 0"]),
         ("--goals goals.txt --mode composite", ["goals", "serendipity"]),
-        ("--goals goals.txt --verify", ["--verify"]),
         ("--goals two.txt --ties robust", ["ties", "fixed"]),
         ("--goals two.txt --human-model local", ["human_model", "omniscient"]),
         ("--goals two.txt --max-cost 5", ["max_cost", "None"]),

@@ -1,0 +1,123 @@
+"""The posterior over goals, worked out once more (SPEC 8, after Ramirez and Geffner 2010).
+
+Observations are compiled into the task, as the authors did: a counter says how many of them
+have been matched, so ``cost(G, O)`` and ``cost(G, not O)`` are optima of ordinary tasks.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from serendipity.model import Condition, GroundAction, Task
+from verify.alone import OptimalPlans
+from verify.goals.reading import Believed, Recognised
+
+Fault = str
+"""One line: what is wrong."""
+
+PlanNames = tuple[str, ...]
+
+
+def compiled(task: Task, goal: Condition, observed: Sequence[str], *, embed: bool) -> Task:
+    """The human's own task, in which plans have to embed the observations, or must not.
+
+    Matching each observation as early as possible decides whether a plan embeds them.
+    """
+    first, last = len(task.facts), len(task.facts) + len(observed)
+    actions: list[GroundAction] = []
+    for i in task.human_actions:
+        action = task.actions[i]
+        steps = [first + k for k, name in enumerate(observed) if name == action.name]
+        actions.append(replace(action, neg=(*action.neg, *steps)))
+        for at in steps:
+            pre, add, delete = (*action.pre, at), (*action.add, at + 1), (*action.delete, at)
+            actions.append(replace(action, pre=pre, add=add, delete=delete))
+    wanted = (
+        Condition((*goal.positive, last), goal.negative)
+        if embed
+        else Condition(goal.positive, (*goal.negative, last))
+    )
+    return replace(
+        task,
+        facts=(*task.facts, *(f"matched {k}" for k in range(len(observed) + 1))),
+        init=task.init | {first},
+        goal=wanted,
+        robot_goal=Condition(),
+        actions=tuple(actions),
+    )
+
+
+def considered_plan(task: Task, goal: Condition, observed: Sequence[str]) -> PlanNames | None:
+    """The canonical optimal plan for a goal that embeds the observations; None if there is none."""
+    own = compiled(task, goal, observed, embed=True)
+    plan = OptimalPlans(own).canonical()
+    return None if plan is None else tuple(own.actions[i].name for i in plan)
+
+
+def faults(task: Task, recognised: Recognised) -> Iterator[Fault]:
+    """Everything that is wrong with a recognition, in order."""
+    for name in recognised.observed:
+        if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
+            yield f"observed: '{name}' is not an action that he does alone"
+            return
+    if not recognised.goals or not _close(sum(goal.prior for goal in recognised.goals), 1.0):
+        yield "the priors do not add up to 1"
+    for goal in recognised.goals:
+        yield from _own_faults(task, recognised, goal)
+    possible = any(goal.prior and goal.with_observed is not None for goal in recognised.goals)
+    if recognised.explained != possible:
+        yield f"explained is {str(possible).lower()}, the answer says otherwise"
+        return
+    for goal, right in zip(recognised.goals, _posteriors(recognised), strict=True):
+        if not _close(goal.posterior, right):
+            yield f"goal '{goal.name}': the posterior is {right:.12g}, the answer says {goal.posterior:.12g}"
+
+
+def _own_faults(task: Task, recognised: Recognised, goal: Believed) -> Iterator[Fault]:
+    for embed, said in ((True, goal.with_observed), (False, goal.without_observed)):
+        own = compiled(task, goal.goal, recognised.observed, embed=embed)
+        worth = OptimalPlans(own).worth(own.init)
+        least = None if worth is None else float(worth[0])
+        if said != least:
+            what = "with" if embed else "without"
+            yield f"goal '{goal.name}': its cost {what} the observations is {least}, the answer says {said}"
+            return
+    if goal.plan != considered_plan(task, goal.goal, recognised.observed):
+        yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
+    likelihood = _likelihood(recognised.beta, goal)
+    if (likelihood is None) != (goal.likelihood is None) or not _close(goal.likelihood or 0, likelihood or 0):
+        yield f"goal '{goal.name}': the likelihood is {likelihood}, the answer says {goal.likelihood}"
+
+
+def _likelihood(beta: float, goal: Believed) -> float | None:
+    """``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``; None where both are infinite."""
+    if goal.with_observed is None:
+        return None if goal.without_observed is None else 0.0
+    if goal.without_observed is None:
+        return 1.0
+    loss = beta * (goal.with_observed - goal.without_observed)
+    return 1 / (1 + math.exp(loss)) if loss < 700 else 0.0
+
+
+def _posteriors(recognised: Recognised) -> list[float]:
+    """Bayes' rule in logarithms, since a dear detour's likelihood would be rounded to 0."""
+    if not recognised.explained:
+        return [goal.prior for goal in recognised.goals]
+    logs = [_log_joint(recognised.beta, goal) for goal in recognised.goals]
+    most = max(logs)
+    shares = [math.exp(log - most) for log in logs]
+    return [share / sum(shares) for share in shares]
+
+
+def _log_joint(beta: float, goal: Believed) -> float:
+    if not goal.prior or goal.with_observed is None:
+        return -math.inf
+    if goal.without_observed is None:
+        return math.log(goal.prior)
+    loss = beta * (goal.with_observed - goal.without_observed)
+    return math.log(goal.prior) - (max(loss, 0.0) + math.log1p(math.exp(-abs(loss))))
+
+
+def _close(a: float | Fraction, b: float | Fraction) -> bool:
+    return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12)

@@ -1,0 +1,279 @@
+"""Whether there is a better robots' plan for all goals at once (SPEC 8), independent of ``search``.
+
+Two ways to a proof.  What each goal by itself would allow adds up to a bound: where the
+answer reaches it, nothing is better.  Otherwise the robots' sequences are played, epoch by epoch;
+beside each sequence every goal keeps all that can have happened so far, and what a goal by itself
+allows, with distances in his automaton, cuts off what can't be better than the answer.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from time import perf_counter
+from typing import Final
+
+from serendipity.model import Step
+from verify.answer import best_plan
+from verify.call import Call, Score, UndecidedError
+from verify.encodings.relevance import relevant_part
+from verify.epochs import applicable, conflicting
+from verify.joint import LeastLeft
+from verify.minimise import replans
+from verify.question import FREE
+
+MOST_NODES: Final = 20_000
+
+State = frozenset[int]
+Label = tuple[int, State]
+"""First epoch of the window (0: not open yet), and the state."""
+Rank = tuple[Fraction, Fraction]
+"""Expected objective and cost."""
+Robots = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Better:
+    """A robots' plan that ranks before the one asked about."""
+
+    rank: Rank
+    robots: tuple[Step, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """What can have happened so far if one goal is his.
+
+    Attributes:
+        labels: least (objective, cost) by window and state, while robots may still act.
+        ended: the best whose window is over; robots must not act any more.
+    """
+
+    labels: dict[Label, Score]
+    ended: Score | None
+
+
+class Together:
+    """All considered goals of one answer.
+
+    Args:
+        calls: one for each goal, with his plan for it and the same horizon.
+        weights: their probabilities; they add up to 1.
+    """
+
+    def __init__(self, calls: Sequence[Call], weights: Sequence[Fraction]) -> None:
+        self._calls = calls
+        self._weights = weights
+        self._units = calls[0].prices
+        self._horizon = int(calls[0].horizon)
+        self._floors = [_floor(call) for call in calls]
+        self._left = [_left(call) for call in calls]
+        robots = {
+            i
+            for i, action in enumerate(calls[0].task.actions)
+            if calls[0].task.human not in action.participants
+        }
+        self._robots = sorted(robots)
+        self._his = [i for i in range(len(calls[0].task.actions)) if i not in robots]
+
+    def floor(self) -> Rank:
+        """What no robots' plan ranks before: the answers to each goal by itself."""
+        return self._mean(self._floors)
+
+    def idle(self) -> Rank:
+        """The best with idle robots; it differs from his plans only if they are not optimal.
+
+        Raises:
+            UndecidedError: it could not be proved.
+        """
+        return self._mean([_idle(call) for call in self._calls])
+
+    def better(self, than: Rank) -> Better | None:
+        """The best robots' plan that ranks before ``than``; None: proved that there is none.
+
+        Raises:
+            UndecidedError: it takes too long, or a rule of the options is not covered.
+        """
+        if self.floor() >= than:
+            return None
+        if not all(replans(call.question) for call in self._calls):
+            raise UndecidedError(
+                "several goals are examined under suffix replan and preservation kernel only"
+            )
+        return self._search(than)
+
+    def _search(self, than: Rank) -> Better | None:
+        call, best = self._calls[0], None
+        start: tuple[_Line, ...] = tuple(_Line({(0, c.task.init): (0, 0)}, None) for c in self._calls)
+        layer: list[tuple[tuple[_Line, ...], int, tuple[Step, ...]]] = [(start, 0, ())]
+        count = 0
+        for epoch in range(1, self._horizon + 1):
+            following = []
+            seen: dict[object, int] = {}
+            for lines, spent, steps in layer:
+                count += 1
+                late = call.effort.deadline is not None and perf_counter() > call.effort.deadline
+                if count > MOST_NODES or late:
+                    raise UndecidedError("time limit" if late else f"more than {MOST_NODES} robots' plans")
+                for robots in self._choices(lines):
+                    after = self._after(lines, epoch, robots, than)
+                    paid = spent + sum(self._units.team[i] for i in robots)
+                    if after is None or seen.get(key := _key(after, paid), paid + 1) <= paid:
+                        continue
+                    seen[key] = paid
+                    done = (*steps, *(Step(epoch, i) for i in robots))
+                    if epoch < self._horizon:
+                        following.append((after, paid, done))
+                        continue
+                    rank = self._rank(after)
+                    if rank is not None and rank < than:
+                        best, than = Better(rank, done), rank
+            layer = following
+        return best
+
+    def _choices(self, lines: Sequence[_Line]) -> Iterator[Robots]:
+        """Sets of robots' actions that are possible on some label of the goal with the fewest."""
+        fewest = min(lines, key=lambda line: len(line.labels))
+        offered = {(): None} | {
+            chosen: None for _, state in fewest.labels for chosen in self._sets((), self._robots, state)
+        }
+        yield from offered
+
+    def _sets(self, chosen: Robots, candidates: Sequence[int], state: State) -> Iterator[Robots]:
+        actions, strict = self._calls[0].task.actions, self._calls[0].options.strict
+        for k, i in enumerate(candidates):
+            if applicable(actions[i], state) and not any(
+                conflicting(actions[i], actions[j], strict=strict) for j in chosen
+            ):
+                yield (*chosen, i)
+                yield from self._sets((*chosen, i), candidates[k + 1 :], state)
+
+    def _after(
+        self, lines: Sequence[_Line], epoch: int, robots: Robots, than: Rank
+    ) -> tuple[_Line, ...] | None:
+        """Every goal's line after an epoch; None if one has nothing left, or it can't rank before."""
+        found, bounds = [], []
+        for k, line in enumerate(lines):
+            after = self._play(k, line, epoch, robots)
+            bound = self._bound(k, after)
+            if bound is None:
+                return None
+            found.append(after)
+            bounds.append(max(bound, self._floors[k]))
+        return tuple(found) if self._mean(bounds) < than else None
+
+    def _play(self, k: int, line: _Line, epoch: int, robots: Robots) -> _Line:
+        call, team = self._calls[k], self._units.team
+        labels: dict[Label, Score] = {}
+        ended = None if robots else line.ended
+        price = sum(team[i] for i in robots)
+        for (start, state), (objective, cost) in line.labels.items():
+            for his, begin in self._parts(call, start, epoch):
+                after = self._together(state, his, robots)
+                if after is None:
+                    continue
+                paid = price + (0 if his is None else team[his])
+                score = objective + paid + (self._units.epoch if begin else 0), cost + paid
+                if begin:
+                    ended = _least(ended, self._closed(call, after, epoch, score))
+                    if epoch + 1 - begin == call.options.max_window:
+                        continue
+                label = begin, after
+                labels[label] = min(score, labels.get(label, score))
+        return _Line(labels, ended)
+
+    def _parts(self, call: Call, start: int, epoch: int) -> Iterator[tuple[int | None, int]]:
+        """What he may do in an epoch, and the window's start then (rules 1 and 2)."""
+        plan = call.human_plan or ()
+        if not start:
+            yield (plan[epoch - 1] if epoch <= len(plan) else None), 0
+            if epoch > len(plan):
+                return
+        begin = start or epoch
+        yield None, begin
+        for i in self._his:
+            yield i, begin
+
+    def _together(self, state: State, his: int | None, robots: Robots) -> State | None:
+        task, strict = self._calls[0].task, self._calls[0].options.strict
+        chosen = [task.actions[i] for i in (*robots, *(() if his is None else (his,)))]
+        if not all(applicable(action, state) for action in chosen):
+            return None
+        if his is not None and any(conflicting(chosen[-1], other, strict=strict) for other in chosen[:-1]):
+            return None
+        return state.difference(*(a.delete for a in chosen)).union(*(a.add for a in chosen))
+
+    def _closed(self, call: Call, state: State, epoch: int, score: Score) -> Score | None:
+        """Rule 3: the window ends after the epoch, and he goes on with an optimal plan that fits."""
+        worth = call.plans.worth(state)
+        if worth is None or worth[1] > self._horizon - epoch:
+            return None
+        rest = self._units.units(worth[0])
+        return score[0] + rest, score[1] + rest
+
+    def _bound(self, k: int, line: _Line) -> Score | None:
+        """The least that the goal's timeline can come to; None: nothing fits."""
+        least = line.ended
+        for (start, state), (objective, cost) in line.labels.items():
+            left = self._left[k](state)
+            wait = 0 if start else self._units.epoch
+            least = _least(least, (objective + left + wait, cost + left))
+        return least
+
+    def _rank(self, lines: Sequence[_Line]) -> Rank | None:
+        """After the last epoch."""
+        ends = []
+        for call, line in zip(self._calls, lines, strict=True):
+            end = line.ended
+            for (start, state), (objective, cost) in line.labels.items():
+                if not start and call.task.goal.holds(state):
+                    end = _least(end, (objective + self._units.epoch, cost))
+            if end is None:
+                return None
+            ends.append(end)
+        return self._mean(ends)
+
+    def _mean(self, scores: Sequence[Score]) -> Rank:
+        pairs = list(zip(self._weights, scores, strict=True))
+        objective, cost = (sum((w * s[part] for w, s in pairs), Fraction(0)) for part in (0, 1))
+        return objective / self._units.scale, cost / self._units.scale
+
+
+def _left_alone(call: Call) -> Score:
+    """His plan and idle robots; that counts as one epoch of window, whatever the plan's length."""
+    assert call.baseline is not None, "only goals with a plan are considered"
+    return call.baseline + call.prices.epoch, call.baseline
+
+
+def _floor(call: Call) -> Score:
+    """What the goal by itself allows."""
+    best = best_plan(call) if call.human_plan else None
+    return _left_alone(call) if best is None else (best.objective, best.cost)
+
+
+def _idle(call: Call) -> Score:
+    if call.is_optimal:
+        return _left_alone(call)
+    best = call.best(call.question.but(robots=False), _left_alone(call))
+    return _left_alone(call) if best is None else (best.objective, best.cost)
+
+
+def _left(call: Call) -> LeastLeft:
+    question = call.question.but(rule=FREE)
+    part = relevant_part(question)
+    assert part is not None, "only goals that he can reach are considered"
+    return LeastLeft(question, part)
+
+
+def _least(a: Score | None, b: Score | None) -> Score | None:
+    return b if a is None else a if b is None else min(a, b)
+
+
+def _key(lines: Sequence[_Line], paid: int) -> object:
+    """What can still happen, and what it costs beside what robots have spent."""
+    return tuple(
+        (
+            frozenset((label, o - paid, c - paid) for label, (o, c) in line.labels.items()),
+            None if line.ended is None else (line.ended[0] - paid, line.ended[1] - paid),
+        )
+        for line in lines
+    )
