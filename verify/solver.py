@@ -5,10 +5,10 @@ What a solver says is believed only as follows (PuLP 3.3):
 
 * ``(status, sol_status) == (1, 1)`` is an optimum; a time limit also comes back as
   ``status == 1``, with ``sol_status == 2``, and proves nothing;
-* ``status == -1`` is a proof that nothing satisfies the rows, since every column is bounded.
-  HiGHS gives it without its presolve only: that of 1.14 calls feasible programs infeasible
-  (ERGO-Code/HiGHS #3090 and others; a test has one).  These programs of flows are solved
-  faster without, too;
+* ``status == -1`` is a proof that nothing satisfies the rows, since every column is bounded;
+* HiGHS 1.14 is none of the versions that are asked for: its presolve removes solutions, so that
+  feasible programs are called infeasible and dear solutions optimal (ERGO-Code/HiGHS #2961 and
+  #3090; a test has such a program).  A model says whether a presolve is worth it at all;
 * values are rounded; whoever asked re-checks the plan they stand for against the task.
 """
 
@@ -47,13 +47,17 @@ class Row:
 
 @dataclass(slots=True)
 class Model:
-    """An integer program with bounded columns and an integral objective to minimise."""
+    """An integer program with bounded columns and an integral objective to minimise.
+
+    ``presolve`` lets HiGHS reduce it first: programs of flows are solved faster without.
+    """
 
     upper: list[int] = field(default_factory=list)
     integral: list[bool] = field(default_factory=list)
     lower: list[int] = field(default_factory=list)
     objective: dict[int, int] = field(default_factory=dict)
     rows: list[Row] = field(default_factory=list)
+    presolve: bool = False
 
     def binary(self) -> int:
         """A new column with the values 0 and 1 (eq. 13, 14)."""
@@ -97,7 +101,7 @@ class Outcome:
 
 
 def solver_version(solver: str) -> str:
-    """Name and version for certificates: ``HiGHS 1.14.0``."""
+    """Name and version for certificates: ``HiGHS 1.13.1``."""
     if solver == "highs":
         return f"HiGHS {version('highspy')}"
     return f"CBC (PuLP {version('pulp')})"
@@ -129,7 +133,7 @@ def optimise(model: Model, *, solver: str = "highs", seconds: float | None = Non
     if not model.upper:
         return Outcome("optimal", (), 0.0, seconds=perf_counter() - started)
     problem, columns = _problem(model, rows)
-    problem.solve(_solver(solver, seconds))
+    problem.solve(_solver(solver, seconds, presolve=model.presolve))
     return _outcome(problem, columns, perf_counter() - started)
 
 
@@ -159,7 +163,7 @@ def _problem(model: Model, rows: Iterable[Row]) -> tuple[Any, list[Any]]:
     return problem, columns
 
 
-def _solver(solver: str, seconds: float | None) -> Any:
+def _solver(solver: str, seconds: float | None, *, presolve: bool) -> Any:
     """The objective is integral, so that a gap below one half is none."""
     if solver == "cbc":
         logging.getLogger("pulp").setLevel(logging.ERROR)
@@ -167,8 +171,9 @@ def _solver(solver: str, seconds: float | None) -> Any:
         return pulp.COIN_CMD(
             path=_cbc_path(), msg=False, timeLimit=seconds, threads=1, gapRel=0, gapAbs=0.5, options=options
         )
+    reduce = "on" if presolve else "off"
     return pulp.HiGHS(
-        msg=False, timeLimit=seconds, threads=1, gapRel=0, gapAbs=0.5, random_seed=0, presolve="off"
+        msg=False, timeLimit=seconds, threads=1, gapRel=0, gapAbs=0.5, random_seed=0, presolve=reduce
     )
 
 

@@ -25,7 +25,7 @@ class PaperEncoding:
         self.epochs = range(1, question.horizon + 1)
         self.actions = question.allowed()
         self.human = self.task.human
-        self.model = Model()
+        self.model = Model(presolve=True)  # without, HiGHS takes minutes where it takes seconds
         self.x = {(a, t): self.model.binary() for a in self.actions for t in self.epochs}
         self.y = {(f, t): self.model.binary() for f in range(len(self.task.facts)) for t in (0, *self.epochs)}
         self._objective()
