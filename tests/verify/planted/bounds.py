@@ -91,7 +91,7 @@ _SECOND = "not met: a second touch would have to pay that as a first one does no
 
 BUGS = (
     Bug("projection", "distances are doubled", wrapped(projection, "_distances", _doubled)),
-    Bug("projection", "distances are all zero", wrapped(projection, "_distances", _zero)),
+    Bug("projection", "distances are all zero", wrapped(projection, "_distances", _zero), _SLOWER),
     Bug("help: Helped", "says nothing", replaced(Helped, "__call__", always(0)), _SLOWER),
     Bug("projection", "joint actions are forgotten", wrapped(projection._Moves, "__init__", _own_moves)),
     Bug(
