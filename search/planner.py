@@ -35,19 +35,19 @@ def solve(
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
     clock = clock or Clock(options.time_limit)
-    tables = Tables(task, options, clock)
     try:
+        tables = Tables(task, options, clock)
         predicted = tables.optimal_plans() if human_plan is None else None
         plan = human_plan if predicted is None else predicted.canonical()
+        if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
+            answers = iter((Outcome("infeasible", reason="no-human-plan"),))
+        elif plan is not None and options.mode == "individual":
+            answers = iter((_individual(tables, plan),))
+        else:
+            answers = _Call(tables, plan, given=human_plan is not None).answers()
     except OutOfTimeError:
-        yield Outcome("unknown", reason="time-limit")
-        return
-    if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
-        yield Outcome("infeasible", reason="no-human-plan")
-    elif plan is not None and options.mode == "individual":
-        yield _individual(tables, plan)
-    else:
-        yield from _Call(tables, plan, given=human_plan is not None).answers()
+        answers = iter((Outcome("unknown", reason="time-limit"),))
+    yield from answers
 
 
 def optimal_human_plan(task: Task) -> HumanPlan | None:
@@ -56,9 +56,13 @@ def optimal_human_plan(task: Task) -> HumanPlan | None:
     return None if graph is None else graph.canonical()
 
 
-def optimal_human_plans(task: Task) -> PlanGraph | None:
-    """All optimal plans of the human alone, or None where he has none."""
-    return Tables(task, Options(), Clock()).optimal_plans()
+def optimal_human_plans(task: Task, clock: Clock | None = None) -> PlanGraph | None:
+    """All optimal plans of the human alone, or None where he has none.
+
+    Raises:
+        OutOfTimeError: the clock ran out.
+    """
+    return Tables(task, Options(), clock or Clock()).optimal_plans()
 
 
 def _individual(tables: Tables, plan: HumanPlan) -> Outcome:

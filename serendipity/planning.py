@@ -167,7 +167,10 @@ def _depends_on_ties(options: Options) -> bool:
 def _over_ties(call: _Call) -> Result:
     """The task solved once for each optimal ``pi_H`` (SPEC 1)."""
     options = call.options
-    graph = optimal_human_plans(call.task)
+    try:
+        graph = optimal_human_plans(call.task, call.clock)
+    except OutOfTimeError:
+        return _to_result(call, Outcome("unknown", reason="time-limit"))
     if graph is None:
         return call.last(None)
     count = graph.count()

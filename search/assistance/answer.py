@@ -61,7 +61,11 @@ def assist(task: Task, options: Options, clock: Clock) -> Iterator[Assistance]:
     """
     half = None if options.time_limit is None else options.time_limit / 2
     own_clock = PhaseClock(clock, half)
-    game = Game(task, clock, own_clock)
+    try:
+        game = Game(task, clock, own_clock)
+    except OutOfTimeError:
+        yield Assistance("unknown", ZERO, reason="time-limit")
+        return
     try:
         game.alone(game.init)
     except OutOfTimeError:
