@@ -17,6 +17,7 @@ QUICK = (
     "keys: Weights: epochs of the window are free",
     "keys: Weights.team: communication is free",
     "labels: add: later but cheaper dominates",
+    "labels: no_worse: limits don't count in dominance",
     "windowed: AnyOfPlan: joint actions before the window",
     "windowed: _open: the window is said to start an epoch later",
     "windowed: horizon: an epoch more",
@@ -24,6 +25,7 @@ QUICK = (
     "projection: distances are doubled",
     "help: opening: nobody helps",
     "provision: walks: robots can't walk",
+    "touches: is_touch: a joint action is none",
 )
 """Those that the first calls of the corpus bring to light."""
 

@@ -87,7 +87,6 @@ def _dear(original: Any, self: Providers, *arguments: Any) -> dict[int, Provided
 
 
 _SLOWER = "a weaker bound is still a bound: the search only takes longer"
-_SECOND = "not met: a second touch would have to pay that as a first one does not"
 
 BUGS = (
     Bug("projection", "distances are doubled", wrapped(projection, "_distances", _doubled)),
@@ -99,7 +98,7 @@ BUGS = (
         "a value beyond the limit is taken for exact",
         wrapped(Alone, "_search", _limit_is_exact),
     ),
-    Bug("touches: is_touch", "a joint action is none", wrapped(Touches, "is_touch", _own_touches), _SECOND),
+    Bug("touches: is_touch", "a joint action is none", wrapped(Touches, "is_touch", _own_touches)),
     Bug("ways: explore", "the goal is two actions further", wrapped(Ways, "explore", _far_goal)),
     Bug("help: Helped", "help has to come two epochs earlier", wrapped(Helped, "_prepare", _too_late)),
     Bug("help: opening", "nobody helps", replaced(HelpedOnTheWay, "opening", _no_help)),

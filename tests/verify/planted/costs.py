@@ -112,7 +112,6 @@ BUGS = (
         "labels: no_worse",
         "limits don't count in dominance",
         wrapped(Labels, "__init__", _no_other_order),
-        "not met: in the corpus bounds cut off what passes a limit before it dominates",
     ),
     Bug("suffix: Replan", "the suffix may pass T", wrapped(Replan, "key", _any_length)),
     Bug("suffix: Replan", "the robots' goal is forgotten", replaced(Replan, "key", _whatever_robots_want)),

@@ -128,6 +128,19 @@ def _limits() -> Iterator[PlanCall]:
     for longest in ("1", "2", "3"):
         options = {"horizon": "4", "max_window": longest, "window_weight": "1"}
         yield PlanCall(build(goal="g", actions=either), options)
+    # To x there is a cheap way that leaves pi_H at once, and a dear one whose window starts later:
+    # the limit on the window leaves time for the two joint actions after the dear one only.
+    late = {
+        "one h": "a -> b !a",
+        "two h": "b -> g @ 20",
+        "cheap h": "a -> c !a",
+        "on h": "c -> x !c",
+        "dear h": "b -> x !b @ 3",
+        "pull h r": "x -> y !x",
+        "push h r": "y -> g",
+    }
+    options = {"horizon": "4", "max_window": "3", "window_weight": "0"}
+    yield PlanCall(build(init="a", goal="g", actions=late), options)
 
 
 def _provisions() -> Iterator[PlanCall]:
@@ -167,3 +180,13 @@ def _provisions() -> Iterator[PlanCall]:
     }
     for horizon in ("2", "3", "4"):
         yield PlanCall(build(init="v0 b", goal="g", actions=flipped), {"horizon": horizon})
+    # What the second joint action needs is too dear for the robot, and comes with the first.
+    twice = {
+        "do h": "a -> g @ 9",
+        "lift h r": "a -> b f !a",
+        "use h r": "b f -> g",
+        "fetch r": "-> f @ 50",
+    }
+    for mode in ("serendipity", "communication"):
+        options = {"mode": mode, "horizon": "2", "window_weight": "0"}
+        yield PlanCall(build(init="a", goal="g", actions=twice), options)
