@@ -38,6 +38,8 @@ def read_json(path: Path) -> Any:
         raise InputError(f"expected JSON: {error.msg} at column {error.colno}", path, error.lineno) from None
     except RecursionError:
         raise InputError("expected JSON: it is nested too deeply", path) from None
+    except ValueError:  # Python converts so many digits only
+        raise InputError("expected numbers of at most 4300 digits", path) from None
 
 
 def read_result(files: Sequence[Path], command: str) -> tuple[list[Path], Path, Result]:

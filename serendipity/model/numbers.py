@@ -2,10 +2,14 @@
 
 from decimal import Decimal
 from fractions import Fraction
+from typing import Final
 
 from serendipity.model.errors import UsageError
 
 Number = int | float | str | Decimal | Fraction
+
+MOST_DIGITS: Final = 100
+"""Digits of a number, and its decimal exponent: such numbers and their sums have floats."""
 
 
 def exact(value: Number, what: str = "number") -> Fraction:
@@ -17,13 +21,26 @@ def exact(value: Number, what: str = "number") -> Fraction:
         what: how an error calls the value.
 
     Raises:
-        UsageError: the value is not a finite number.
+        UsageError: the value is not a finite number, or has more than :data:`MOST_DIGITS` digits.
     """
     if isinstance(value, Fraction):
         return value
     if isinstance(value, bool):
         raise UsageError(f"{what}: expected a number, got {value!r}")
     try:
-        return Fraction(str(value).strip())
+        return fraction(str(value).strip())
     except (ValueError, ZeroDivisionError):
-        raise UsageError(f"{what}: expected a finite number, got {value!r}") from None
+        raise UsageError(f"{what}: expected a finite number, got {value!r:.50}") from None
+
+
+def fraction(text: str) -> Fraction:
+    """The rational that a text writes down.
+
+    Raises:
+        ValueError: it writes down none, or one of more than :data:`MOST_DIGITS` digits.
+        ZeroDivisionError: its denominator is 0.
+    """
+    exponent = text.lower().partition("e")[2]
+    if len(text) > MOST_DIGITS or (exponent and abs(int(exponent)) > MOST_DIGITS):
+        raise ValueError
+    return Fraction(text)

@@ -11,6 +11,9 @@ from serendipity.model.numbers import exact
 INFINITE: Final = "inf"
 """Horizon without an end (composite mode only)."""
 
+MAX_EPOCH: Final = 1_000_000
+"""The largest epoch that a horizon or a result may name; ``search.keys`` has room for no more."""
+
 CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "mode": ("serendipity", "individual", "communication", "composite", "assistance"),
     "suffix": ("replan", "subplan"),
@@ -134,13 +137,15 @@ def _not_negative(value: Fraction, name: str) -> Fraction:
     return value
 
 
-def _whole(value: object, name: str, *, least: int) -> int:
+def _whole(value: object, name: str, *, least: int, most: int | None = None) -> int:
     try:
         number = int(str(value))
     except ValueError:
-        raise UsageError(f"{name}: expected a whole number, got {value!r}") from None
+        raise UsageError(f"{name}: expected a whole number, got {value!r:.50}") from None
     if number < least:
         raise UsageError(f"{name}: expected at least {least}, got {number}")
+    if most is not None and number > most:
+        raise UsageError(f"{name}: expected at most {most}, got {number}")
     return number
 
 
@@ -149,7 +154,7 @@ def _horizon(value: object) -> int | str | None:
         return value
     if isinstance(value, float) and math.isinf(value) and value > 0:
         return INFINITE
-    return _whole(value, "horizon", least=0)
+    return _whole(value, "horizon", least=0, most=MAX_EPOCH)
 
 
 def _seconds(value: object) -> float:

@@ -5,14 +5,12 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.options import Options
+from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.plans import Window
 from serendipity.model.policy import Policy
 
 SCHEMA: Final = "serendipity.result/1"
 STATUSES: Final = ("optimal", "feasible", "infeasible", "unknown")
-MAX_EPOCH: Final = 1_000_000
-"""The largest epoch that a result may name; a sanity limit on input."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,11 +178,15 @@ class _Reader:
         return None if value is None else self._finite(value, key, signed=signed)
 
     def _finite(self, value: Any, where: str, *, signed: bool = False) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            raise self._error(f"{where}: expected a finite number, got {value!r}")
-        if value < 0 and not signed:
+        try:
+            number = float(value) if isinstance(value, int | float) else math.nan
+        except OverflowError:
+            number = math.inf
+        if isinstance(value, bool) or not math.isfinite(number):
+            raise self._error(f"{where}: expected a finite number, got {value!r:.50}")
+        if number < 0 and not signed:
             raise self._error(f"{where}: expected a number of at least 0, got {value!r}")
-        return float(value)
+        return number
 
     def _epoch(self, value: Any, where: str) -> int:
         if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= MAX_EPOCH:

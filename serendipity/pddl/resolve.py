@@ -13,6 +13,7 @@ from typing import Any, Final
 from plado import pddl
 
 from serendipity.model import InputError
+from serendipity.model.numbers import fraction
 from serendipity.pddl.lifted import (
     EQUALITY,
     OBJECT,
@@ -35,8 +36,6 @@ from serendipity.pddl.lifted import (
 from serendipity.pddl.syntax import DomainSyntax, ProblemSyntax, parse_domain, parse_problem
 
 TOTAL_COST: Final = "total-cost"
-_MAX_EXPONENT_DIGITS: Final = 3
-"""Enough for any cost; ``1e999999999`` as a rational would fill the memory."""
 
 _OPERATORS: Final = {pddl.Sum: "+", pddl.Subtraction: "-", pddl.Product: "*", pddl.Division: "/"}
 
@@ -357,11 +356,9 @@ def _minimises_cost(syntax: ProblemSyntax) -> bool:
 
 def _number(text: str) -> Fraction:
     try:
-        if "e" in text and len(text.partition("e")[2]) > _MAX_EXPONENT_DIGITS:
-            raise ValueError
         return _fraction(str(text))
     except (ValueError, ZeroDivisionError):
-        raise InputError(f"expected a number, got '{text}'", line=getattr(text, "line", None)) from None
+        raise InputError(f"expected a number, got '{text:.50}'", line=getattr(text, "line", None)) from None
 
 
 def _both(a: Formula, b: Formula | None) -> Formula:
@@ -385,4 +382,4 @@ def _first_name(node: Any) -> str:
 @lru_cache(maxsize=1024)
 def _fraction(text: str) -> Fraction:
     """One object per number, so that costs can be told apart by identity."""
-    return Fraction(text)
+    return fraction(text)

@@ -94,6 +94,11 @@ def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
         ("plan --example room2 --discount -0.1", ["discount"]),
         ("plan --example room2 --discount nan", ["discount", "nan"]),
         ("plan --example room2 --discount much", ["discount", "much"]),
+        ("plan --example room2 --discount 1e400", ["discount", "1e400"]),
+        ("plan --example room2 --discount 1e999999999", ["discount", "1e999999999"]),
+        (f"plan --example room2 --max-cost {'9' * 500}", ["max_cost", "99999"]),
+        (f"plan --example room2 --window-weight {'9' * 5000}", ["window_weight", "99999"]),
+        ("plan --example room2 --horizon 1000000000", ["horizon", "1000000"]),
         ("plan --example room2 --horizon -1", ["horizon", "-1"]),
         ("plan --example room2 --horizon 3", ["horizon", "13"]),
         ("plan --example room2 --horizon inf", ["horizon", "composite"]),
@@ -145,6 +150,9 @@ def answer(run: Callable[[str], Run]) -> dict[str, object]:
     [
         ({"schema": "serendipity.result/0"}, ["schema"]),
         ({"cost": -1}, ["cost"]),
+        ({"cost": 10**400}, ["cost"]),
+        ({"options": {"window_weight": 10**400}}, ["window_weight"]),
+        ({"horizon": 10**9}, ["horizon"]),
         ({"status": "great"}, ["status"]),
         ({"window": {"start": 6, "end": 10**9}}, ["window.end"]),
         ({"plan": [{"epoch": 10**9, "agents": ["commx"], "action": "x", "cost": 1}]}, ["plan[0].epoch"]),
@@ -171,7 +179,7 @@ def test_result_with_nan(answer: dict[str, object], run: Callable[[str], Run]) -
     assert_one_line(run("verify --example room2 answer.json"), "answer.json", "NaN")
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "[" * 100_000, "\x00"])
+@pytest.mark.parametrize("text", ["", "{", "[]", "[" * 100_000, "9" * 5000, "\x00"])
 def test_results_that_are_no_object(text: str, run: Callable[[str], Run]) -> None:
     Path("answer.json").write_text(text)
     assert_one_line(run("verify --example room2 answer.json"), "answer.json")
