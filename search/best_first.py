@@ -25,6 +25,8 @@ class Node(NamedTuple):
     parent: "Node | None"
     actions: tuple[int, ...]
     """What was done in ``epoch``."""
+    idle: tuple[int, ...] = ()
+    """For how long robots have been idle, where their walks are folded."""
 
 
 @dataclass(slots=True)

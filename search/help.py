@@ -12,21 +12,27 @@ distances: a first pass leaves few of them.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from typing import NamedTuple
+from operator import itemgetter
+from typing import NamedTuple, Protocol
 
 from search.clock import Clock
 from search.encoding import Encoding, Op
 from search.keys import INFINITE_KEY
 from search.projection import Projection
 from search.provision import Distances, Places, Provision
+from search.successors import Idle
 from search.touches import Touches
 from search.ways import NEVER, Ways
 
 _MOST_TOUCHES = 1024
 """More surviving needs than this make the bound dearer than what it saves."""
 
-Timed = Callable[[int, int], int]
-"""Lower bound of the key increment from an epoch and a packed state after it."""
+
+class Timed(Protocol):
+    """Lower bound of the key increment from an epoch and a packed state after it."""
+
+    def __call__(self, epoch: int, state: int, idle: Idle = (), /) -> int:
+        """The bound, where robots have been idle for so many epochs."""
 
 
 class Choice(NamedTuple):
@@ -51,6 +57,19 @@ class Provided:
     steps: Distances
     unit: int
     """What ``steps`` counts an epoch as."""
+
+    def epochs(self, state: int, idle: Idle) -> int:
+        """In how many epochs from now the need can be provided, from a packed state.
+
+        Robots that have been idle may have walked meanwhile, where walks are folded.
+        """
+        if not idle:
+            return self.steps(state) // self.unit
+        return max(0, min(epochs - rest for epochs, rest in zip(self.each(state), idle, strict=True)))
+
+    def each(self, state: int) -> tuple[int, ...]:
+        """The same without a rest, per robot that may act first."""
+        return tuple(steps // self.unit for steps in self.steps.each(state))
 
 
 class Providers:
@@ -224,20 +243,19 @@ class Helped:
         self._pairs: list[tuple[dict[int, int], Provided, int]] = []
         self._cheap: dict[int, list[tuple[int, Provided, int]]] = {}
 
-    def __call__(self, epoch: int, state: int) -> int:
-        """Lower bound of the key increment from a packed state after an epoch."""
+    def __call__(self, epoch: int, state: int, idle: Idle = (), /) -> int:
+        """See :class:`Timed`."""
         if self._without is None:
             self._prepare()
         assert self._without is not None
         at = state & self._mask
         least = self._without.get(at, INFINITE_KEY)
-        for way, provided, latest in self._pairs:
-            cost = way.get(at, INFINITE_KEY)
+        for cost, provided, latest in self._from(at, least):
             if cost >= least:
-                continue
-            cost += provided.cost(state)
-            if cost < least and epoch + provided.steps(state) // provided.unit <= latest:
-                least = cost
+                break
+            total = cost + provided.cost(state)
+            if total < least and epoch + provided.epochs(state, idle) <= latest:
+                least = total
         return least
 
     def choices(self, state: int) -> list[Choice]:
@@ -251,7 +269,7 @@ class Helped:
         for cost, provided, latest in self._from(at, least):
             total = cost + provided.cost(state)
             if total < least:
-                found.append((total, provided.steps(state) // provided.unit, latest))
+                found.append((total, provided.epochs(state, ()), latest))
         found.sort()
         kept: list[Choice] = []
         soonest = NEVER
@@ -262,11 +280,12 @@ class Helped:
         return kept
 
     def _from(self, at: int, least: int) -> list[tuple[int, Provided, int]]:
-        """What costs less than doing without, from a projected state."""
+        """What costs him less than doing without, from a projected state; the cheapest first."""
         known = self._cheap.get(at)
         if known is None:
             costs = ((way.get(at, INFINITE_KEY), provided, latest) for way, provided, latest in self._pairs)
             known = self._cheap[at] = [entry for entry in costs if entry[0] < least]
+            known.sort(key=itemgetter(0))
         return known
 
     def _prepare(self) -> None:
@@ -276,7 +295,7 @@ class Helped:
             self._pairs.append((self._ways.through(need), provided, latest))
 
 
-def no_bound(_epoch: int, _state: int) -> int:
+def no_bound(_epoch: int, _state: int, _idle: Idle = (), /) -> int:
     """The bound that is always right."""
     return 0
 
@@ -364,6 +383,28 @@ class Openings:
         return self.floor[opens] if opens < len(self.floor) else INFINITE_KEY
 
 
+class Offer(NamedTuple):
+    """What robots can do about a need from where they are.
+
+    Attributes:
+        least: least total of the human, and ``cost``.
+        cost: what they pay.
+        epochs: in how many epochs, per robot that may act first.
+        need: the need.
+    """
+
+    least: int
+    cost: int
+    epochs: tuple[int, ...]
+    need: int
+
+    def soonest(self, idle: Idle) -> int:
+        """In how many epochs from now, where robots have been idle for some."""
+        if not idle:
+            return min(self.epochs)
+        return max(0, min(epochs - rest for epochs, rest in zip(self.epochs, idle, strict=False)))
+
+
 class HelpedOnTheWay:
     """The bound while the human follows ``pi_H``; a window has still to open.
 
@@ -371,50 +412,69 @@ class HelpedOnTheWay:
         openings: his totals.
         spent: what following ``pi_H`` has cost by each epoch.
         needs: the surviving needs; None where robots may provide them for nothing.
+        outside: the fields on which their costs depend.
     """
 
-    def __init__(self, openings: Openings, spent: Sequence[int], needs: dict[int, Provided | None]) -> None:
+    def __init__(
+        self,
+        openings: Openings,
+        spent: Sequence[int],
+        needs: dict[int, Provided | None],
+        outside: int,
+    ) -> None:
         self._openings = openings
         self._spent = spent
+        self._needs = needs
+        self._outside = outside
+        self._offers: dict[int, list[Offer]] = {}
         for need in needs:
             if need not in openings.later:
                 openings.refine(need, 0, [openings.least[need]] * len(spent))
-        self._needs = [(need, provided, openings.later[need]) for need, provided in needs.items()]
 
-    def opening(self, epoch: int, state: int) -> int:
+    def opening(self, epoch: int, state: int, idle: Idle = ()) -> int:
         """Least key increment if the window opens right after ``epoch``."""
-        return self.opening_after(epoch, epoch, state, epoch + self._openings.reach)
+        return self.opening_after(epoch, epoch, state, epoch + self._openings.reach, idle)
 
-    def opening_after(self, opens: int, epoch: int, state: int, until: int) -> int:
+    def opening_after(self, opens: int, epoch: int, state: int, until: int, idle: Idle = ()) -> int:
         """Least key increment from a packed state after ``epoch``.
 
         The window opens right after the epoch ``opens``, and robots act up to ``until``.
         """
         openings = self._openings
         least = openings.without[opens]
-        for need, provided, _ in self._needs:
-            total = openings.now[need][opens]
-            if total >= least:
-                continue
-            if provided is not None:
-                total += provided.cost(state)
-                if total >= least:
-                    continue
-                steps = provided.steps(state) // provided.unit
-                if epoch + steps > min(openings.latest[need], until):
-                    continue
-            least = total
+        for offer in self._from(state):
+            if offer.least >= least:
+                break
+            total = openings.now[offer.need][opens] + offer.cost
+            if total < least and epoch + offer.soonest(idle) <= min(openings.latest[offer.need], until):
+                least = total
         return least - self._spent[epoch]
 
-    def later(self, epoch: int, state: int) -> int:
+    def later(self, epoch: int, state: int, idle: Idle = ()) -> int:
         """Least key increment if it opens then or later."""
         openings = self._openings
         least = openings.without[epoch]
-        for need, provided, row in self._needs:
-            if row[epoch] >= least:
-                continue
-            cost, steps = 0, 0
-            if provided is not None:
-                cost, steps = provided.cost(state), provided.steps(state) // provided.unit
-            least = min(least, openings.total(need, cost, steps, epoch))
+        for offer in self._from(state):
+            if offer.least >= least:
+                break
+            if openings.later[offer.need][epoch] + offer.cost < least:
+                total = openings.total(offer.need, offer.cost, offer.soonest(idle), epoch)
+                least = min(least, total)
         return least - self._spent[epoch]
+
+    def _from(self, state: int) -> list[Offer]:
+        """What robots can do from a packed state, the best first."""
+        at = state & self._outside
+        offers = self._offers.get(at)
+        if offers is None:
+            offers = self._offers[at] = sorted(
+                self._offer(need, provided, state) for need, provided in self._needs.items()
+            )
+        return offers
+
+    def _offer(self, need: int, provided: Provided | None, state: int) -> Offer:
+        least = self._openings.later[need][0]
+        if provided is None:
+            return Offer(least, 0, (0,), need)
+        cost = provided.cost(state)
+        return Offer(least + cost, cost, provided.each(state), need)

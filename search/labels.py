@@ -1,12 +1,17 @@
 """Dominance: who can wait is never worse off for being early and cheap."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
+from operator import ge
+
+Label = tuple[int, int, tuple[int, ...]]
+"""Epoch, key, and for how long robots have been idle."""
 
 
 class Labels:
-    """Non-dominated (epoch, key) pairs per state.
+    """Non-dominated labels per state.
 
-    Where everybody can wait, an earlier epoch at no higher key dominates.
+    Where everybody can wait, an earlier epoch at no higher key dominates, if robots have
+    been idle for as long: then they do the same as much earlier.
 
     Args:
         no_worse: a further condition for the first key to dominate the second, for
@@ -14,28 +19,32 @@ class Labels:
     """
 
     def __init__(self, no_worse: Callable[[int, int], bool] | None = None) -> None:
-        self._labels: dict[int, list[tuple[int, int]]] = {}
+        self._labels: dict[Hashable, list[Label]] = {}
         self._no_worse = no_worse
 
-    def add(self, state: int, epoch: int, key: int) -> bool:
+    def add(self, state: Hashable, epoch: int, key: int, idle: tuple[int, ...] = ()) -> bool:
         """Record a label unless one already there dominates it; whether it was recorded."""
         labels = self._labels.get(state)
         if labels is None:
-            self._labels[state] = [(epoch, key)]
+            self._labels[state] = [(epoch, key, idle)]
             return True
-        if self._covered(labels, epoch, key):
+        if self._covered(labels, epoch, key, idle):
             return False
         if self._no_worse is None:
-            labels[:] = [label for label in labels if label[0] < epoch or label[1] < key]
-        labels.append((epoch, key))
+            labels[:] = [
+                (t, k, rest) for t, k, rest in labels if t < epoch or k < key or not all(map(ge, idle, rest))
+            ]
+        labels.append((epoch, key, idle))
         return True
 
-    def alive(self, state: int, epoch: int, key: int) -> bool:
+    def alive(self, state: Hashable, epoch: int, key: int, idle: tuple[int, ...] = ()) -> bool:
         """Whether a recorded label has not been superseded since."""
-        return (epoch, key) in self._labels[state]
+        return (epoch, key, idle) in self._labels[state]
 
-    def _covered(self, labels: list[tuple[int, int]], epoch: int, key: int) -> bool:
+    def _covered(self, labels: list[Label], epoch: int, key: int, idle: tuple[int, ...]) -> bool:
         no_worse = self._no_worse
         if no_worse is None:
-            return any(t <= epoch and k <= key for t, k in labels)
-        return any(t <= epoch and k <= key and no_worse(k, key) for t, k in labels)
+            return any(t <= epoch and k <= key and all(map(ge, rest, idle)) for t, k, rest in labels)
+        return any(
+            t <= epoch and k <= key and all(map(ge, rest, idle)) and no_worse(k, key) for t, k, rest in labels
+        )

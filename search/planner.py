@@ -267,4 +267,6 @@ class _Call:
             return plan_steps(self.plan or ())
         if self.epochs is None:
             return schedule(self.task, path_sets(answer.node))
-        return path_steps(answer.node) + plan_steps(answer.tail, answer.end)
+        steps = path_steps(answer.node) + plan_steps(answer.tail, answer.end)
+        walks = self.tables.walks(self.plan) if answer.node.idle and self.plan is not None else None
+        return steps if walks is None else tuple(sorted((*steps, *walks.steps(answer.node))))

@@ -316,6 +316,12 @@ class Distances:
                 best = weight
         return best
 
+    def each(self, state: int) -> Iterator[int]:
+        """The same for each robot, if it is the first to act; in the order of ``task.robots``."""
+        for mask, table in self._tables:
+            weight = table.get(state & mask)
+            yield self._fallback.get((mask, state & self._field), 0) if weight is None else weight
+
 
 def _with_anywhere(by_place: dict[int, list[Item]], place: int) -> list[Item]:
     anywhere = by_place.get(-1)

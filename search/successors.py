@@ -4,7 +4,7 @@ Ops are looked up under their leader by the value of one field, the one that mos
 of the leader's actions ask for (a position, as a rule).
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 from search.encoding import Encoding, Op, OpIndex, applicable
@@ -20,7 +20,13 @@ class Option(NamedTuple):
     actions: tuple[int, ...]
     agents: int
     """Bit set of the agents that are busy with it."""
+    due: tuple[tuple[int, int], ...] = ()
+    """Where walks are folded (``search.walks``): slots of robots, and for how long they have
+    to have been idle."""
 
+
+Idle = tuple[int, ...]
+"""Per slot for how long a robot has been idle; empty where walks are not folded."""
 
 NOTHING = Option(0, -1, 0, (), 0)
 """Everybody waits."""
@@ -101,6 +107,29 @@ class Successors:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
         return self._combine(first, self.robots(state))
 
+    def beside(
+        self, first: Option, state: int, idle: Idle, promising: Callable[[Option], bool]
+    ) -> Iterable[Option]:
+        """The same, cheapest first, as far as it is possible and worth looking at.
+
+        Args:
+            first: the human's part.
+            state: the packed state.
+            idle: for how long robots have been idle.
+            promising: whether the part and what one robot does are worth looking at.
+        """
+        return self.with_robots(first, state)
+
+    def rested(self, idle: Idle, option: Option, state: int) -> Idle:
+        """For how long robots are idle after an epoch.
+
+        Args:
+            idle: before it.
+            option: what is done in it.
+            state: the packed state after it.
+        """
+        return ()
+
     def sequential(self, actions: tuple[int, ...]) -> bool:
         """Whether a compatible set has the same effect one action after another, in some order.
 
@@ -118,14 +147,14 @@ class Successors:
         for chosen in sets:
             for option in more:
                 if not chosen.agents & option.agents and self._fits(option, chosen):
-                    yield _together(chosen, option)
+                    yield together(chosen, option)
 
     def _combine(self, first: Option, sets: list[Option]) -> Iterator[Option]:
         for chosen in sets:
             if not chosen.actions:
                 yield first
             elif not chosen.agents & first.agents and self._fits(first, chosen):
-                yield _together(first, chosen)
+                yield together(first, chosen)
 
     def _fits(self, single: Option, others: Option) -> bool:
         """Whether ``single`` (of at most one action) may share an epoch with ``others``."""
@@ -135,7 +164,18 @@ class Successors:
         return all(self._encoding.compatible(mine, other, self._strict) for other in others.actions)
 
 
-def _together(a: Option, b: Option) -> Option:
+def together(a: Option, b: Option) -> Option:
+    """Both in one epoch."""
     return Option(
-        a.weight + b.weight, a.keep & b.keep, a.put | b.put, a.actions + b.actions, a.agents | b.agents
+        a.weight + b.weight,
+        a.keep & b.keep,
+        a.put | b.put,
+        a.actions + b.actions,
+        a.agents | b.agents,
+        a.due + b.due,
     )
+
+
+def in_time(option: Option, idle: Idle) -> bool:
+    """Whether robots have been idle for long enough to have walked to their deeds."""
+    return all(idle[slot] >= steps for slot, steps in option.due)

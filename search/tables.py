@@ -11,6 +11,7 @@ from search.keys import INFINITE_KEY, Weights
 from search.projection import Projection, human_projection, human_steps
 from search.successors import Option, Successors, as_option
 from search.touches import Touches
+from search.walks import FoldedSuccessors, Walks
 from search.ways import Ways
 from serendipity.model.actions import Condition
 from serendipity.model.options import Options
@@ -101,6 +102,19 @@ class Tables:
     def successors(self, *, idle: bool = False) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing."""
         return Successors(self.encoding, self.weights.team, strict=self.options.strict, idle=idle)
+
+    def walks(self, plan: HumanPlan) -> Walks | None:
+        """Robots' walks where they can be folded, and it pays: with several robots."""
+        if len(self.task.robots) < 2 or self.options.preservation == "state":
+            return None
+        walks = self.encoding.derived(Walks, self.clock)
+        if not walks.foldable or walks.touched_by(map(self.encoding.op, plan)):
+            return None
+        return walks
+
+    def folded(self, walks: Walks) -> FoldedSuccessors:
+        """:meth:`successors` with walks left out."""
+        return FoldedSuccessors(self.encoding, walks, self.weights.team, strict=self.options.strict)
 
     @property
     def goals(self) -> tuple[Goal, ...]:

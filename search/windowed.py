@@ -14,7 +14,7 @@ from search.help import Bounds, HelpedOnTheWay
 from search.keys import Keys
 from search.labels import Labels
 from search.projection import Projection
-from search.successors import NOTHING, Option, Successors
+from search.successors import NOTHING, Idle, Option, Successors, in_time
 from search.suffix import Suffix
 
 PREFIX, WINDOW, TOUCHED = 0, 1, 2
@@ -33,10 +33,10 @@ class Prefix(Protocol):
     def options(self, epoch: int, state: int) -> Iterable[Option]:
         """The human's part of ``epoch`` from a packed state."""
 
-    def bound(self, epoch: int, state: int) -> int:
+    def bound(self, epoch: int, state: int, idle: Idle) -> int:
         """Least key increment from a prefix node after ``epoch``, window included."""
 
-    def opening(self, epoch: int, state: int) -> int:
+    def opening(self, epoch: int, state: int, idle: Idle) -> int:
         """The same, if the window opens in the next epoch."""
 
 
@@ -60,13 +60,13 @@ class Timetable:
         op, option = self._steps[epoch - 1]
         return (option,) if applicable(op, state) else ()
 
-    def bound(self, epoch: int, state: int) -> int:
+    def bound(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`Prefix`."""
-        return self._bound.later(epoch, state)
+        return self._bound.later(epoch, state, idle)
 
-    def opening(self, epoch: int, state: int) -> int:
+    def opening(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`Prefix`."""
-        return self._bound.opening(epoch, state)
+        return self._bound.opening(epoch, state, idle)
 
 
 class AnyOfPlan:
@@ -94,11 +94,11 @@ class AnyOfPlan:
         own = (o for o in self._successors.human(state) if o.actions[0] in self._planned)
         return (NOTHING, *own)
 
-    def bound(self, epoch: int, state: int) -> int:
+    def bound(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`Prefix`."""
         return self._keys.of_start(self.last, self._horizon) + self._keys.epoch_weight + self._bound(state)
 
-    def opening(self, epoch: int, state: int) -> int:
+    def opening(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`Prefix`."""
         return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
 
@@ -108,6 +108,7 @@ class Windowed:
 
     Args:
         initial: packed initial state.
+        idle: per slot 0 where robots' walks are folded, else empty.
         horizon: number of epochs ``T``.
         max_window: most epochs of a window.
         most_cost: largest scaled cost of an acceptable plan, or None.
@@ -123,6 +124,7 @@ class Windowed:
         self,
         *,
         initial: int,
+        idle: Idle,
         horizon: int,
         max_window: int,
         most_cost: int | None,
@@ -134,6 +136,7 @@ class Windowed:
         labels: Labels,
     ) -> None:
         self._initial = initial
+        self._idle = idle
         self._horizon = horizon
         self._max_window = max_window
         self._most_cost = most_cost
@@ -143,20 +146,20 @@ class Windowed:
         self._prefix = prefix
         self._suffix = suffix
         self._labels = labels
-        self._followed: dict[tuple[int, int], int] = {}
+        self._followed = Labels()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, in the prefix."""
         if self._prefix.last >= 1:
-            self._followed[0, self._initial] = 0
-            root = Node(0, 0, self._initial, PREFIX, 0, None, ())
-            yield self._prefix.bound(0, self._initial), root
+            self._followed.add((0, self._initial), 0, 0, self._idle)
+            root = Node(0, 0, self._initial, PREFIX, 0, None, (), self._idle)
+            yield self._prefix.bound(0, self._initial, self._idle), root
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
         if node.phase == PREFIX:
-            return self._followed[node.epoch, node.state] == node.key
-        return self._labels.alive(node.state, node.epoch, node.key)
+            return self._followed.alive((node.epoch, node.state), node.epoch, node.key, node.idle)
+        return self._labels.alive(node.state, node.epoch, node.key, node.idle)
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node; ends of windows are offered to ``best``."""
@@ -170,22 +173,28 @@ class Windowed:
     def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
         start = node.epoch + 1
         key = node.key + self._keys.of_start(start, self._horizon)
-        bound = node.key + self._prefix.opening(node.epoch, node.state)
-        if not self._too_dear(bound) and self._labels.add(node.state, node.epoch, key):
+        bound = node.key + self._prefix.opening(node.epoch, node.state, node.idle)
+        if not self._too_dear(bound) and self._labels.add(node.state, node.epoch, key, node.idle):
             yield bound, node._replace(key=key, phase=WINDOW, start=start)
 
     def _follow(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
-        epoch = node.epoch + 1
+        epoch, successors = node.epoch + 1, self._successors
+        sooner = _sooner(node.idle)
+
+        def promising(option: Option) -> bool:
+            after = node.state & option.keep | option.put
+            return node.key + option.weight + self._prefix.bound(epoch, after, sooner) < best.key
+
         for part in self._prefix.options(epoch, node.state):
-            for option in self._successors.with_robots(part, node.state):
+            for option in successors.beside(part, node.state, node.idle, promising):
                 state = node.state & option.keep | option.put
                 key = node.key + option.weight
-                bound = key + self._prefix.bound(epoch, state)
+                idle = successors.rested(node.idle, option, state)
+                bound = key + self._prefix.bound(epoch, state, idle)
                 if bound >= best.key or self._too_dear(bound):
                     continue
-                if key < self._followed.get((epoch, state), best.key):
-                    self._followed[epoch, state] = key
-                    yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions)
+                if self._followed.add((epoch, state), epoch, key, idle):
+                    yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions, idle)
 
     def _inside(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         epoch = node.epoch + 1
@@ -195,26 +204,37 @@ class Windowed:
         again = self._keys.epoch_weight
         goes_on = epoch < self._horizon and epoch - node.start + 1 < self._max_window
         successors, bounds, state = self._successors, self._bounds, node.state
+        sooner = _sooner(node.idle)
         for part in (NOTHING, *successors.human(state), *successors.joint(state)):
             # Robots don't change the variables that the private bound looks at.
             at = state & part.keep | part.put
             rest = bounds.private(at)
+            if not in_time(part, node.idle):
+                continue
             if base + part.weight + rest >= best.key or epoch + bounds.steps(at) > self._horizon:
                 continue
             touched = node.phase == TOUCHED or bounds.touches(part.actions)
-            for option in successors.with_robots(part, state):
+
+            def promising(option: Option, rest: int = rest, touched: bool = touched) -> bool:
+                least = rest
+                if not touched:
+                    least = max(rest, bounds.untouched(epoch, state & option.keep | option.put, sooner))
+                return base + option.weight + least < best.key
+
+            for option in successors.beside(part, state, node.idle, promising):
                 key = base + option.weight
                 bound = key + rest
                 if bound >= best.key or self._too_dear(bound):
                     break
                 after = state & option.keep | option.put
                 phase = TOUCHED if touched else WINDOW
-                child = Node(key, epoch, after, phase, node.start, node, option.actions)
+                idle = successors.rested(node.idle, option, after)
+                child = Node(key, epoch, after, phase, node.start, node, option.actions, idle)
                 self._end(child, best)
                 if not goes_on or bound + again >= best.key:
                     continue
-                bound = key + again + (rest if touched else max(rest, bounds.untouched(epoch, after)))
-                if bound < best.key and self._labels.add(after, epoch, key):
+                bound = key + again + (rest if touched else max(rest, bounds.untouched(epoch, after, idle)))
+                if bound < best.key and self._labels.add(after, epoch, key, idle):
                     yield bound, child
 
     def _end(self, node: Node, best: Incumbent) -> None:
@@ -228,3 +248,8 @@ class Windowed:
 
     def _too_dear(self, key: int) -> bool:
         return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost
+
+
+def _sooner(idle: Idle) -> Idle:
+    """Idle robots after an epoch in which it is left open which of them act."""
+    return tuple(epochs + 1 for epochs in idle)

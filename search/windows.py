@@ -28,7 +28,8 @@ def window_space(
         idle: robots do nothing.
     """
     options = tables.options
-    successors = tables.successors(idle=idle)
+    walks = None if idle else tables.walks(plan)
+    successors = tables.successors(idle=idle) if walks is None else tables.folded(walks)
     prefix: Prefix
     if options.keep_prefix:
         untouched: Timed = no_bound
@@ -50,6 +51,7 @@ def window_space(
         prefix = Timetable(tables.followed(plan), on_the_way)
     return Windowed(
         initial=tables.encoding.init,
+        idle=() if walks is None else (0,) * len(walks.fields),
         horizon=horizon,
         max_window=options.max_window or horizon,
         most_cost=most_cost,
@@ -101,7 +103,7 @@ def bounds_along(
         robots: key increment of a robots' op by the index of its cost.
         idle: robots do nothing.
     """
-    ways = tables.ways
+    ways, outside = tables.ways, tables.touches.outside
     steps = tables.followed(plan)
     followed = [op for op, _ in steps]
     providers = Providers(tables.encoding, tables.touches, robots, followed, tables.clock)
@@ -123,7 +125,7 @@ def bounds_along(
     least = openings.least
     openings.latest = {i: horizon - 1 - ways.steps_after[providers.touched(i)] for i in least}
     if idle or not least:
-        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), None
+        return HelpedOnTheWay(openings, spent, dict.fromkeys(least), outside), None
 
     def pays(cost: int) -> bool:
         return cost + openings.least_after(providers.epochs(cost)) < limit
@@ -131,7 +133,7 @@ def bounds_along(
     costs = providers.costs(sorted(least), pays)
     paying = survivors(costs, limit, lambda i, cost: openings.rough(i, cost, providers.epochs(cost)))
     if paying is None:
-        return HelpedOnTheWay(openings, spent, dict.fromkeys(least)), None
+        return HelpedOnTheWay(openings, spent, dict.fromkeys(least), outside), None
     for first, end, corridor, ids in corridors:
         for i in ids.keys() & paying:
             rest = corridor.through(ids[i])
@@ -140,7 +142,9 @@ def bounds_along(
     paying = [i for i in paying if openings.total(i, costs[i], providers.epochs(costs[i])) < limit]
     provided = providers.provided(paying, horizon)
     off_plan = [(providers.touched(need), provided[need]) for need in paying]
-    return HelpedOnTheWay(openings, spent, {**provided}), Helped(tables.bound, ways, off_plan, horizon)
+    return HelpedOnTheWay(openings, spent, {**provided}, outside), Helped(
+        tables.bound, ways, off_plan, horizon
+    )
 
 
 def _reach(tables: Tables, horizon: int, limit: int) -> int:

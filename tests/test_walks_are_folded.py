@@ -1,0 +1,86 @@
+"""Leaving robots' walks out of the search changes its size, not its answers."""
+
+from itertools import product
+
+import pytest
+
+import serendipity
+from search.clock import Clock
+from search.encoding import encoding
+from search.tables import Tables
+from search.walks import Walks
+from tests import builders
+
+OPTIONS = (
+    {"discount": "0.9"},
+    {"discount": "0.6", "window_weight": "0"},
+    {"discount": "0.9", "window_weight": "0.5", "interference": "strict"},
+    {"discount": "1", "max_window": 2},
+    {"discount": "0.9", "suffix": "subplan"},
+    {"discount": "0.9", "ties": "optimistic"},
+)
+
+
+@pytest.fixture(scope="module")
+def buildings(tmp_path_factory):
+    """Buildings in which two or three robots can help, some with cycles."""
+    tasks = []
+    for seed, rooms, robots in ((4, 12, 2), (12, 14, 2), (39, 11, 2), (5, 20, 3), (23, 13, 3), (31, 16, 2)):
+        folder = tmp_path_factory.mktemp("building") / "task"
+        serendipity.generate_usar(
+            folder, rooms=rooms, medkits=2, robots=robots, seed=seed, extra_edges=seed % 3
+        )
+        tasks.append(serendipity.load(folder))
+    return tasks
+
+
+def test_answers_are_those_of_a_search_that_walks_step_by_step(buildings, monkeypatch):
+    folded = [serendipity.plan(task, **options) for task, options in product(buildings, OPTIONS)]
+    monkeypatch.setattr(Tables, "walks", _step_by_step)
+    stepwise = [serendipity.plan(task, **options) for task, options in product(buildings, OPTIONS)]
+    for one, other in zip(folded, stepwise, strict=True):
+        assert (one.objective, one.cost, one.window) == (other.objective, other.cost, other.window)
+        assert len(one.plan) == len(other.plan)
+    assert sum(answer.opportunity for answer in folded) >= 6
+    assert any(answer.opportunity and answer.window is not None for answer in folded)
+
+
+def test_plans_get_their_walks_back(buildings):
+    for task, options in product(buildings, OPTIONS):
+        answer = serendipity.plan(task, **options)
+        verdicts = {claim.claim: claim.verdict for claim in serendipity.check(task, answer).claims}
+        assert "refuted" not in verdicts.values(), verdicts
+        assert verdicts["replay"] == "proved"
+
+
+def test_walks_are_left_out_only_where_nobody_else_minds(buildings):
+    assert all(_foldable(task) for task in buildings)
+    walk = {"go r a b": "at-a -> at-b !at-a", "go r b a": "at-b -> at-a !at-b"}
+    deed = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
+    base = {"init": "at-a", "goal": "done"}
+    assert _foldable(builders.task(**base, actions=walk | deed))
+    # The human minds where the robot is; the robot works from anywhere.
+    assert not _foldable(builders.task(**base, actions=walk | deed | {"do h": "open at-a -> done @ 2"}))
+    assert not _foldable(builders.task(**base, actions=walk | deed | {"open r b": "-> open"}))
+    # Ways of different cost: the dear one might be the shorter one.
+    assert not _foldable(builders.task(**base, actions=walk | deed | {"go r b a": "at-b -> at-a !at-b @ 2"}))
+
+
+def test_what_else_a_move_changes_makes_it_a_deed():
+    moves = {"go r a b": "at-a -> at-b !at-a", "go r b a": "at-b -> at-a !at-b !open"}
+    deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
+    task = builders.task(init="at-a", goal="done", actions=moves | deeds)
+    packed = encoding(task, Clock())
+    walks = Walks(packed, Clock())
+    a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
+    assert walks.foldable
+    assert walks.distance(0, a, b) == 1
+    assert walks.distance(0, b, a) == -1
+
+
+def _step_by_step(tables, plan):
+    """In place of ``Tables.walks``: none that can be folded."""
+
+
+def _foldable(task):
+    return Walks(encoding(task, Clock()), Clock()).foldable
