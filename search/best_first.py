@@ -5,12 +5,15 @@ start and length at once, so the first proof is already the answer of SPEC 3.1.
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
 from typing import NamedTuple, Protocol
 
 from search.clock import Clock
+
+_PATIENCE = 1.25
+"""Reports of the bound are this factor apart in time: a few dozen in all."""
 
 
 class Node(NamedTuple):
@@ -59,7 +62,17 @@ class Progress:
     expanded: int = 0
     generated: int = 0
     finished: bool = False
-    improved: list[int] = field(default_factory=list)
+    told: int = 0
+    """The bound when it was last reported."""
+    told_at: float = 0.01
+    """Seconds by the clock when it was; short searches don't report theirs."""
+
+    def due(self, clock: Clock) -> bool:
+        """Whether the bound has risen, and long enough after it was last reported."""
+        if self.bound <= self.told or (now := clock.elapsed()) < _PATIENCE * self.told_at:
+            return False
+        self.told, self.told_at = self.bound, now
+        return True
 
 
 class Space(Protocol):
@@ -75,11 +88,10 @@ class Space(Protocol):
         """Bounded successors; complete plans met on the way are offered to ``best``."""
 
 
-_CHECK_EVERY = 16
-
-
 def best_first(space: Space, best: Incumbent, progress: Progress, clock: Clock) -> Iterator[Incumbent]:
-    """Yield each better incumbent; on return ``best`` is optimal and the bound is its key.
+    """Yield each better incumbent, and now and then the same one where the bound has risen.
+
+    On return ``best`` is optimal and the bound is its key.
 
     Raises:
         OutOfTimeError: the clock ran out; ``best`` and ``progress.bound`` hold what is known.
@@ -94,14 +106,14 @@ def best_first(space: Space, best: Incumbent, progress: Progress, clock: Clock) 
         progress.bound = max(progress.bound, bound)
         if not space.alive(node):
             continue
-        if not progress.expanded % _CHECK_EVERY:
-            clock.check()
+        clock.check()
         progress.expanded += 1
         for child_bound, child in space.expand(node, best):
+            clock.tick()
             progress.generated += 1
             if child_bound < best.key:
                 heappush(queue, (child_bound, -next(tie), child))
-        if best.key < known:
+        if best.key < known or progress.due(clock):
             known = best.key
             yield best
     progress.bound = best.key

@@ -131,6 +131,7 @@ class _Call:
         try:
             self._leave_alone()
             self._improve_alone()
+            self.progress.bound = self._least()
             if self._answer().key < INFINITE_KEY:
                 yield self._outcome("feasible")
             if self.epochs != 0 or self._answer().key == INFINITE_KEY:
@@ -174,6 +175,11 @@ class _Call:
         if self.baseline.key == INFINITE_KEY:
             return 0
         return self.keys.epoch_weight + self.keys.of_start(len(self.plan), self.epochs)
+
+    def _least(self) -> int:
+        """A first bound, before there is any of the robots: what the human has to do himself."""
+        window = self.keys.epoch_weight if self._window_of_nothing() else 0
+        return self.tables.bound(self.tables.encoding.init) + window
 
     def _improve_alone(self) -> None:
         """A given plan may not be optimal: what the human gains by himself (SPEC 1)."""

@@ -20,7 +20,8 @@ class Corridor:
         totals: least total by the need of the first touch.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
         self.without = INFINITE_KEY
         self.totals: dict[int, int] = {}
         self._before: dict[int, list[tuple[int, int]]] = {}
@@ -38,7 +39,7 @@ class Corridor:
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        return backward(self._entries.get(need, ()), self._before)
+        return backward(self._entries.get(need, ()), self._before, self._clock)
 
 
 class Ways:
@@ -80,7 +81,7 @@ class Ways:
             sources: what has been spent, and where he is then (a packed state).
             limit: what costs as much or more is left out.
         """
-        found = Corridor()
+        found = Corridor(self._clock)
         bound, weights = self._bound.distances, self._weights
         queue = [(spent, state & self._touches.mask) for spent, state in sources]
         heapify(queue)
@@ -116,12 +117,12 @@ class Ways:
         """Least key to the goal without a touch, by projected state."""
         self._prepare()
         goals = [(0, at) for at, rest in self._bound.distances.items() if rest == 0]
-        return backward(goals, self._before)
+        return backward(goals, self._before, self._clock)
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
         self._prepare()
-        return backward(self._entries.get(need, ()), self._before)
+        return backward(self._entries.get(need, ()), self._before, self._clock)
 
     def _prepare(self) -> None:
         """Moves backward, and where touches of each need are possible, with the key from there."""
@@ -139,7 +140,9 @@ class Ways:
                     self._entries.setdefault(op.touch, []).append(entry)
 
 
-def backward(sources: Iterable[tuple[int, int]], before: dict[int, list[tuple[int, int]]]) -> dict[int, int]:
+def backward(
+    sources: Iterable[tuple[int, int]], before: dict[int, list[tuple[int, int]]], clock: Clock
+) -> dict[int, int]:
     """Dijkstra against the direction of moves."""
     queue = list(sources)
     heapify(queue)
@@ -148,6 +151,7 @@ def backward(sources: Iterable[tuple[int, int]], before: dict[int, list[tuple[in
         cost, at = heappop(queue)
         if at in found:
             continue
+        clock.tick()
         found[at] = cost
         for weight, earlier in before.get(at, ()):
             if earlier not in found:

@@ -1,7 +1,7 @@
 """The facade over the search: options in, results out, incumbents on the way."""
 
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import partial
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from search import Clock, Outcome, OutOfTimeError, optimal_human_plans, solve
 from search.simulation import solve_for_human
+from serendipity.gap import Gap, news
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options
@@ -21,9 +22,9 @@ from serendipity.simulation import realised
 if TYPE_CHECKING:
     from serendipity.goals import GoalsGiven, ObservedGiven
 
-_VERDICT_SECONDS: Final = 0.02
-_VERDICT_SHARE: Final = 0.1
-"""Time for the verdict on humans who replan: seconds at least, and a share of the time limit."""
+_VERDICT_SECONDS: Final = 0.003
+_VERDICT_SHARE: Final = 0.08
+"""What the verdict on humans who replan may add to the time limit: seconds, and a share of it."""
 
 
 def plan(
@@ -105,8 +106,10 @@ class _Call:
         )
 
     def last(self, human_plan: HumanPlan | None) -> Result:
-        *_, outcome = self.outcomes(human_plan)
-        return _to_result(self, outcome)
+        gap = Gap(self.clock)
+        for outcome in news(self.outcomes(human_plan)):
+            gap.record(outcome)
+        return _to_result(self, outcome, gap.known())
 
 
 def _answers(
@@ -131,8 +134,10 @@ def _answers(
     if chosen.ties != "fixed" and given is None and _depends_on_ties(chosen):
         yield partial(_over_ties, call)
         return
-    for outcome in call.outcomes(given):
-        yield partial(_to_result, call, outcome)
+    gap = Gap(clock)
+    for outcome in news(call.outcomes(given)):
+        gap.record(outcome)
+        yield partial(_to_result, call, outcome, gap.known())
 
 
 def _assistance(task: Task, options: Options, clock: Clock) -> Iterator[Callable[[], Result]]:
@@ -228,8 +233,8 @@ def _mean(answers: list[Result]) -> Result:
     )
 
 
-def _to_result(call: _Call, outcome: Outcome) -> Result:
-    """An outcome of the search in the form that callers see."""
+def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | None]] = ()) -> Result:
+    """An outcome of the search in the form that callers see, with the gap over time."""
     task, options = call.task, call.options
     steps = None if outcome.steps is None else tuple(_step(task, options, step) for step in outcome.steps)
     human_plan = outcome.human_plan
@@ -256,6 +261,7 @@ def _to_result(call: _Call, outcome: Outcome) -> Result:
             "elapsed_seconds": call.clock.elapsed(),
             "expanded": outcome.expanded,
             "generated": outcome.generated,
+            "gap": list(gap),
         },
     )
 
@@ -263,7 +269,7 @@ def _to_result(call: _Call, outcome: Outcome) -> Result:
 def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
     """The verdicts of SPEC 6; none without a plan.
 
-    They have a little time of their own, so that an answer at the time limit has them too.
+    They may go a little beyond the time limit, so that an answer at the limit has them too.
     """
     if outcome.steps is None or outcome.cost is None:
         return {}
@@ -277,10 +283,14 @@ def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
             cost=outcome.cost,
             horizon=outcome.horizon,
             visible=call.visible,
-            clock=Clock(None if limit is None else max(_VERDICT_SECONDS, _VERDICT_SHARE * limit)),
+            clock=Clock(None if limit is None else _left_for_verdict(limit, call.clock)),
         )
     except OutOfTimeError:
         return {}
+
+
+def _left_for_verdict(limit: float, clock: Clock) -> float:
+    return (1 + _VERDICT_SHARE) * limit + _VERDICT_SECONDS - clock.elapsed()
 
 
 def _saving(outcome: Outcome) -> Fraction | None:
