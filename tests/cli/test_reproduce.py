@@ -108,5 +108,4 @@ def test_a_single_task_is_not_a_folder_of_tasks(run: Runs, suite: Path) -> None:
 
 
 def test_no_scheduler(run: Runs, suite: Path) -> None:
-    pytest.importorskip("distributed", reason="needs the extra serendipity[dask]")
     assert_one_line(run(f"reproduce suite {SHORT} --dask nonsense://x"), "--dask", "nonsense://x")

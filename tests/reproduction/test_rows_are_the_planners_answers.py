@@ -47,7 +47,6 @@ def test_processes_give_the_same_rows(suite: Path, run: Reproduction) -> None:
 
 
 def test_a_dask_cluster_gives_the_same_rows(suite: Path, run: Reproduction) -> None:
-    pytest.importorskip("distributed", reason="needs the extra serendipity[dask]")
     again = reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=1, dask="local")
     assert without_times(again) == without_times(run)
 
