@@ -18,6 +18,7 @@ from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 from search.clock import Clock
 from serendipity.model.actions import Condition, GroundAction, conflicting
+from serendipity.model.collection import no_collection
 from serendipity.model.task import Task
 
 T = TypeVar("T")
@@ -131,6 +132,10 @@ class Encoding:
         self.task = task
         self.human_bit = 1 << task.human
         self._agents: dict[tuple[int, ...], int] = {}
+        with no_collection():
+            self._build(task, extra, clock)
+
+    def _build(self, task: Task, extra: frozenset[int], clock: Clock) -> None:
         relevant, useful = _relevant(task, extra, clock)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)

@@ -1,14 +1,13 @@
 """United files to a task: ground once, prune, number the facts."""
 
-import gc
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 from operator import attrgetter
 
 from serendipity.model import Condition, GroundAction, InputError, Task
+from serendipity.model.collection import no_collection
 from serendipity.pddl.instantiate import FactTable, Instantiator, Participants, Record
 from serendipity.pddl.join import Relations
 from serendipity.pddl.lifted import EQUALITY, Key, Literal, Schema, Unit
@@ -60,20 +59,8 @@ def assemble(blueprint: Blueprint) -> Task:
     Raises:
         InputError: costs, goals or conditions that are not supported.
     """
-    with _no_collection():
+    with no_collection():  # grounding makes many tuples
         return _assemble(blueprint)
-
-
-@contextmanager
-def _no_collection() -> Iterator[None]:
-    """No garbage collection: grounding makes many tuples and no cycles."""
-    enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if enabled:
-            gc.enable()
 
 
 def _assemble(blueprint: Blueprint) -> Task:
