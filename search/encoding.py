@@ -216,11 +216,9 @@ class Encoding:
     @cached_property
     def own_mask(self) -> int:
         """The fields that what the human does alone asks for or sets."""
-        mask = self.changed_by(self.own)
+        mask = 0
         for op in self.own:
-            mask |= op.need_mask
-            for field, _ in op.forbidden:
-                mask |= field
+            mask |= self.mentioned(op)
         return mask
 
     def derived(self, build: "Callable[Concatenate[Encoding, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
@@ -265,6 +263,13 @@ class Encoding:
             answer = not conflicting(actions[first], actions[second], strict=strict)
             self._compatible[key] = answer
         return answer
+
+    def mentioned(self, op: Op) -> int:
+        """The fields that an op asks for or sets."""
+        mask = op.need_mask | self.all_ones & ~op.keep
+        for field, _ in op.forbidden:
+            mask |= field
+        return mask
 
     def changed_by(self, ops: Iterable[Op]) -> int:
         """The union of the fields that some of ``ops`` set."""

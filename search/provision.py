@@ -12,6 +12,7 @@ for; *label* - value of the field, team of the last op on it (0 at the start).
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from heapq import heappop, heappush
 from typing import TypeVar
 
@@ -31,7 +32,14 @@ Edge = tuple[int, Spot]
 
 
 class Places:
-    """The place field of each robot, and what moves it; kept with the packed task."""
+    """The place field of each robot, and what moves it; kept with the packed task.
+
+    Attributes:
+        field: per robot's bit its place field, 0 where it has none.
+        moves: per robot and place, -1 for anywhere, what sets its place: the place, and the op.
+        walks: the same with the index of the op's cost.
+        walkers: the actions of all moves.
+    """
 
     def __init__(self, encoding: Encoding, clock: Clock) -> None:
         self.field: dict[int, int] = {}
@@ -56,6 +64,8 @@ class Places:
                     origin = op.need & field if op.need_mask & field else -1
                     moves.setdefault(origin, []).append((op.put & field, op))
             self.moves[bit] = moves
+        self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
+        self.walkers = {op.action for moves in self.moves.values() for ops in moves.values() for _, op in ops}
 
 
 class Acts:
@@ -67,17 +77,14 @@ class Acts:
             place, and the index of the cost.  Walks that are possible anywhere stand under -1.
     """
 
-    def __init__(self, encoding: Encoding, field: int, clock: Clock) -> None:
-        values = encoding.values(field)
-        places = encoding.derived(Places, clock)
-        self.on = _by_value(field, _mentioning(field, encoding.others, clock), values)
+    def __init__(self, field: int, values: Sequence[int], ops: Sequence[Op], places: Places) -> None:
+        self.on = _by_value(field, ops, values)
         self._places = places.field
         self._here: dict[tuple[int, int], dict[int, list[Op]]] = {}
-        self.walks: dict[int, dict[int, list[tuple[int, int]]]] = {}
-        for robot, moves in places.moves.items():
-            walks = self.walks[robot] = {}
-            for origin, ops in moves.items():
-                walks[origin] = [(there, op.cost) for there, op in ops if not _mentions(op, field)]
+        self.walks = places.walks
+        mentioning = {op.action for op in ops}
+        if not mentioning.isdisjoint(places.walkers):
+            self.walks = {robot: _walks(moves, mentioning) for robot, moves in places.moves.items()}
 
     def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
         """Where a robot can walk from a place, with the index of the cost."""
@@ -96,16 +103,27 @@ class Acts:
 
 
 class AllActs:
-    """:class:`Acts` by field, made when first asked for."""
+    """:class:`Acts` by field, made when first asked for; kept with the packed task."""
 
-    def __init__(self, encoding: Encoding) -> None:
+    def __init__(self, encoding: Encoding, clock: Clock) -> None:
         self._encoding = encoding
+        self._places = encoding.derived(Places, clock)
+        self._mentioning: dict[int, list[Op]] = {}
+        by_lowest_bit = {field & -field: field for field in encoding.fields}
+        for op in encoding.others:
+            clock.tick()
+            left = encoding.mentioned(op)
+            while left:
+                field = by_lowest_bit[left & -left]
+                self._mentioning.setdefault(field, []).append(op)
+                left &= ~field
         self._known: dict[int, Acts] = {}
 
-    def on(self, field: int, clock: Clock) -> Acts:
+    def on(self, field: int) -> Acts:
         """What robots' ops are to a field."""
         if field not in self._known:
-            self._known[field] = Acts(self._encoding, field, clock)
+            ops = self._mentioning.get(field, ())
+            self._known[field] = Acts(field, self._encoding.values(field), ops, self._places)
         return self._known[field]
 
 
@@ -136,7 +154,7 @@ class Provision:
         self._clock = clock
         self._initial = encoding.init
         self._encoding = encoding
-        self._acts = encoding.derived(AllActs).on(field, clock)
+        self._acts = encoding.derived(AllActs, clock).on(field)
         self._flips = _by_value(field, (op for op in flips if field & ~op.keep), encoding.values(field))
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
@@ -329,17 +347,12 @@ def _with_anywhere(by_place: dict[int, list[Item]], place: int) -> list[Item]:
     return known + anywhere if anywhere else known
 
 
-def _mentioning(field: int, ops: Iterable[Op], clock: Clock) -> Iterator[Op]:
-    for op in ops:
-        clock.tick()
-        if _mentions(op, field):
-            yield op
-
-
-def _mentions(op: Op, field: int) -> bool:
-    if (op.need_mask | ~op.keep) & field:
-        return True
-    return bool(op.forbidden) and any(f & field for f, _ in op.forbidden)
+def _walks(moves: dict[int, list[tuple[int, Op]]], but: AbstractSet[int]) -> dict[int, list[tuple[int, int]]]:
+    """Moves with the index of their cost, some actions left out."""
+    return {
+        origin: [(there, op.cost) for there, op in ops if op.action not in but]
+        for origin, ops in moves.items()
+    }
 
 
 def _by_value(field: int, ops: Iterable[Op], values: Sequence[int]) -> dict[int, list[Op]]:

@@ -66,7 +66,7 @@ class Touches:
     def is_touch(self, action: int) -> bool:
         """Whether an action of the human's is a touch."""
         op = self._encoding.op(action)
-        return op.agents != self._encoding.human_bit or bool(self._mentioned(op) & self.outside)
+        return op.agents != self._encoding.human_bit or bool(self._encoding.mentioned(op) & self.outside)
 
     def _look(self, index: OpIndex, value: int) -> list[Seen]:
         """The ops under a value of an index; under every value, if the field is not his own."""
@@ -79,15 +79,9 @@ class Touches:
     def _project(self, op: Op) -> Seen:
         mask = self.mask
         touch = -1
-        if op.agents != self._encoding.human_bit or self._mentioned(op) & self.outside:
+        if op.agents != self._encoding.human_bit or self._encoding.mentioned(op) & self.outside:
             need = Need(op.need_mask & self.outside, op.need & self.outside)
             touch = self._ids.setdefault(need, len(self.needs))
             if touch == len(self.needs):
                 self.needs.append(need)
         return Seen(op.need_mask & mask, op.need & mask, op.keep, op.put & mask, op.cost, touch)
-
-    def _mentioned(self, op: Op) -> int:
-        mentioned = op.need_mask | self._encoding.all_ones & ~op.keep
-        for field, _ in op.forbidden:
-            mentioned |= field
-        return mentioned

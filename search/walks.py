@@ -71,7 +71,7 @@ class Walks:
         packed = self._encoding
         joint: list[Deed] = []
         led: dict[int, list[Deed]] = {}
-        if (packed.goal.mask | packed.robot_goal.mask | _asked(packed.own)) & self.mask:
+        if (packed.goal.mask | packed.robot_goal.mask | packed.own_mask) & self.mask:
             return False
         own_facts = self._place_facts()
         for op in (*packed.joint, *packed.others):
@@ -134,7 +134,7 @@ class Walks:
 
     def touched_by(self, ops: Iterable[Op]) -> bool:
         """Whether some of the human's ops mention a robot's place."""
-        return bool(_asked(ops) & self.mask)
+        return any(self._encoding.mentioned(op) & self.mask for op in ops)
 
     def weights(self, weight: Callable[[Op], int]) -> list[int]:
         """Per slot the key increment of one step of a walk."""
@@ -301,13 +301,3 @@ class FoldedSuccessors(Successors):
                 found.append(Option(weight, keep, put, (op.action,), op.agents, tuple(due)))
         found.sort(key=lambda option: option.weight)
         return found
-
-
-def _asked(ops: Iterable[Op]) -> int:
-    """The fields that some ops mention."""
-    mask = 0
-    for op in ops:
-        mask |= op.need_mask | ~op.keep
-        for field, _ in op.forbidden:
-            mask |= field
-    return mask
