@@ -53,4 +53,6 @@ def _joint_closure(game: Game) -> Closure:
         for op in ops:
             condition = Goal(op.need_mask, op.need, op.forbidden)
             arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << shift))
-    return Closure(arcs, game.goal, game.encoding.fields, MAX_JOINT_STATES, game.clock)
+    fields = game.encoding.fields
+    values = [game.encoding.values(field) for field in fields]
+    return Closure(arcs, game.goal, fields, values, MAX_JOINT_STATES, game.clock)

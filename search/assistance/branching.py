@@ -155,5 +155,6 @@ class Branching:
             low = rule.costs(game, graph.low[state])
             if low is not None:
                 proof[state] = low
-        lower = graph.choice_value(game.init)
+        # Bounding the initial state takes time, too: there may be no bound yet.
+        lower = graph.low.get(game.init, rule.lift(0)) if not graph.final(game.init) else rule.lift(0)
         return Solution(rule.costs(game, lower), rule.costs(game, self._upper), policy, proof)

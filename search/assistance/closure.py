@@ -15,6 +15,7 @@ from search.encoding import Goal
 from search.keys import INFINITE_KEY
 
 if TYPE_CHECKING:
+    from search.assistance.ball import Ball
     from search.assistance.layers import Layers
 
 SMALL: Final = 3_000
@@ -52,22 +53,35 @@ class Closure:
         arcs: the transitions.
         goal: where the distance is 0 (and nothing goes on).
         fields: masks of the fields that a state consists of.
+        values: all values of each field.
         limit: most states of one closure.
         clock: asked for time.
     """
 
-    def __init__(self, arcs: list[Arc], goal: Goal, fields: Sequence[int], limit: int, clock: Clock) -> None:
+    def __init__(
+        self,
+        arcs: list[Arc],
+        goal: Goal,
+        fields: Sequence[int],
+        values: Sequence[Sequence[int]],
+        limit: int,
+        clock: Clock,
+    ) -> None:
         self._arcs = [arc for arc in arcs if arc.condition.need >= 0]
         self._goal = goal
         self._fields = fields
+        self._values = values
         self._limit = limit
         self._clock = clock
         self._known: dict[int, int] = {}
         self._by_field = _by_field(self._arcs, fields)
         self._layers: list[Layers] = []
+        self._balls: list[Ball] = []
 
-    def key(self, state: int) -> int:
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
+
+        At or above ``limit`` any value that is not above the distance.
 
         Raises:
             TooManyStatesError: its closure exceeds the limit.
@@ -80,8 +94,14 @@ class Closure:
             if distance is not None:
                 self._known[state] = distance
                 return distance
+        for ball in self._balls:
+            distance = ball.key(state, limit)
+            if distance is not None:
+                if distance < limit or distance >= INFINITE_KEY:
+                    self._known[state] = distance
+                return distance
         self._settle(state)
-        return self.key(state)
+        return self.key(state, limit)
 
     def _settle(self, start: int) -> None:
         predecessors: dict[int, list[tuple[int, int]]] = {start: []}
@@ -106,7 +126,7 @@ class Closure:
                         pending.append(after)
                     before.append((weight, state))
             if len(predecessors) > min(SMALL, self._limit):
-                self._settle_in_layers(start)
+                self._settle_many(start)
                 return
         self._spread(seeds, predecessors)
 
@@ -138,10 +158,16 @@ class Closure:
         for state in predecessors:
             self._known[state] = distances.get(state, INFINITE_KEY)
 
-    def _settle_in_layers(self, start: int) -> None:
-        # Loads numpy: only a task with a large closure pays for it.
+    def _settle_many(self, start: int) -> None:
+        # Load numpy: only a task with a large closure pays for it.
+        from search.assistance.ball import ball_around
         from search.assistance.layers import Layers
 
+        if not self._balls:
+            ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._clock)
+            if ball is not None:
+                self._balls.append(ball)
+                return
         self._layers.append(Layers(self._arcs, self._goal, self._fields, start, self._limit, self._clock))
 
 

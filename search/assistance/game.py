@@ -12,8 +12,9 @@ from math import lcm
 from typing import Final, NamedTuple
 
 from search.assistance.own import UNREACHABLE, OwnCosts
+from search.assistance.watched import Watched
 from search.clock import Clock
-from search.encoding import Encoding, Op, OpIndex, applicable, encoding
+from search.encoding import Encoding, Op, applicable, encoding
 from serendipity.model.actions import Condition
 from serendipity.model.errors import UsageError
 from serendipity.model.task import Task
@@ -60,7 +61,7 @@ class Game:
         self._scaled = [int(cost * self.scale) for cost in self.encoding.costs]
         robot = 1 << task.robots[0]
         self.supporter_ops = tuple(op for op in self.encoding.others if op.agents == robot)
-        self._supporter_index = OpIndex(self.supporter_ops, self.encoding.fields, clock)
+        self._supporter_index = Watched(self.supporter_ops, self.encoding.fields)
         self._prime_moves: dict[int, tuple[Move, ...]] = {}
 
     @cached_property

@@ -8,8 +8,9 @@ from typing import Final
 
 from search.alone import Alone
 from search.assistance.closure import Arc, Closure, TooManyStatesError
+from search.assistance.watched import Watched
 from search.clock import Clock
-from search.encoding import Encoding, Goal, Op, OpIndex, applicable
+from search.encoding import Encoding, Goal, Op, applicable
 from search.keys import INFINITE_KEY
 from search.projection import Projection
 
@@ -37,7 +38,7 @@ class OwnCosts:
         self._changed = encoding.changed_by(encoding.own)
         self._mask = encoding.own_mask | encoding.goal.mask
         self._tables: dict[int, Closure | None] = {}
-        self._index = OpIndex(sorted(encoding.own, key=lambda op: op.action), encoding.fields, clock)
+        self._index = Watched(sorted(encoding.own, key=lambda op: op.action), encoding.fields)
         self._single: Alone | None = None
         self._too_large = False
 
@@ -56,7 +57,7 @@ class OwnCosts:
             return UNREACHABLE
         if not self._too_large:
             try:
-                return table.key(state & self._changed)
+                return table.key(state & self._changed, limit)
             except TooManyStatesError:
                 self._too_large = True
         return self._search(state, limit)
@@ -67,7 +68,7 @@ class OwnCosts:
         if key >= UNREACHABLE:
             return []
         found = []
-        for op in sorted(self._index.candidates(state), key=lambda op: op.action):
+        for op in self._index.candidates(state):
             if applicable(op, state):
                 after = state & op.keep | op.put
                 rest = key - self._weights[op.cost]
@@ -87,7 +88,8 @@ class OwnCosts:
             if condition is not None:
                 arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))
         fields = [field for field in self._encoding.fields if field & changed]
-        return Closure(arcs, goal, fields, MAX_STATES, self._clock)
+        values = [self._encoding.values(field) for field in fields]
+        return Closure(arcs, goal, fields, values, MAX_STATES, self._clock)
 
     def _search(self, state: int, limit: int) -> int:
         if self._single is None:

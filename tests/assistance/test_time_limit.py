@@ -3,12 +3,17 @@
 from fractions import Fraction
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import serendipity
-from search import Clock
+from search import Clock, OutOfTimeError
+from search.assistance import assist, ball, bound, branching, closure, provision, shortest
 from search.assistance.game import Game
 from search.assistance.relaxed import joint_lower_bound, upper_bound_alone
+from serendipity.model import Options, Task
 from tests.assistance.oracle import by_rounds, explore
+from tests.assistance.strategies import games
 from tests.builders import task
 from tests.cases import case_5, case_6
 
@@ -26,6 +31,46 @@ def test_no_time_leaves_doing_nothing(case, ties: str) -> None:
     assert lower <= proved <= upper == (2, 0)
     assert result.status == ("optimal" if lower == upper else "feasible")
     assert (result.lower_bound < result.objective) == (result.status == "feasible")
+
+
+class Hourglass(Clock):
+    """Has time for so many questions."""
+
+    def __init__(self, questions: int) -> None:
+        super().__init__()
+        self._left = questions
+
+    def check(self) -> None:
+        """See :class:`Clock`."""
+        self._left -= 1
+        if self._left < 0:
+            raise OutOfTimeError
+
+    def tick(self) -> None:
+        """See :class:`Clock`; every question counts."""
+        self.check()
+
+
+@pytest.mark.parametrize("ties", TIES)
+@given(game=games(), questions=st.integers(0, 60), tables=st.booleans())
+def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: int, tables: bool) -> None:
+    """Also where it is up while the first bound is worked out."""
+    options = Options(mode="assistance", ties=ties)
+    *_, full = assist(game, options, Clock())
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (closure, provision, branching, shortest):
+            for name in ("_CHECK_EVERY", "SMALL"):
+                if hasattr(module, name):
+                    patch.setattr(module, name, 1)
+        if not tables:
+            patch.setattr(ball, "MAX_BITS", -1)
+            patch.setattr(bound, "MAX_JOINT_STATES", 0)
+        *_, answer = assist(game, options, Hourglass(questions))
+    if answer.status in ("optimal", "infeasible"):
+        assert (answer.status, answer.upper) == (full.status, full.upper)
+    elif full.upper is not None:
+        assert answer.lower <= full.upper
+        assert answer.upper is None or full.upper <= answer.upper
 
 
 def test_no_time_and_no_plan_alone_is_unknown() -> None:

@@ -1,0 +1,90 @@
+"""What arrays say of many states is what is found state by state, and by brute force."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from search import Clock
+from search.assistance import closure
+from search.assistance.ball import ball_around
+from search.assistance.closure import Arc, Closure
+from search.encoding import Goal
+from search.keys import INFINITE_KEY
+from serendipity.model import Task
+from tests.assistance.oracle import by_rounds, explore, mean_over_all_policies
+from tests.assistance.strategies import games
+from tests.assistance.test_search_equals_brute_force import solve
+
+
+@contextmanager
+def everything_is_large() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(closure, "SMALL", 0)
+        yield
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust"])
+@given(task=games(), no_block=st.booleans())
+def test_values_do_not_depend_on_the_tables(ties: str, task: Task, no_block: bool) -> None:
+    tree = explore(task, fixed=ties == "fixed", no_block=no_block)
+    with everything_is_large():
+        assert solve(task, ties, no_block=no_block) == by_rounds(tree, max if ties == "robust" else min)
+
+
+@given(task=games())
+def test_expected_value_does_not_depend_on_the_tables(task: Task) -> None:
+    with everything_is_large():
+        answer = solve(task, "expected")
+    least = mean_over_all_policies(explore(task, fixed=False, no_block=False), 400)
+    if least != "too many":
+        assert answer == least
+
+
+FIELDS = [0b11, 0b100, 0b1000, 0b110000]
+VALUES = [[0, 1, 2, 3], [0, 4], [0, 8], [0, 16, 32]]
+
+
+@st.composite
+def systems(draw: st.DrawFn) -> tuple[list[Arc], Goal]:
+    """Arcs over four fields, some of which change together; no step is free."""
+
+    def condition() -> Goal:
+        chosen = draw(st.lists(st.integers(0, 3), max_size=2, unique=True))
+        need = sum(draw(st.sampled_from(VALUES[i])) for i in chosen)
+        barred = [i for i in range(4) if i not in chosen and draw(st.integers(0, 5)) == 0]
+        forbidden = tuple((FIELDS[i], draw(st.sampled_from(VALUES[i]))) for i in barred)
+        return Goal(sum(FIELDS[i] for i in chosen), need, forbidden)
+
+    def arc() -> Arc:
+        changed = draw(st.lists(st.integers(0, 3), min_size=1, max_size=2, unique=True))
+        put = sum(draw(st.sampled_from(VALUES[i])) for i in changed)
+        keep = 0b111111 & ~sum(FIELDS[i] for i in changed)
+        cost = draw(st.sampled_from([0, 1, 1, 2]))
+        return Arc(condition(), keep, put, (cost << 24) + draw(st.integers(1, 2)))
+
+    return [arc() for _ in range(draw(st.integers(1, 8)))], condition()
+
+
+@given(system=systems(), start=st.tuples(*map(st.sampled_from, VALUES)).map(sum), limit=st.integers(0, 6))
+def test_ball_knows_the_distance_of_every_state_in_reach(
+    system: tuple[list[Arc], Goal], start: int, limit: int
+) -> None:
+    arcs, goal = system
+    known = Closure(arcs, goal, FIELDS, VALUES, 1000, Clock())
+    ball = ball_around(arcs, goal, FIELDS, VALUES, start, Clock())
+    assert ball is not None
+    pending, seen = [start], {start}
+    while pending:
+        state = pending.pop()
+        distance = known.key(state)
+        rough = ball.key(state, limit << 24)
+        assert rough == distance if distance < limit << 24 else limit << 24 <= rough <= distance
+        assert ball.key(state, INFINITE_KEY) == distance
+        for arc in arcs:
+            after = state & arc.keep | arc.put
+            if arc.condition.holds(state) and after not in seen:
+                seen.add(after)
+                pending.append(after)

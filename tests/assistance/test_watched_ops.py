@@ -1,0 +1,26 @@
+"""Looking ops up finds all that are applicable, in their order."""
+
+from hypothesis import given
+
+from search import Clock
+from search.assistance.watched import Watched
+from search.encoding import applicable, encoding
+from serendipity.model import Task
+from tests.assistance.strategies import games
+
+
+@given(task=games())
+def test_every_applicable_op_is_a_candidate(task: Task) -> None:
+    packed = encoding(task, Clock())
+    ops = packed.own + packed.others
+    watched = Watched(ops, packed.fields)
+    pending, seen = [packed.init], {packed.init}
+    while pending:
+        state = pending.pop()
+        expected = [op for op in ops if applicable(op, state)]
+        assert [op for op in watched.candidates(state) if applicable(op, state)] == expected
+        for op in expected:
+            after = state & op.keep | op.put
+            if after not in seen:
+                seen.add(after)
+                pending.append(after)
