@@ -6,14 +6,13 @@ else changes stay variables, of which he always knows the truth; every other fac
 a bit by itself.
 """
 
-from dataclasses import fields
-from functools import cached_property
-from typing import Any, Protocol
+from dataclasses import replace
+from typing import Protocol
 
 from search.clock import Clock
 from search.encoding import Encoding
 from serendipity.model.task import Task
-from serendipity.model.variables import Variable, find_variables
+from serendipity.model.variables import Variable
 from serendipity.model.visibility import Surroundings, Visible, surroundings
 
 
@@ -93,23 +92,6 @@ class AsTold:
         return seen
 
 
-class Doubtful(Task):
-    """A task seen by somebody who may be wrong about everything that others change."""
-
-    @cached_property
-    def variables(self) -> tuple[Variable, ...]:
-        """The human's private variables; every other fact by itself."""
-        robots = [a for a in self.actions if self.human not in a.participants]
-        shared = {f for action in robots for f in (*action.add, *action.delete)}
-        found = []
-        for variable in find_variables(len(self.facts), self.init, self.actions):
-            if shared.isdisjoint(variable.facts):
-                found.append(variable)
-            else:
-                found += [Variable((fact,)) for fact in variable.facts]
-        return tuple(sorted(found, key=lambda variable: variable.facts))
-
-
 def doubtful_encoding(task: Task, extra: frozenset[int], clock: Clock) -> Encoding:
     """The task packed for a human who may be wrong, location facts included.
 
@@ -136,9 +118,22 @@ def _complete(task: Task, clock: Clock) -> Encoding:
     return Encoding(_doubted(task), frozenset(range(len(task.facts))), clock)
 
 
-def _doubted(task: Task) -> Doubtful:
-    values: dict[str, Any] = {field.name: getattr(task, field.name) for field in fields(Task)}
-    return Doubtful(**values)
+def _doubted(task: Task) -> Task:
+    """The task for somebody who may be wrong about everything that others change.
+
+    His own variables stay; every other fact is one by itself.
+    """
+    robots = [a for a in task.actions if task.human not in a.participants]
+    shared = {f for action in robots for f in (*action.add, *action.delete)}
+    found: list[Variable] = []
+    for variable in task.variables:  # which take long to find: they are not looked for again
+        if shared.isdisjoint(variable.facts):
+            found.append(variable)
+        else:
+            found += [Variable((fact,)) for fact in variable.facts]
+    doubted = replace(task)
+    doubted.__dict__["variables"] = tuple(sorted(found, key=lambda variable: variable.facts))
+    return doubted
 
 
 def _naming(encoding: Encoding, places: Surroundings) -> dict[str, int]:
