@@ -9,6 +9,7 @@ from search.clock import Clock, OutOfTimeError
 from search.encoding import prepare
 from search.outcome import Outcome
 from search.planner import optimal_human_plan, optimal_human_plans, solve
+from search.tied import least_over_ties
 
 __all__ = [
     "Clock",
@@ -16,6 +17,7 @@ __all__ = [
     "Outcome",
     "PlanGraph",
     "at_state",
+    "least_over_ties",
     "optimal_human_plan",
     "optimal_human_plans",
     "prepare",

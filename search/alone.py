@@ -56,6 +56,15 @@ class PlanGraph:
                 yield tuple(path)
                 path.pop()
 
+    def layers(self) -> list[set[int]]:
+        """Per step the actions that some optimal plan does then."""
+        found: list[set[int]] = []
+        layer = {self._start}
+        while steps := [step for state in layer for step in self._edges.get(state, ())]:
+            found.append({action for action, _ in steps})
+            layer = {after for _, after in steps}
+        return found
+
     def count(self) -> int:
         """How many there are, without listing them."""
         counts: dict[int, int] = {}

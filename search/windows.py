@@ -60,23 +60,23 @@ def window_space(
         bounds=Bounds(tables.bound, tables.steps, untouched, tables.touches),
         prefix=prefix,
         suffix=suffix_rule(tables, plan),
-        labels=Labels(_no_worse(tables.keys, options, most_cost)),
+        labels=Labels(no_worse(tables.keys, options, most_cost)),
     )
 
 
-def _no_worse(keys: Keys, options: Options, most_cost: int | None) -> Callable[[int, int], bool] | None:
+def no_worse(keys: Keys, options: Options, most_cost: int | None) -> Callable[[int, int], bool] | None:
     """What else the first key must not be worse in, to dominate the second."""
     if most_cost is None and options.max_window is None and options.preservation == "kernel":
         return None
 
-    def no_worse(a: int, b: int) -> bool:
+    def compared(a: int, b: int) -> bool:
         return (
             keys.scaled_cost(a) <= keys.scaled_cost(b)
             and keys.length(a) <= keys.length(b)
             and keys.start_field(a) >= keys.start_field(b)
         )
 
-    return no_worse
+    return compared
 
 
 def bounds_along(

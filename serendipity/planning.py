@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
-from search import Clock, Outcome, OutOfTimeError, optimal_human_plans, solve
+from search import Clock, Outcome, OutOfTimeError, least_over_ties, optimal_human_plans, solve
 from search.simulation import solve_for_human
 from serendipity.gap import Gap, news
 from serendipity.model.errors import UsageError
@@ -18,6 +18,7 @@ from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
 from serendipity.model.visibility import Visible
 from serendipity.simulation import realised
+from serendipity.ties import combined, until_settled
 
 if TYPE_CHECKING:
     from serendipity.goals import GoalsGiven, ObservedGiven
@@ -184,53 +185,15 @@ def _over_ties(call: _Call) -> Result:
             f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
             "raise max_ties, or use ties 'fixed'"
         )
-    answers = [call.last(human_plan) for human_plan in graph.plans()]
-    ties = [
-        {
-            "human_plan": list(answer.human_plan or ()),
-            "cost": answer.cost,
-            "opportunity": answer.opportunity,
-            "realised": answer.realised,
-        }
-        for answer in answers
-    ]
-    chosen = _mean(answers) if options.ties == "expected" else _extreme(answers, options.ties)
-    statistics = {**chosen.statistics, "elapsed_seconds": call.clock.elapsed(), "ties": ties}
-    return replace(chosen, statistics=statistics)
-
-
-def _extreme(answers: list[Result], ties: str) -> Result:
-    """The answer of least (optimistic) or greatest (robust) cost; the first of equals."""
-    sign = 1 if ties == "optimistic" else -1
-    costs = [None if answer.cost is None else Fraction(str(answer.cost)) * sign for answer in answers]
-    if None in costs:
-        return answers[costs.index(None)]
-    return answers[min(range(len(answers)), key=lambda i: (costs[i], i))]
-
-
-def _mean(answers: list[Result]) -> Result:
-    """The expected answer: means of the figures, no single plan."""
-    first = answers[0]
-    if any(answer.status != "optimal" for answer in answers):
-        return next(answer for answer in answers if answer.status != "optimal")
-    if len(answers) == 1:
-        return first
-
-    def mean(name: str) -> float:
-        return float(sum(Fraction(str(getattr(answer, name) or 0)) for answer in answers) / len(answers))
-
-    return replace(
-        first,
-        opportunity=any(answer.opportunity for answer in answers),
-        cost=mean("cost"),
-        saving=mean("saving"),
-        objective=mean("objective"),
-        lower_bound=mean("lower_bound"),
-        window=None,
-        plan=None,
-        agent_costs={},
-        realised={},
+    answers = until_settled(
+        map(call.last, graph.plans()),
+        options.ties,
+        bounded=not call.task.robot_goal,
+        least=lambda: _float(least_over_ties(call.task, options, graph, call.clock)),
     )
+    result = combined(list(answers), options.ties)
+    measured = {"elapsed_seconds": call.clock.elapsed(), "optimal_plans": count}
+    return replace(result, statistics={**result.statistics, **measured})
 
 
 def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | None]] = ()) -> Result:

@@ -1,6 +1,6 @@
 """Certificates: every claim of a result, proved, refuted, undecided or out of scope."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from time import perf_counter
 
@@ -273,11 +273,11 @@ class _Certifier:
         except UsageError as error:
             verdict, reason = "refuted", str(error)
         else:
-            verdict, reason = _compare(costs, self.result)
+            verdict, reason = _compare(tied, costs, self.result)
         return Claim(name, verdict, reason, seconds=perf_counter() - started)
 
 
-def _compare(costs: list[Fraction | None], result: Result) -> tuple[str, str]:
+def _compare(tied: Sequence[Call], costs: Sequence[Fraction | None], result: Result) -> tuple[str, str]:
     known = [cost for cost in costs if cost is not None]
     if len(known) < len(costs):
         right = result.cost is None
@@ -290,8 +290,14 @@ def _compare(costs: list[Fraction | None], result: Result) -> tuple[str, str]:
     words = f"the {ties} cost over {len(known)} optimal plans of the human is {float(expected):.12g}"
     if result.cost != float(expected):
         return "refuted", words
+    by_plan = {
+        tuple(call.task.actions[i].name for i in call.human_plan or ()): float(cost)
+        for call, cost in zip(tied, known, strict=True)
+    }
     listed = result.statistics["ties"]
-    said = sorted(entry["cost"] for entry in listed) if isinstance(listed, list) else []
-    if said != sorted(map(float, known)):
+    said = (
+        [(tuple(entry["human_plan"]), entry["cost"]) for entry in listed] if isinstance(listed, list) else []
+    )
+    if not said or any(by_plan.get(plan) != cost for plan, cost in said):
         return "refuted", f"{words}, but the answers listed are others"
     return "proved", words

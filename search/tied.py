@@ -1,0 +1,105 @@
+"""What no answer costs less than, whichever optimal plan the human follows (SPEC 1).
+
+All his optimal plans are as long and cost as much, so one search does for them: before the
+window he does, in each epoch, anything that some optimal plan does then.  That allows at least
+what each plan allows.  A window of n epochs is answered only if it saves at least (n - 1) K.
+"""
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+from search.alone import PlanGraph
+from search.best_first import Incumbent, Progress, best_first
+from search.clock import Clock, OutOfTimeError
+from search.encoding import Op, applicable
+from search.help import Bounds, no_bound
+from search.keys import Keys
+from search.labels import Labels
+from search.planner import solve
+from search.projection import Projection
+from search.successors import Idle, Option
+from search.tables import Tables
+from search.windowed import Windowed
+from search.windows import no_worse, suffix_rule
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan, Task
+
+
+def least_over_ties(task: Task, options: Options, graph: PlanGraph, clock: Clock) -> Fraction | None:
+    """A lower bound on the cost of the answers to all of his optimal plans; None if time is up.
+
+    Args:
+        task: the task; robots have no goals of their own.
+        options: of the call, in mode ``serendipity`` or ``communication``.
+        graph: his optimal plans from the initial state.
+        clock: deadline and cancellation.
+    """
+    plan = graph.canonical()
+    horizon = options.horizon if isinstance(options.horizon, int) else len(plan)
+    replans = options.suffix == "replan" and options.preservation == "kernel"
+    try:
+        if options.mode == "serendipity" and options.human_model == "omniscient" and replans and plan:
+            return _by_windows(task, options, graph, plan, horizon, clock)
+    except OutOfTimeError:
+        return None
+    told = Options(
+        mode="communication",
+        discount=options.discount,
+        horizon=horizon,
+        interference=options.interference,
+    )
+    *_, outcome = solve(task, told, clock=clock)
+    return outcome.cost if outcome.status == "optimal" else None
+
+
+def _by_windows(
+    task: Task, options: Options, graph: PlanGraph, plan: HumanPlan, horizon: int, clock: Clock
+) -> Fraction:
+    most = horizon if options.max_window is None else options.max_window
+    if options.window_weight:
+        most = min(most, int(task.cost_of(plan) / options.window_weight) + 1)
+    free = options.but(window_weight=0, max_window=most, max_cost=None)
+    tables = Tables(task, free, clock)
+    steps = [tables.followed(tuple(sorted(layer))) for layer in graph.layers()]
+    space = Windowed(
+        initial=tables.encoding.init,
+        idle=(),
+        horizon=horizon,
+        max_window=most,
+        most_cost=None,
+        keys=tables.keys,
+        successors=tables.successors(),
+        bounds=Bounds(tables.bound, tables.steps, no_bound, tables.touches),
+        prefix=_AnyOptimal(steps, tables.bound, tables.keys, horizon),
+        suffix=suffix_rule(tables, plan),
+        labels=Labels(no_worse(tables.keys, free, None)),
+    )
+    best = Incumbent(sum(option.weight for _, option in tables.followed(plan)))
+    for _ in best_first(space, best, Progress(), clock):
+        pass
+    return tables.keys.cost(best.key)
+
+
+class _AnyOptimal:
+    """Rule 1 for all optimal plans at once; see :class:`search.windowed.Prefix`."""
+
+    def __init__(
+        self, steps: Sequence[Sequence[tuple[Op, Option]]], bound: Projection, keys: Keys, horizon: int
+    ) -> None:
+        self.last = len(steps)
+        self._steps = steps
+        self._bound = bound
+        self._keys = keys
+        self._horizon = horizon
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """What some optimal plan does in the epoch, where it is applicable."""
+        return [option for op, option in self._steps[epoch - 1] if applicable(op, state)]
+
+    def bound(self, epoch: int, state: int, idle: Idle) -> int:
+        """See :class:`search.windowed.Prefix`."""
+        return self._keys.of_start(self.last, self._horizon) + self._keys.epoch_weight + self._bound(state)
+
+    def opening(self, epoch: int, state: int, idle: Idle) -> int:
+        """See :class:`search.windowed.Prefix`."""
+        return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
