@@ -80,15 +80,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # names that the terminal can't show
     try:
-        return int(app(args=argv, prog_name="serendipity", standalone_mode=False) or 0)
+        code = int(app(args=argv, prog_name="serendipity", standalone_mode=False) or 0)
     except typer.TyperException as error:
         return _fail(error.format_message())
     except (SerendipityError, ImportError) as error:
         log.debug("the error came from here", exc_info=True)
         return _fail(str(error))
     except (typer.Abort, KeyboardInterrupt):
+        code = ExitCode.INTERRUPTED
+    if code == ExitCode.INTERRUPTED:  # typer may have turned Ctrl-C into this code
         sys.stderr.write("Interrupted.\n")
-        return ExitCode.INTERRUPTED
+    return code
 
 
 def _fail(message: str) -> int:

@@ -1,15 +1,19 @@
 """``serendipity crosscheck``: search, integer programs and certificates on the same calls."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
-from serendipity.cli import naming
+from serendipity.cli import naming, output, progress
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.model import UsageError
+
+_MODES: Final = ("individual", "serendipity", "communication", "composite")
+_DISCOUNTS: Final = ("0", "0.5", "0.9")
+"""What a task of the user's is called with."""
 
 
 def crosscheck(
@@ -27,8 +31,11 @@ def crosscheck(
     folder: Annotated[
         Path, typer.Option("-o", "--output", help="Where a disagreement is written.", metavar="DIR")
     ] = Path("disagreement"),
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
 ) -> int:
     """Check that independent methods agree: on random tasks, or on one task in every mode."""
+    output.start_logging(verbose)
     from serendipity.crosscheck import JUDGES, PlanCall, compare, random_call, shrink, write_case
 
     chosen = {}
@@ -37,29 +44,24 @@ def crosscheck(
             raise UsageError(f"judges: expected some of {', '.join(JUDGES)}, got '{name}'")
         chosen[name] = JUDGES[name]
 
-    def calls() -> Iterator[PlanCall]:
-        if not files and not agent and example is None:
-            yield from (random_call(seed + k) for k in range(count))
-            return
-        name = naming.TaskName(
-            tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-        )
-        task = name.load()
-        for mode in ("individual", "serendipity", "communication", "composite"):
-            for discount in ("0", "0.5", "0.9"):
-                yield PlanCall(task, {"mode": mode, "discount": discount})
-
-    checked = 0
-    for call in calls():
-        found = compare(call, chosen)
-        if found is not None:
-            smallest = shrink(found.call, lambda smaller: compare(smaller, chosen) is not None)
-            found = compare(smallest, chosen) or found
-            commands = write_case(found, folder)
-            sys.stdout.write(
-                f"after {checked} calls without, a disagreement: {found}\nreproduce: {commands}\n"
-            )
-            return ExitCode.REFUTED
-        checked += 1
-    sys.stdout.write(f"{checked} calls, {', '.join(chosen)}: 0 disagreements\n")
-    return ExitCode.ANSWERED
+    calls: Iterable[PlanCall]
+    if not files and not agent and example is None:
+        calls, total = (random_call(seed + k) for k in range(count)), count
+    else:
+        task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
+        calls = [PlanCall(task, {"mode": mode, "discount": d}) for mode in _MODES for d in _DISCOUNTS]
+        total = len(calls)
+    with progress.counting("calls", quiet=quiet) as on_progress:
+        for checked, call in enumerate(calls):
+            on_progress(checked, total)
+            found = compare(call, chosen)
+            if found is not None:
+                smallest = shrink(found.call, lambda smaller: compare(smaller, chosen) is not None)
+                found = compare(smallest, chosen) or found
+                break
+        else:
+            sys.stdout.write(f"{total} calls, {', '.join(chosen)}: 0 disagreements\n")
+            return ExitCode.ANSWERED
+    commands = write_case(found, folder)
+    sys.stdout.write(f"after {checked} calls without, a disagreement: {found}\nreproduce: {commands}\n")
+    return ExitCode.REFUTED

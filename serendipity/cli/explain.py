@@ -56,11 +56,7 @@ def explain(
     output.check_output(output_file)
     named = list(files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
-    name = naming.TaskName(
-        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
+    task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
     options = plan_options.given(
         mode=mode,
         discount=discount,

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import typer
 
 from serendipity.model import Result
+from serendipity.model.numbers import plain
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from serendipity.cli.render import Grid, Line
     from serendipity.goals import Recognition
 
@@ -46,8 +45,8 @@ def recognition_text(recognition: "Recognition") -> "Iterator[Line | Grid]":
         (
             f"{goal.posterior:.4f}",
             f"{float(goal.prior):.4f}",
-            _number(goal.with_observed),
-            _number(goal.without_observed),
+            plain(goal.with_observed),
+            plain(goal.without_observed),
             goal.name,
         )
         for goal in recognition.goals
@@ -66,16 +65,16 @@ def plan_text(result: Result) -> "Iterator[Line | Grid]":
         why = result.reason or result.status
         yield Line(f"no plan: {result.human} can reach none of the goals alone ({why})")
         return
-    proof = "proved" if result.status == "optimal" else f"not proved; at least {_number(result.lower_bound)}"
+    proof = "proved" if result.status == "optimal" else f"not proved; at least {plain(result.lower_bound)}"
     if not result.opportunity:
-        yield Line(f"the robots leave {result.human} alone: expected cost {_number(result.cost)} ({proof})")
+        yield Line(f"the robots leave {result.human} alone: expected cost {plain(result.cost)} ({proof})")
     else:
-        saving = f"{_number(result.saving)} less than {_number(result.human_cost)}"
-        yield Line(f"expected cost {_number(result.cost)}, {saving} ({proof})")
+        saving = f"{plain(result.saving)} less than {plain(result.human_cost)}"
+        yield Line(f"expected cost {plain(result.cost)}, {saving} ({proof})")
     yield Line()
     header = ("probability", "cost", "window", "goal")
     rows = [
-        (f"{entry['probability']:.4f}", _number(entry["cost"]), _window(entry["window"]), entry["name"])
+        (f"{entry['probability']:.4f}", plain(entry["cost"]), _window(entry["window"]), entry["name"])
         for entry in entries
     ]
     yield Grid(header, rows, numbered=True)
@@ -89,7 +88,3 @@ def plan_text(result: Result) -> "Iterator[Line | Grid]":
 
 def _window(window: dict[str, int] | None) -> str:
     return "-" if window is None else f"[{window['start']}, {window['end']})"
-
-
-def _number(value: "float | Fraction | None") -> str:
-    return "-" if value is None else f"{float(value):.10g}"

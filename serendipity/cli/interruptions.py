@@ -11,12 +11,11 @@ from serendipity.cli import naming, output, plan_options, progress
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.human_plan import read_human_plan
 from serendipity.model import UsageError
+from serendipity.model.numbers import plain
 
 _PICTURES: Final = (".svg", ".png")
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from serendipity.cli.render import Grid, Line
     from serendipity.interruptibility import InterruptionReport
 
@@ -52,11 +51,7 @@ def interruptions(
         output.check_output(file)
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
-    name = naming.TaskName(
-        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     options = plan_options.given(
         discount=discount,
         horizon=horizon,
@@ -100,7 +95,7 @@ def _text(report: "InterruptionReport") -> "Iterator[Line | Grid]":
         return
     verdict = "can" if report.interruptible else "can't"
     yield Line(
-        f"the plan of {report.human} ({len(report.human_plan)} actions, cost {_number(report.human_cost)}) "
+        f"the plan of {report.human} ({len(report.human_plan)} actions, cost {plain(report.human_cost)}) "
         f"{verdict} be interrupted to his advantage"
     )
     yield Line()
@@ -112,10 +107,6 @@ def _text(report: "InterruptionReport") -> "Iterator[Line | Grid]":
         window = f"[{entry.window.start}, {entry.window.end})"
         costs = (entry.human_cost, entry.team_cost, entry.human_saving, entry.team_saving)
         instead = "" if gone is None else "; ".join(gone.replacement)
-        rows.append((window, *map(_number, costs), removed, instead))
+        rows.append((window, *map(plain, costs), removed, instead))
     helpful = (i for i, entry in enumerate(report.windows) if entry.human_saving and entry.human_saving > 0)
     yield Grid(header, rows, frozenset(helpful), numbered=True)
-
-
-def _number(value: "Fraction | None") -> str:
-    return "-" if value is None else f"{float(value):.10g}"

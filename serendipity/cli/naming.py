@@ -1,11 +1,13 @@
 """How a command line names a task: two files, one pair per agent, a folder, or an example."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from serendipity.cli import output, progress
 from serendipity.model import Task, UsageError
 
 Files = Annotated[
@@ -31,6 +33,31 @@ Team = Annotated[
     typer.Option("--team", metavar="DOMAIN,PROBLEM", help="With --agent: the files of the joint actions."),
 ]
 Example = Annotated[str | None, typer.Option("--example", metavar="NAME", help="A task that is shipped.")]
+
+
+def load(
+    files: Iterable[Path] | None,
+    human: str | None,
+    robots: Iterable[str] | None,
+    agents: Iterable[str] | None,
+    team: str | None,
+    example: str | None,
+    *,
+    quiet: bool,
+) -> Task:
+    """The task that the words of a command line name; its warnings go to stderr.
+
+    Raises:
+        UsageError: no way of naming a task, two at once, or half of one.
+        InputError: a file can't be read or understood.
+    """
+    name = TaskName(
+        tuple(files or ()), human, tuple(robots or ()), tuple(agents or ()), team=team, example=example
+    )
+    with progress.working("reading", quiet=quiet):
+        task = name.load()
+    output.warn(task.warnings, quiet=quiet)
+    return task
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,6 @@
 """``serendipity plan``: the main job."""
 
-import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -9,10 +8,11 @@ import typer
 
 import serendipity
 from serendipity.cli import goals as goal_options
-from serendipity.cli import naming, output, plan_options
+from serendipity.cli import naming, output, plan_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.human_plan import read_human_plan
 from serendipity.model import Certificate, Result, UsageError
+from serendipity.model.numbers import plain
 
 
 def plan(
@@ -55,11 +55,7 @@ def plan(
     output.start_logging(verbose)
     form = output.choose_format(format, output_file)
     output.check_output(output_file)
-    name = naming.TaskName(
-        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     options = plan_options.given(
         mode=mode,
         discount=discount,
@@ -82,17 +78,20 @@ def plan(
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     if goals is not None:
         options |= plan_options.given(goals=goals, observed=observed, beta=beta)
-        expected = serendipity.plan(task, **options)
-        proof = serendipity.verify(task, expected) if certify else None
+        with progress.working("planning", quiet=quiet):
+            expected = serendipity.plan(task, **options)
+        with progress.working("verifying", quiet=quiet):
+            proof = serendipity.verify(task, expected) if certify else None
         return _for_goals(expected, proof, form, output_file)
     for option, value in (("--observed", observed), ("--beta", beta)):
         if value is not None:
             raise UsageError(f"{option}: goes with --goals only")
-    result, interrupted = _last(serendipity.plan_anytime(task, **options))
+    with progress.working("planning", quiet=quiet) as on_news:
+        result, interrupted = _last(serendipity.plan_anytime(task, **options), on_news)
     if result is None:
-        sys.stderr.write("Interrupted before there was any plan.\n")
         return ExitCode.INTERRUPTED
-    certificate = serendipity.verify(task, result) if certify else serendipity.check(task, result)
+    with progress.working("verifying", quiet=quiet):
+        certificate = serendipity.verify(task, result) if certify else serendipity.check(task, result)
     if form == "json":
         answer = result.to_dict() | ({"certificate": certificate.to_dict()} if certify else {})
         output.write_answer(output.as_json(answer), output_file)
@@ -122,12 +121,13 @@ def _for_goals(result: Result, certificate: Certificate | None, form: str, outpu
     return ExitCode.REFUTED if refuted else OF_STATUS[result.status]
 
 
-def _last(answers: Iterable[Result]) -> tuple[Result | None, bool]:
+def _last(answers: Iterable[Result], on_news: Callable[[str], None]) -> tuple[Result | None, bool]:
     """The last answer that came, and whether the user interrupted the work on a better one."""
     result = None
     try:
-        for result in answers:  # noqa: B007 - the last one is what counts
-            pass
+        for result in answers:
+            if result.status == "feasible":
+                on_news(f"{plain(result.cost)}, at least {plain(result.lower_bound)}")
     except KeyboardInterrupt:
         return result, True
     return result, False

@@ -7,7 +7,7 @@ import typer
 
 import serendipity
 from serendipity.cli import goals as goal_options
-from serendipity.cli import naming, output
+from serendipity.cli import naming, output, progress
 from serendipity.cli.exit_codes import ExitCode
 
 
@@ -36,14 +36,11 @@ def recognise(
     output.start_logging(verbose)
     form = output.choose_format(format, output_file)
     output.check_output(output_file)
-    name = naming.TaskName(
-        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
-    found = serendipity.recognise(
-        task, goals, () if observed is None else observed, 1 if beta is None else beta
-    )
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
+    with progress.working("recognising", quiet=quiet):
+        found = serendipity.recognise(
+            task, goals, () if observed is None else observed, 1 if beta is None else beta
+        )
     if form == "json":
         output.write_answer(output.as_json(found.to_dict()), output_file)
     else:

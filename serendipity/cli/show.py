@@ -5,7 +5,7 @@ from typing import Annotated, Final
 
 import typer
 
-from serendipity.cli import naming, output
+from serendipity.cli import naming, output, progress
 from serendipity.cli.reading import read_result
 from serendipity.model import InputError, UsageError
 
@@ -48,15 +48,12 @@ def show(
         raise UsageError("--epoch: is for stills (.svg, .png) only; a page shows every epoch")
     output.check_output(output_file)
     named, answer, result = read_result(files, "show")
-    name = naming.TaskName(
-        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
+    task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
     from serendipity.show import build_scene, draw
 
     try:
-        scene = build_scene(task, result)
+        with progress.working("drawing", quiet=quiet):
+            drawn = draw(build_scene(task, result), output_file.suffix, epoch)
     except InputError as error:
         raise InputError(error.message, answer) from None
-    output.write_answer(draw(scene, output_file.suffix, epoch), output_file)
+    output.write_answer(drawn, output_file)

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import naming, output
+from serendipity.cli import naming, output, progress
 from serendipity.cli.reading import read_result
 from serendipity.model import InputError
 
@@ -38,13 +38,10 @@ def simulate(
     form = output.choose_format(format, output_file)
     output.check_output(output_file)
     named, answer, result = read_result(files, "simulate")
-    name = naming.TaskName(
-        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
+    task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
     try:
-        trace = serendipity.simulate(task, result, human_model)
+        with progress.working("simulating", quiet=quiet):
+            trace = serendipity.simulate(task, result, human_model)
     except InputError as error:
         raise InputError(error.message, answer) from None
     output.write_answer(output.as_json(trace.to_dict()) if form == "json" else trace.text(), output_file)

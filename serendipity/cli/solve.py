@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, plan_options, program_options
+from serendipity.cli import naming, output, plan_options, program_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.human_plan import read_human_plan
 
@@ -50,11 +50,7 @@ def solve(
     output.start_logging(verbose)
     form = output.choose_format(format, output_file)
     output.check_output(output_file)
-    name = naming.TaskName(
-        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     options = options_from(
         plan_options.given(
             mode=mode,
@@ -74,7 +70,8 @@ def solve(
         )
     )
     given = None if human_plan is None else read_human_plan(human_plan).checked(task)
-    result = by_program(task, options, human_plan=given, encoding=encoding, solver=solver)
+    with progress.working("solving", quiet=quiet):
+        result = by_program(task, options, human_plan=given, encoding=encoding, solver=solver)
     certificate = serendipity.check(task, result)
     if form == "json":
         output.write_answer(output.as_json(result.to_dict()), output_file)

@@ -9,6 +9,7 @@ from typing import Final
 from serendipity.cli.policy_text import policy_lines, totals_line
 from serendipity.cli.render import Grid, Line, rendered
 from serendipity.model import Certificate, Options, Result, Task
+from serendipity.model.numbers import plain
 
 _REASONS: Final = {
     "no-human-plan": "the human can't reach his goal alone, so there is no plan to preserve",
@@ -40,11 +41,6 @@ def certificate_report(certificate: Certificate) -> str:
     return rendered([_claims(certificate), Line(), _verdict(certificate)])
 
 
-def number(value: float) -> str:
-    """A cost as people write it: ``13``, ``12.6``."""
-    return f"{value:.10g}"
-
-
 def _headlines(task: Task, result: Result) -> Iterator[str]:
     robots = ", ".join(task.agents[i] for i in task.robots)
     yield f"{task.name}: human {result.human}, robots {robots or 'none'}"
@@ -52,10 +48,10 @@ def _headlines(task: Task, result: Result) -> Iterator[str]:
     if result.mode == "assistance" and result.agent_costs:
         yield totals_line(result)
     elif result.cost is not None and result.human_cost is not None:
-        saving = f", saving {number(result.saving)}" if result.opportunity and result.saving else ""
-        yield f"cost {number(result.human_cost)} -> {number(result.cost)}{saving}"
+        saving = f", saving {plain(result.saving)}" if result.opportunity and result.saving else ""
+        yield f"cost {plain(result.human_cost)} -> {plain(result.cost)}{saving}"
     elif result.cost is not None:
-        yield f"cost {number(result.cost)}"
+        yield f"cost {plain(result.cost)}"
     if result.window is not None:
         last = result.window.end - 1
         epochs = f"epoch {last}" if len(result.window) == 1 else f"epochs {result.window.start} to {last}"
@@ -69,7 +65,7 @@ def _options(options: Options) -> Iterator[str]:
     for option in fields(Options):
         value = getattr(options, option.name)
         if option.name != "mode" and value != getattr(usual, option.name):
-            shown = number(float(value)) if isinstance(value, Fraction) else str(value)
+            shown = plain(float(value)) if isinstance(value, Fraction) else str(value)
             yield f"{option.name} {shown}"
 
 
@@ -87,7 +83,7 @@ def _summary(result: Result) -> str:
 
 
 def _gap(result: Result) -> str:
-    bound = "" if result.lower_bound is None else f": no better than {number(result.lower_bound)} is possible"
+    bound = "" if result.lower_bound is None else f": no better than {plain(result.lower_bound)} is possible"
     return f"the limit came before the proof{bound}"
 
 
@@ -105,16 +101,16 @@ def _columns(task: Task, result: Result) -> Grid:
         if changed:
             row += former[epoch - 1 : epoch]
         rows.append(row)
-    costs = ["cost", *(number(result.agent_costs[a]) if a in result.agent_costs else "" for a in agents)]
+    costs = ["cost", *(plain(result.agent_costs[a]) if a in result.agent_costs else "" for a in agents)]
     if changed and result.human_cost is not None:
-        costs.append(number(result.human_cost))
+        costs.append(plain(result.human_cost))
     header = ["epoch", *agents, *([f"{result.human}'s former plan"] if changed else [])]
     return Grid(header, [*rows, costs], frozenset(epoch - 1 for epoch in inside), numbered=True)
 
 
 def _closing(result: Result) -> Iterator[str]:
     if result.saving_alone:
-        yield f"he could save {number(result.saving_alone)} alone: the given human plan is not his best"
+        yield f"he could save {plain(result.saving_alone)} alone: the given human plan is not his best"
     ties = result.statistics.get("ties")
     if ties:
         helped = sum(bool(tie["opportunity"]) for tie in ties)

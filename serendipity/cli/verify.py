@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, plan_options, program_options
+from serendipity.cli import naming, output, plan_options, program_options, progress
 from serendipity.cli.exit_codes import OF_VERDICT
 from serendipity.cli.reading import read_result
 from serendipity.model import InputError
@@ -39,15 +39,12 @@ def verify(
     form = output.choose_format(format, output_file)
     output.check_output(output_file)
     named, answer, result = read_result(files, "verify")
-    name = naming.TaskName(
-        tuple(named), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
-    task = name.load()
-    output.warn(task.warnings, quiet=quiet)
+    task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
     try:
-        certificate = serendipity.verify(
-            task, result, solver=solver, encoding=encoding, time_limit=plan_options.seconds(time_limit)
-        )
+        with progress.working("verifying", quiet=quiet):
+            certificate = serendipity.verify(
+                task, result, solver=solver, encoding=encoding, time_limit=plan_options.seconds(time_limit)
+            )
     except InputError as error:
         raise InputError(error.message, answer) from None
     if form == "json":

@@ -11,6 +11,7 @@ from serendipity.explanation.break_even import Threshold
 from serendipity.explanation.misses import RULES, Miss
 from serendipity.explanation.moments import WHY, Moment
 from serendipity.model import Result, Window
+from serendipity.model.numbers import plain
 
 if TYPE_CHECKING:
     from serendipity.explanation.explain import Explanation
@@ -40,7 +41,7 @@ def sentences(found: Explanation) -> Iterator[Sentence]:
 def _without_a_plan(answer: Result) -> Iterator[Sentence]:
     yield "help", f"{answer.human} can't reach his goal alone, so there is no plan of his to make cheaper."
     if answer.cost is not None:
-        yield "help", f"Together they can: for {number(answer.cost)}."
+        yield "help", f"Together they can: for {plain(answer.cost)}."
 
 
 def _help(found: Explanation) -> Iterator[Sentence]:
@@ -63,10 +64,10 @@ def _help(found: Explanation) -> Iterator[Sentence]:
         yield "help", f"Robots do: {done}."
     yield (
         "help",
-        f"{answer.human} pays {number(parts.human)} instead of {number(answer.human_cost or 0)}; "
-        f"the robots' work costs {number(parts.discounted(answer.options))}; "
-        f"together {number(answer.cost or 0)}, "
-        f"{number(answer.saving or 0)} less.",
+        f"{answer.human} pays {plain(parts.human)} instead of {plain(answer.human_cost or 0)}; "
+        f"the robots' work costs {plain(parts.discounted(answer.options))}; "
+        f"together {plain(answer.cost or 0)}, "
+        f"{plain(answer.saving or 0)} less.",
     )
 
 
@@ -75,13 +76,13 @@ def _no_help(found: Explanation) -> Iterator[Sentence]:
     yield (
         "help",
         f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "
-        f"{number(answer.human_cost or 0)} that {answer.human} pays alone.",
+        f"{plain(answer.human_cost or 0)} that {answer.human} pays alone.",
     )
 
 
 def _alone(answer: Result) -> Iterator[Sentence]:
     if answer.saving_alone:
-        yield "help", f"{answer.human} could save {number(answer.saving_alone)} without any robot."
+        yield "help", f"{answer.human} could save {plain(answer.saving_alone)} without any robot."
 
 
 def _moments(found: Explanation) -> Iterator[str]:
@@ -94,9 +95,9 @@ def _moments(found: Explanation) -> Iterator[str]:
 
 def _why(found: Explanation, moment: Moment) -> str:
     words = WHY[moment.why]
-    saved = number(moment.saving or 0)
+    saved = plain(moment.saving or 0)
     if moment.why == "saves-less":
-        return f"it {words}: {number(moment.cost or 0)} for the team"
+        return f"it {words}: {plain(moment.cost or 0)} for the team"
     if moment.why == "not-in-time":
         assert moment.instead is not None
         needed = f"the window would have to be {_window(moment.instead)}"
@@ -121,8 +122,7 @@ def _discount(found: Explanation) -> Iterator[str]:
 
 def _confirmed(threshold: Threshold) -> str:
     calls = (
-        f"at {number(c.value)} {number(c.cost or 0) if c.opportunity else 'none'}"
-        for c in threshold.confirmed
+        f"at {plain(c.value)} {plain(c.cost or 0) if c.opportunity else 'none'}" for c in threshold.confirmed
     )
     return "planned: " + ", ".join(calls)
 
@@ -134,11 +134,11 @@ def _announcement(found: Explanation) -> Iterator[str]:
     gain = Fraction(str(answer.cost)) - Fraction(str(told.cost))
     if gain > 0:
         yield (
-            f"One sentence in advance would gain {number(gain)}: {number(told.cost)} instead of "
-            f"{number(answer.cost)}."
+            f"One sentence in advance would gain {plain(gain)}: {plain(told.cost)} instead of "
+            f"{plain(answer.cost)}."
         )
     else:
-        yield f"Telling {answer.human} in advance would gain nothing: also then it is {number(told.cost)}."
+        yield f"Telling {answer.human} in advance would gain nothing: also then it is {plain(told.cost)}."
 
 
 def _misses(found: Explanation) -> Iterator[str]:
@@ -150,14 +150,14 @@ def _misses(found: Explanation) -> Iterator[str]:
     if weight is not None and weight.value is not None:
         yield (
             f"A longer interruption would help at a window weight up to {exact(weight.value)}, "
-            f"against the {number(found.answer.options.window_weight)} in force ({_confirmed(weight)})."
+            f"against the {plain(found.answer.options.window_weight)} in force ({_confirmed(weight)})."
         )
     if not found.misses and not found.answer.opportunity and found.discount is not None:
         yield "No rule stands in the way: within these epochs and at this discount no plan is cheaper."
 
 
 def _cheapest_miss(found: Explanation, miss: Miss) -> Iterator[str]:
-    yield f"The cheapest plan that misses costs {number(miss.cost)}, {number(miss.saving)} less."
+    yield f"The cheapest plan that misses costs {plain(miss.cost)}, {plain(miss.saving)} less."
     gone = miss.removal
     if gone.removed or gone.replacement:
         instead = _listed(gone.replacement) if gone.replacement else "nothing"
@@ -173,7 +173,7 @@ def _cheapest_miss(found: Explanation, miss: Miss) -> Iterator[str]:
 
 
 def _other_miss(first: Miss, miss: Miss) -> str:
-    same = "The same cost is" if miss.cost == first.cost else f"A cost of {number(miss.cost)} is"
+    same = "The same cost is" if miss.cost == first.cost else f"A cost of {plain(miss.cost)} is"
     return f"{same} found by {RULES[miss.rule]}."
 
 
@@ -189,12 +189,7 @@ def _window(window: Window) -> str:
     return f"[{window.start}, {window.end})"
 
 
-def number(value: Fraction | float) -> str:
-    """A number as people write it."""
-    return f"{float(value):.10g}"
-
-
 def exact(value: Fraction) -> str:
     """A rational, exact: as a decimal where it has a short one."""
-    shown = number(value)
+    shown = plain(value)
     return shown if Fraction(shown) == value else f"{value} (about {float(value):.4g})"

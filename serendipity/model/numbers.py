@@ -44,3 +44,8 @@ def fraction(text: str) -> Fraction:
     if len(text) > MOST_DIGITS or (exponent and abs(int(exponent)) > MOST_DIGITS):
         raise ValueError
     return Fraction(text)
+
+
+def plain(value: Fraction | float | None) -> str:
+    """A cost as people write it: ``13``, ``12.6``; ``-`` where there is none."""
+    return "-" if value is None else f"{float(value):.10g}"

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+from serendipity.model.numbers import plain
 from serendipity.show.scene import Scene
 
 
@@ -21,7 +22,7 @@ def headline(scene: Scene) -> str:
         return f"The robots help {human}: {_saved(scene)}"
     if result.mode in ("serendipity", "communication"):
         return f"No help pays: {human} keeps the former plan"
-    return f"A plan of cost {number(result.cost or 0)}"
+    return f"A plan of cost {plain(result.cost or 0)}"
 
 
 def subtitle(scene: Scene) -> str:
@@ -30,9 +31,9 @@ def subtitle(scene: Scene) -> str:
     words = [scene.name, result.mode]
     turns = result.mode == "assistance"
     if result.options.discount and not turns:
-        words.append(f"discount {number(float(result.options.discount))}")
+        words.append(f"discount {plain(float(result.options.discount))}")
     if result.cost is not None and result.human_cost is not None and not turns:
-        words.append(f"cost {number(result.human_cost)} → {number(result.cost)}")
+        words.append(f"cost {plain(result.human_cost)} → {plain(result.cost)}")
     if result.window is not None:
         first, last = result.window.start, result.window.end - 1
         words.append(f"window: epoch {first}" if first == last else f"window: epochs {first} to {last}")
@@ -41,22 +42,17 @@ def subtitle(scene: Scene) -> str:
     return " · ".join(words)
 
 
-def number(value: float | Fraction) -> str:
-    """A cost as people write it: ``13``, ``12.6``."""
-    return f"{float(value):.10g}"
-
-
 def _saved(scene: Scene) -> str:
     result = scene.result
     if result.mode == "assistance":
         human = scene.agents[scene.human]
         own = result.agent_costs.get(human, 0)
         others = sum(Fraction(str(c)) for name, c in result.agent_costs.items() if name != human)
-        before = "" if result.human_cost is None else f"{number(result.human_cost)} → "
-        return f"{before}{number(own)} for {human}, {number(others)} for the others"
+        before = "" if result.human_cost is None else f"{plain(result.human_cost)} → "
+        return f"{before}{plain(own)} for {human}, {plain(others)} for the others"
     if result.saving is None or result.human_cost is None or result.cost is None:
         return "a plan together"
-    return f"cost {number(result.human_cost)} → {number(result.cost)}, {number(result.saving)} saved"
+    return f"cost {plain(result.human_cost)} → {plain(result.cost)}, {plain(result.saving)} saved"
 
 
 def _capital(text: str) -> str:

@@ -7,8 +7,9 @@ from importlib.resources import files
 from string import Template
 from typing import Any, Final
 
+from serendipity.model.numbers import plain
 from serendipity.show.drawing import Picture
-from serendipity.show.headline import headline, number, subtitle
+from serendipity.show.headline import headline, subtitle
 from serendipity.show.map_picture import MARGIN, map_picture, trails
 from serendipity.show.palette import agent_colours, on
 from serendipity.show.scene import Frame, Scene
@@ -87,8 +88,8 @@ def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
     return {
         "caption": frame.caption,
         "tokens": {key: _token(token) for key, token in tokens(scene, frame).items()},
-        "cost": f"{number(frame.cost)} of {number(last.cost)}",
-        "former": f"{number(frame.former_spent)} of {number(last.former_spent)}",
+        "cost": f"{plain(frame.cost)} of {plain(last.cost)}",
+        "former": f"{plain(frame.former_spent)} of {plain(last.former_spent)}",
         "formerValue": float(frame.former_spent),
         "spent": [float(frame.spent[agent]) for agent in scene.lanes],
         "window": frame.in_window,

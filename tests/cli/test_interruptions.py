@@ -1,10 +1,6 @@
 """``serendipity interruptions`` on the command line."""
 
 import json
-import os
-import pty
-import subprocess
-import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
@@ -57,19 +53,6 @@ def test_a_human_without_a_plan(run: Runs, tmp_path: Path) -> None:
     done = run("interruptions task")
     assert done.code == 3, done
     assert "no plan to interrupt" in done.out
-
-
-def test_progress_on_a_terminal() -> None:
-    ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "serendipity", "interruptions", "--example", "room2", "--format", "json"]
-    done = subprocess.run(
-        command, stdout=subprocess.PIPE, stderr=theirs, check=True, env=os.environ | {"TERM": "xterm"}
-    )
-    os.close(theirs)
-    shown = os.read(ours, 100_000).decode()
-    os.close(ours)
-    assert "searches" in shown
-    assert json.loads(done.stdout)["interruptible"]
 
 
 def test_progress_counts_two_searches_for_each_window() -> None:

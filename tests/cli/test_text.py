@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.render import Grid, Line, rendered
-from serendipity.cli.text import number
+from serendipity.model.numbers import plain
 from tests.cli.conftest import Run
 
 
@@ -68,7 +68,7 @@ def test_a_plan_that_is_only_the_humans_is_not_shown_twice(run: Callable[[str], 
     ("value", "text"), [(13.0, "13"), (12.6, "12.6"), (0.1 + 0.2, "0.3"), (1012.6, "1012.6")]
 )
 def test_numbers_read_as_people_write_them(value: float, text: str) -> None:
-    assert number(value) == text
+    assert plain(value) == text
 
 
 def test_a_terminal_gets_the_same_words_in_colour() -> None:
