@@ -4,10 +4,10 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test test-browser check docs bench fuzz requirements clean
+.PHONY: help .venv demo test test-browser pictures browser check docs bench fuzz requirements clean
 
 help:  ## list the targets
-	@awk -F ':.*## ' '/^[a-z.]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z.-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 .venv: $(READY)  ## make the virtual environment (with uv where it is installed, else with pip)
 
@@ -39,18 +39,23 @@ demo: $(READY)  ## the paper's example III-C: plan, proof, what the person will 
 test: $(READY)  ## run the tests
 	@$(BIN)/python -m pytest
 
-test-browser: $(READY)  ## play the page of `show` in a headless Chromium, which it installs where it may
+test-browser: browser  ## play the page of `show` in a headless Chromium, which it installs where it may
+	@$(BIN)/python -m pytest -m browser -rs tests/show
+
+pictures: browser  ## photograph that page again for the documentation
+	@$(BIN)/python -m docs.pictures
+
+browser: $(READY)
 	@command -v chromium >/dev/null 2>&1 \
 	  || { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1 && DEBIAN_FRONTEND=noninteractive \
 	       apt-get install -y --no-install-recommends chromium >/dev/null 2>&1; } \
-	  || echo "No chromium, and it can't be installed here: its tests are skipped."
+	  || echo "No chromium, and it can't be installed here."
 	@$(BIN)/python -c 'import playwright' 2>/dev/null \
 	  || { if command -v uv >/dev/null 2>&1; then \
 	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-browser.txt; \
 	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
 	         -r requirements-browser.txt; fi; } \
-	  || echo "No playwright, and it can't be installed here: its tests are skipped."
-	@$(BIN)/python -m pytest -m browser -rs tests/show
+	  || echo "No playwright, and it can't be installed here."
 
 check: $(READY)  ## what has to hold before a commit: tests, ruff, mypy, import contracts
 	@.ci/run

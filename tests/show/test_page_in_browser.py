@@ -3,9 +3,7 @@
 Skipped, with a message, where playwright or Chromium is absent; ``make test-browser`` installs them.
 """
 
-import os
 import re
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,6 +11,7 @@ from typing import Any
 import pytest
 
 from serendipity.show import Scene, draw
+from tests.show.browser import chromium, chromium_path
 
 pytestmark = pytest.mark.browser
 
@@ -22,15 +21,12 @@ _MARKS = re.compile(r"translate\(([-0-9.]+)px, ([-0-9.]+)px\)")
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """A headless Chromium."""
-    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    path = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
+    pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    path = chromium_path()
     if path is None:
         pytest.skip("there is no chromium (set CHROMIUM to its path)")
-    with api.sync_playwright() as playwright:
-        arguments = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
-        running = playwright.chromium.launch(executable_path=path, args=arguments)
+    with chromium(path) as running:
         yield running
-        running.close()
 
 
 class Opened:
