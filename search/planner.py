@@ -274,5 +274,5 @@ class _Call:
         if self.epochs is None:
             return schedule(self.task, path_sets(answer.node))
         steps = path_steps(answer.node) + plan_steps(answer.tail, answer.end)
-        walks = self.tables.walks(self.plan) if answer.node.idle and self.plan is not None else None
+        walks = self.tables.walks(self.plan or ()) if answer.node.idle else None
         return steps if walks is None else tuple(sorted((*steps, *walks.steps(answer.node))))
