@@ -93,7 +93,7 @@ class Tables:
     @cached_property
     def ways(self) -> Ways:
         """The human's ways to his touches."""
-        return Ways(self.touches, self.bound, self.steps, self.weights.human, self.clock)
+        return Ways(self.encoding, self.touches, self.bound, self.steps, self.weights, self.clock)
 
     def providers(self, followed: Sequence[Op] = ()) -> Providers:
         """What robots need to provide touches, while the human does ``followed``."""

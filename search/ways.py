@@ -4,8 +4,9 @@ from collections.abc import Iterable, Sequence
 from heapq import heapify, heappop, heappush
 
 from search.clock import Clock
-from search.keys import INFINITE_KEY
-from search.projection import Projection
+from search.encoding import Encoding
+from search.keys import INFINITE_KEY, Weights, own_weights
+from search.projection import Projection, own_projection
 from search.touches import Touches
 
 NEVER = 1 << 40
@@ -46,10 +47,11 @@ class Ways:
     """Distances by moves alone, up to a first touch.
 
     Args:
+        encoding: the packed task.
         touches: what his ops mention.
         bound: private distances to the goal.
         steps: the same, counting actions.
-        weights: key increment of an op of his by the index of its cost.
+        weights: key increments of the call.
         clock: asked for time.
 
     Attributes:
@@ -59,19 +61,19 @@ class Ways:
 
     def __init__(
         self,
+        encoding: Encoding,
         touches: Touches,
         bound: Projection,
         steps: Projection,
-        weights: Sequence[int],
+        weights: Weights,
         clock: Clock,
     ) -> None:
+        self._encoding = encoding
         self._touches = touches
         self._bound = bound
         self._steps = steps
         self._weights = weights
         self._clock = clock
-        self._before: dict[int, list[tuple[int, int]]] = {}
-        self._entries: dict[int, list[tuple[int, int]]] = {}
         self.steps_after: dict[int, int] = {}
 
     def explore(self, sources: Sequence[tuple[int, int]], limit: int) -> Corridor:
@@ -82,7 +84,7 @@ class Ways:
             limit: what costs as much or more is left out.
         """
         found = Corridor(self._clock)
-        bound, weights = self._bound.distances, self._weights
+        bound, weights = self._bound.distances, self._weights.human
         queue = [(spent, state & self._touches.mask) for spent, state in sources]
         heapify(queue)
         seen: set[int] = set()
@@ -115,29 +117,45 @@ class Ways:
 
     def to_goal(self) -> dict[int, int]:
         """Least key to the goal without a touch, by projected state."""
-        self._prepare()
-        goals = [(0, at) for at, rest in self._bound.distances.items() if rest == 0]
-        return backward(goals, self._before, self._clock)
+        return self._weights.of_own(self._own().to_goal(self._clock))
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        self._prepare()
-        return backward(self._entries.get(need, ()), self._before, self._clock)
+        return self._weights.of_own(self._own().through(need, self._clock))
 
-    def _prepare(self) -> None:
-        """Moves backward, and where touches of each need are possible, with the key from there."""
-        if self._before:
-            return
-        for at in self._bound.distances:
-            self._clock.tick()
-            for op in self._touches.seen(at):
+    def _own(self) -> "OwnWays":
+        return self._encoding.derived(OwnWays, self._touches, self._clock)
+
+
+class OwnWays:
+    """His moves backward, in the unit of :func:`search.keys.own_weights`; kept with the packed task."""
+
+    def __init__(self, encoding: Encoding, touches: Touches, clock: Clock) -> None:
+        weights = own_weights(encoding)
+        distances = encoding.derived(own_projection, clock).distances
+        self._goals = [(0, at) for at, rest in distances.items() if rest == 0]
+        self._before: dict[int, list[tuple[int, int]]] = {}
+        self._entries: dict[int, list[tuple[int, int]]] = {}
+        self._to_goal: dict[int, int] | None = None
+        for at in distances:
+            clock.tick()
+            for op in touches.seen(at):
                 after = at & op.keep | op.put
-                rest = self._bound(after)
                 if op.touch < 0:
-                    self._before.setdefault(after, []).append((self._weights[op.cost], at))
-                elif rest < INFINITE_KEY:
-                    entry = (self._weights[op.cost] + rest, at)
+                    self._before.setdefault(after, []).append((weights[op.cost], at))
+                elif after in distances:
+                    entry = (weights[op.cost] + distances[after], at)
                     self._entries.setdefault(op.touch, []).append(entry)
+
+    def to_goal(self, clock: Clock) -> dict[int, int]:
+        """Least cost to the goal without a touch, by projected state."""
+        if self._to_goal is None:
+            self._to_goal = backward(self._goals, self._before, clock)
+        return self._to_goal
+
+    def through(self, need: int, clock: Clock) -> dict[int, int]:
+        """Least cost to the goal with a first touch of a need, by projected state."""
+        return backward(self._entries.get(need, ()), self._before, clock)
 
 
 def backward(
