@@ -23,9 +23,8 @@ from serendipity.ties import combined, until_settled
 if TYPE_CHECKING:
     from serendipity.goals import GoalsGiven, ObservedGiven
 
-_VERDICT_SECONDS: Final = 0.003
-_VERDICT_SHARE: Final = 0.08
-"""What the verdict on humans who replan may add to the time limit: seconds, and a share of it."""
+_VERDICT_SHARE: Final = 0.05
+"""What the verdict on humans who replan may add to the time limit: a share of it."""
 
 
 def plan(
@@ -253,7 +252,7 @@ def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
 
 
 def _left_for_verdict(limit: float, clock: Clock) -> float:
-    return (1 + _VERDICT_SHARE) * limit + _VERDICT_SECONDS - clock.elapsed()
+    return (1 + _VERDICT_SHARE) * limit - clock.elapsed()
 
 
 def _saving(outcome: Outcome) -> Fraction | None:
