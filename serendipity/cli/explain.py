@@ -34,10 +34,7 @@ def explain(
     mode: plan_options.Mode = None,
     discount: plan_options.Discount = None,
     horizon: plan_options.Horizon = None,
-    human_plan: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
-    ] = None,
+    human_plan: plan_options.HumanPlan = None,
     window_weight: plan_options.WindowWeight = None,
     max_window: plan_options.MaxWindow = None,
     suffix: plan_options.Suffix = None,
@@ -51,9 +48,7 @@ def explain(
     verbose: output.Verbose = 0,
 ) -> int:
     """Explain an answer: what changes, why then, from which discount on; or what stands in the way."""
-    output.start_logging(verbose)
-    form = output.choose_format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose)
     named = list(files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet)

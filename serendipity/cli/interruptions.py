@@ -29,10 +29,7 @@ def interruptions(
     example: naming.Example = None,
     discount: plan_options.Discount = None,
     horizon: plan_options.Horizon = None,
-    human_plan: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
-    ] = None,
+    human_plan: plan_options.HumanPlan = None,
     suffix: plan_options.Suffix = None,
     preservation: plan_options.Preservation = None,
     interference: plan_options.Interference = None,
@@ -45,10 +42,8 @@ def interruptions(
     verbose: output.Verbose = 0,
 ) -> int:
     """For every window: the least he could pay, the least the team could, what goes and what replaces it."""
-    output.start_logging(verbose)
-    form = output.choose_format(format, output_file)
-    for file in (output_file, heat_map):
-        output.check_output(file)
+    form = output.prepare(format, output_file, verbose)
+    output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
@@ -63,14 +58,14 @@ def interruptions(
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     with progress.counting("searches", quiet=quiet) as on_progress:
         report = serendipity.interruptions(task, on_progress=on_progress, **options)
+    if heat_map is not None:
+        output.write_answer(_drawn(report, heat_map.suffix), heat_map, "--heat-map")
     if form == "json":
         output.write_answer(output.as_json(report.to_dict()), output_file)
     else:
         from serendipity.cli.render import rendered
 
         output.write_answer(rendered(_text(report)), output_file)
-    if heat_map is not None:
-        output.write_answer(_drawn(report, heat_map.suffix), heat_map)
     return ExitCode.ANSWERED if report.human_plan is not None else ExitCode.INFEASIBLE
 
 

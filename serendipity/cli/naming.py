@@ -18,6 +18,14 @@ Files = Annotated[
         show_default=False,
     ),
 ]
+FilesAndResult = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="TASK RESULT.json",
+        help="The task, named as for `plan`; then the result.",
+        show_default=False,
+    ),
+]
 Human = Annotated[
     str | None, typer.Option("--human", metavar="H", help="The human; by default the only agent with a goal.")
 ]

@@ -23,6 +23,18 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No warnings and no p
 Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Log to stderr; -vv logs more.")]
 
 
+def prepare(wanted: str | None, output: Path | None, verbosity: int) -> str:
+    """Before the work: the log, what can be known to be wrong with ``-o``, and the format in force.
+
+    Raises:
+        UsageError: there is no such format, or ``output`` can't be written.
+    """
+    start_logging(verbosity)
+    form = choose_format(wanted, output)
+    check_output(output)
+    return form
+
+
 def choose_format(wanted: str | None, output: Path | None) -> str:
     """The format in force: the one asked for, else JSON for ``-o *.json``, else text.
 
@@ -36,18 +48,20 @@ def choose_format(wanted: str | None, output: Path | None) -> str:
     return wanted
 
 
-def check_output(output: Path | None) -> None:
-    """Complain about ``-o`` before the work is done, not after.
+def check_output(output: Path | None, option: str = "-o") -> None:
+    """Complain about a file to be written before the work is done, not after.
 
     Raises:
-        UsageError: its folder is missing, or it is a folder itself.
+        UsageError: its folder is missing or can't be written to, or it is a folder itself.
     """
     if output is None:
         return
     if output.is_dir():
-        raise UsageError(f"-o: expected a file, but {output} is a folder")
+        raise UsageError(f"{option}: expected a file, but {output} is a folder")
     if not output.parent.is_dir():
-        raise UsageError(f"-o: there is no folder {output.parent}")
+        raise UsageError(f"{option}: there is no folder {output.parent}")
+    if not os.access(output.parent, os.W_OK) and not output.exists():
+        raise UsageError(f"{option}: the folder {output.parent} can't be written to")
 
 
 def as_json(value: dict[str, Any]) -> str:
@@ -55,7 +69,7 @@ def as_json(value: dict[str, Any]) -> str:
     return json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def write_answer(answer: str | bytes, output: Path | None) -> None:
+def write_answer(answer: str | bytes, output: Path | None, option: str = "-o") -> None:
     """Write an answer to ``output``; a text to stdout where that is None.
 
     Raises:
@@ -67,7 +81,7 @@ def write_answer(answer: str | bytes, output: Path | None) -> None:
     try:
         _write_whole(output.resolve(), answer.encode() if isinstance(answer, str) else answer)
     except OSError as error:
-        raise UsageError(f"-o: {output} can't be written: {error.strerror}") from None
+        raise UsageError(f"{option}: {output} can't be written: {error.strerror}") from None
 
 
 def _print(text: str) -> None:

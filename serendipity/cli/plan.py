@@ -25,10 +25,7 @@ def plan(
     mode: plan_options.Mode = None,
     discount: plan_options.Discount = None,
     horizon: plan_options.Horizon = None,
-    human_plan: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
-    ] = None,
+    human_plan: plan_options.HumanPlan = None,
     window_weight: plan_options.WindowWeight = None,
     max_window: plan_options.MaxWindow = None,
     suffix: plan_options.Suffix = None,
@@ -52,9 +49,7 @@ def plan(
     verbose: output.Verbose = 0,
 ) -> int:
     """Find the best plan in which robots help the human, and prove that none is better."""
-    output.start_logging(verbose)
-    form = output.choose_format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose)
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     options = plan_options.given(
         mode=mode,

@@ -31,6 +31,10 @@ Discount = Annotated[str | None, _option("discount", "Taken off the cost of robo
 Horizon = Annotated[
     str | None, _option("horizon", "Epochs; by default as many as the human's plan has.", "N|inf")
 ]
+HumanPlan = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
+]
 WindowWeight = Annotated[
     str | None, _option("window_weight", "K: cost of each epoch that the window lasts.", "K")
 ]

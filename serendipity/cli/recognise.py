@@ -33,9 +33,7 @@ def recognise(
     verbose: output.Verbose = 0,
 ) -> int:
     """How probable each goal is, given what the human has done so far."""
-    output.start_logging(verbose)
-    form = output.choose_format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose)
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     with progress.working("recognising", quiet=quiet):
         found = serendipity.recognise(

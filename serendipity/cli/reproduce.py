@@ -64,8 +64,9 @@ def reproduce(
     """Run a folder of tasks through modes and discounts; a run that was killed goes on where it was."""
     output.start_logging(verbose)
     form = _format(format, output_file)
-    for file in (output_file, report, journal, tables):
-        output.check_output(file)
+    output.check_output(output_file)
+    for option, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
+        output.check_output(file, option)
     from serendipity.cli.progress import shown
     from serendipity.reproduction import reproduce as run_all
     from serendipity.reproduction.tables import examples, table_1, table_2
@@ -84,9 +85,9 @@ def reproduce(
             on_progress=on_progress,
         )
     entries, times, answers = table_1(run), table_2(run), examples()
+    written = _extras(report, tables, run, entries, times, answers)
     output.write_answer(_answer(form, run, entries, times, answers), output_file)
-    written = [output_file] if output_file else []
-    written += _extras(report, tables, run, entries, times, answers)
+    written += [output_file] if output_file else []
     if journal is None and kept is not None:
         kept.unlink(missing_ok=True)  # the answer holds all of it
     _tell(written, quiet=quiet)
@@ -169,5 +170,5 @@ def _extras(
         texts[tables.with_name(f"{tables.name}1.csv")] = formats.table_1_as_csv(entries)
         texts[tables.with_name(f"{tables.name}2.csv")] = formats.table_2_as_csv(times)
     for path, text in texts.items():
-        output.write_answer(text, path)
+        output.write_answer(text, path, "--report" if path == report else "--tables")
     return list(texts)

@@ -13,14 +13,7 @@ SUFFIXES: Final = (".html", ".svg", ".png")
 
 
 def show(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="TASK RESULT.json",
-            help="The task, named as for `plan`; then the result.",
-            show_default=False,
-        ),
-    ],
+    files: naming.FilesAndResult,
     human: naming.Human = None,
     robot: naming.Robots = None,
     agent: naming.Agents = None,

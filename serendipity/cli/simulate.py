@@ -1,6 +1,5 @@
 """``serendipity simulate``: what becomes of a plan that nobody told the human of."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -12,14 +11,7 @@ from serendipity.model import InputError
 
 
 def simulate(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="TASK RESULT.json",
-            help="The task, named as for `plan`; then the result.",
-            show_default=False,
-        ),
-    ],
+    files: naming.FilesAndResult,
     human: naming.Human = None,
     robot: naming.Robots = None,
     agent: naming.Agents = None,
@@ -34,9 +26,7 @@ def simulate(
     verbose: output.Verbose = 0,
 ) -> int:
     """Play a plan, epoch by epoch, against a human who looks up and replans."""
-    output.start_logging(verbose)
-    form = output.choose_format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose)
     named, answer, result = read_result(files, "simulate")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
     try:

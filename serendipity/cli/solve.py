@@ -1,10 +1,5 @@
 """``serendipity solve``: the integer program as a planner of its own."""
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 import serendipity
 from serendipity.cli import naming, output, plan_options, program_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
@@ -21,10 +16,7 @@ def solve(
     mode: plan_options.Mode = None,
     discount: plan_options.Discount = None,
     horizon: plan_options.Horizon = None,
-    human_plan: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
-    ] = None,
+    human_plan: plan_options.HumanPlan = None,
     window_weight: plan_options.WindowWeight = None,
     max_window: plan_options.MaxWindow = None,
     suffix: plan_options.Suffix = None,
@@ -47,9 +39,7 @@ def solve(
     from serendipity.planning import options_from
     from verify.solve import solve as by_program
 
-    output.start_logging(verbose)
-    form = output.choose_format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose)
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     options = options_from(
         plan_options.given(

@@ -1,10 +1,5 @@
 """``serendipity verify``: a second opinion on a result."""
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 import serendipity
 from serendipity.cli import naming, output, plan_options, program_options, progress
 from serendipity.cli.exit_codes import OF_VERDICT
@@ -13,14 +8,7 @@ from serendipity.model import InputError
 
 
 def verify(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="TASK RESULT.json",
-            help="The task, named as for `plan`; then the result.",
-            show_default=False,
-        ),
-    ],
+    files: naming.FilesAndResult,
     human: naming.Human = None,
     robot: naming.Robots = None,
     agent: naming.Agents = None,
@@ -35,9 +23,7 @@ def verify(
     verbose: output.Verbose = 0,
 ) -> int:
     """Check a result of `plan --format json` claim by claim, independently of the search."""
-    output.start_logging(verbose)
-    form = output.choose_format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose)
     named, answer, result = read_result(files, "verify")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
     try:

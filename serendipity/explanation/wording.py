@@ -69,6 +69,12 @@ def _help(found: Explanation) -> Iterator[Sentence]:
         f"together {plain(answer.cost or 0)}, "
         f"{plain(answer.saving or 0)} less.",
     )
+    if answer.mode == "serendipity" and answer.realised.get("observant") is False:
+        yield (
+            "help",
+            f"But {answer.human} is not told: if he goes by what he sees, he does not do all of this "
+            "(`simulate` plays what happens).",
+        )
 
 
 def _no_help(found: Explanation) -> Iterator[Sentence]:
@@ -116,8 +122,9 @@ def _discount(found: Explanation) -> Iterator[str]:
     elif threshold.value == 0 and threshold.included:
         yield "Help pays at every discount, even if robots cost as much as the human."
     else:
-        where = "from" if threshold.included else "above"
-        yield f"Help pays {where} a discount of {exact(threshold.value)} on ({_confirmed(threshold)})."
+        value = exact(threshold.value)
+        where = f"from a discount of {value} on" if threshold.included else f"above a discount of {value}"
+        yield f"Help pays {where} ({_confirmed(threshold)})."
 
 
 def _confirmed(threshold: Threshold) -> str:

@@ -74,7 +74,7 @@ def test_the_map_as_png(run: Runs, tmp_path: Path) -> None:
     [
         ("--horizon 3", ("horizon", "13")),
         ("--heat-map map.pdf", (".svg", "map.pdf")),
-        ("--heat-map absent/map.svg", ("no folder",)),
+        ("--heat-map absent/map.svg", ("--heat-map", "no folder")),
         ("--discount 2", ("discount",)),
     ],
 )

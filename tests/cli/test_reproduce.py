@@ -96,7 +96,7 @@ def test_progress_on_a_terminal(suite: Path, tmp_path: Path) -> None:
         ("--jobs 0", ("jobs", "at least 1")),
         ("--format text", ("--format", "table, csv, json")),
         ("-o absent/rows.csv", ("no folder",)),
-        ("--report absent/page.html", ("no folder",)),
+        ("--report absent/page.html", ("--report", "no folder")),
     ],
 )
 def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:

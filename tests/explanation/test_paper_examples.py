@@ -41,6 +41,7 @@ def test_room2_is_helped_in_hall4() -> None:
     assert [c.opportunity for c in found.discount.confirmed] == [False, False, True]
     assert found.announcement is not None
     assert found.announcement.cost == found.answer.cost == 12.6
+    assert not any("is not told" in text for _, text in found.sentences)
     assert found.misses == ()
 
 
@@ -80,6 +81,7 @@ def test_room5_is_helped_without_meeting() -> None:
     assert found.announcement is not None
     assert found.announcement.cost == 11.4
     assert any("would gain 0.1" in text for _, text in found.sentences)
+    assert any("commx is not told" in text for _, text in found.sentences)
 
 
 def test_room5_at_0_6_only_breaks_even() -> None:
