@@ -68,8 +68,10 @@ def realised(
     """
     models = ("observant",) if options.human_model != "local" else HUMAN_MODELS
     epochs = horizon if isinstance(horizon, int) else None
-    return {
-        model: play(
+    verdicts = {}
+    for model in models:
+        clock.check()  # what comes first can't be interrupted, and takes milliseconds on big tasks
+        simulated = play(
             task,
             options,
             human_plan,
@@ -78,9 +80,9 @@ def realised(
             horizon=epochs,
             visible=visible,
             clock=clock,
-        ).realised(cost)
-        for model in models
-    }
+        )
+        verdicts[model] = simulated.realised(cost)
+    return verdicts
 
 
 def _human_plan(task: Task, result: Result) -> HumanPlan:
