@@ -42,6 +42,10 @@ class PlanCall:
 
 def random_call(seed: int) -> PlanCall:
     """A small random task with random options; equal seeds give equal calls."""
+    # Dice of their own: the calls of other seeds are what they were without errands.
+    errands = Random(f"errands {seed}")
+    if errands.random() < 0.2:
+        return PlanCall(_errands(errands), _options(errands))
     dice = Random(f"crosscheck {seed}")
     task = _corridor(dice) if dice.random() < 0.6 else _strips(dice)
     return PlanCall(task, _options(dice))
@@ -141,6 +145,44 @@ def _corridor(dice: Random) -> Task:
         builder.action("carry", team, places[i], f"{places[j]} !{places[i]}", dice.choice(_COSTS))
     robot_goal = "tired" if dice.random() < 0.1 else ""
     return builder.task(f"{places[0]} {dice.choice(('', 'ready', 'tired'))}", places[-1], robot_goal)
+
+
+def _errands(dice: Random) -> Task:
+    """Robots walk about a building of their own, and do in its rooms what helps or hinders."""
+    agents = ("hum", "rob", "bot")
+    builder = _Builder(agents)
+    places = [f"at{i}" for i in range(dice.randint(3, 5))]
+    for i, (a, b) in enumerate(pairwise(places)):
+        builder.action(f"walk{i}", (0,), a, f"{b} !{a}", dice.choice(("1", "2", "3")))
+    rooms = range(dice.randint(2, 4))
+    start = []
+    for robot in (1, 2):
+        step = dice.choice(_COSTS)
+        start.append(f"{agents[robot]}{dice.choice(rooms)}")
+        for i, j in pairwise(rooms):
+            for here, there in ((i, j), (j, i)):
+                a, b = f"{agents[robot]}{here}", f"{agents[robot]}{there}"
+                builder.action(f"go{here}{there}", (robot,), a, f"{b} !{a}", step)
+        for k in range(dice.randint(1, 2)):
+            needs = dice.choice(("", "", "ready", "!tired", "box"))
+            effects = dice.choice(("open0", "open0", "open1", "ready", "box !ready", "open1 tired", "!open0"))
+            room = f"{agents[robot]}{dice.choice(rooms)}"
+            builder.action(f"deed{k}", (robot,), f"{room} {needs}", effects, dice.choice(_COSTS))
+    for k in range(2):
+        i, j = sorted(dice.sample(range(len(places)), 2))
+        jump = f"{places[j]} !{places[i]} {dice.choice(('', '', '!ready'))}"
+        builder.action(f"jump{k}", (0,), f"{places[i]} open{k}", jump, dice.choice(_COSTS))
+    if dice.random() < 0.4:
+        both = " ".join(f"{agents[robot]}{dice.choice(rooms)}" for robot in (1, 2))
+        effects = dice.choice(("open0", "open1", "box ready"))
+        builder.action("lift", (1, 2), both, effects, dice.choice(_COSTS))
+    if dice.random() < 0.4:
+        i, j = sorted(dice.sample(range(len(places)), 2))
+        robot = dice.choice((1, 2))
+        met = f"{places[i]} {agents[robot]}{dice.choice(rooms)} {dice.choice(('', '', 'box'))}"
+        builder.action("carry", (0, robot), met, f"{places[j]} !{places[i]}", dice.choice(_COSTS))
+    init = " ".join((places[0], *start, *dice.sample(("ready", "tired", "box"), dice.randint(0, 2))))
+    return builder.task(init, places[-1])
 
 
 def _strips(dice: Random) -> Task:

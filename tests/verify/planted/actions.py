@@ -54,9 +54,9 @@ def _first_two(original: Any, self: Encoding, positive: Any, negative: Any) -> A
     return original(self, tuple(positive)[:2], negative)
 
 
-def _useful_by_adding(original: Any, task: Any, extra: Any) -> Any:
+def _useful_by_adding(original: Any, task: Any, *arguments: Any) -> Any:
     """Actions that only delete are thought to be of no use."""
-    relevant, useful = original(task, extra)
+    relevant, useful = original(task, *arguments)
     return relevant, tuple(i for i in useful if relevant.intersection(task.actions[i].add))
 
 

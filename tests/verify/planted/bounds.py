@@ -7,6 +7,7 @@ from search.alone import Alone
 from search.help import Helped, HelpedOnTheWay, Provided, Providers
 from search.keys import INFINITE_KEY
 from search.provision import Acts, Distances, Provision
+from search.successors import Idle
 from search.touches import Touches
 from search.ways import Ways
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
@@ -20,8 +21,8 @@ def _zero(original: Any, *arguments: Any) -> dict[int, int]:
     return dict.fromkeys(original(*arguments), 0)
 
 
-def _own_moves(original: Any, self: Any, fields: Any, ops: Any) -> None:
-    original(self, fields, [op for op in ops if not op.agents & (op.agents - 1)])
+def _own_moves(original: Any, self: Any, fields: Any, ops: Any, *arguments: Any) -> None:
+    original(self, fields, [op for op in ops if not op.agents & (op.agents - 1)], *arguments)
 
 
 def _too_late(original: Any, self: Helped) -> None:
@@ -29,12 +30,12 @@ def _too_late(original: Any, self: Helped) -> None:
     self._pairs = [(way, provided, latest - 2) for way, provided, latest in self._pairs]
 
 
-def _no_help(self: HelpedOnTheWay, epoch: int, state: int) -> int:
+def _no_help(self: HelpedOnTheWay, epoch: int, state: int, idle: Idle = ()) -> int:
     return self._openings.without[epoch] - self._spent[epoch]
 
 
-def _no_help_later(original: Any, self: HelpedOnTheWay, epoch: int, state: int) -> int:
-    return max(original(self, epoch, state), _no_help(self, epoch, state))
+def _no_help_later(original: Any, self: HelpedOnTheWay, epoch: int, state: int, idle: Idle = ()) -> int:
+    return max(original(self, epoch, state, idle), _no_help(self, epoch, state))
 
 
 def _cheapest_need(original: Any, *arguments: Any) -> list[int] | None:

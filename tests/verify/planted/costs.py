@@ -6,9 +6,10 @@ from typing import Any
 from search.alone import PlanGraph
 from search.encoding import Op
 from search.keys import INFINITE_KEY, Keys, Weights
-from search.labels import Labels
+from search.labels import Label, Labels
+from search.successors import Idle
 from search.suffix import Preserved, Replan, Subplan
-from tests.verify.planted.bug import Bug, replaced, wrapped
+from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
 def _free_windows(original: Any, self: Weights, *arguments: Any) -> None:
@@ -58,12 +59,17 @@ def _any_end(original: Any, self: Preserved, state: int, epochs: int, start: int
     return original(self, state, epochs, 1)
 
 
-def _by_key_alone(self: Labels, labels: list[tuple[int, int]], epoch: int, key: int) -> bool:
-    return any(k <= key for _, k in labels)
+def _by_key_alone(self: Labels, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
+    return any(k <= key for _, k, _ in labels)
 
 
-def _by_epoch_alone(self: Labels, labels: list[tuple[int, int]], epoch: int, key: int) -> bool:
-    return any(t <= epoch for t, _ in labels)
+def _by_epoch_alone(self: Labels, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
+    return any(t <= epoch for t, _, _ in labels)
+
+
+def _never_busy(self: Labels, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
+    no_worse = self._no_worse or always(True)
+    return any(t <= epoch and k <= key and no_worse(k, key) for t, k, _ in labels)
 
 
 def _no_other_order(original: Any, self: Labels, no_worse: Any = None) -> None:
@@ -108,6 +114,7 @@ BUGS = (
     ),
     Bug("labels: add", "later but cheaper dominates", replaced(Labels, "_covered", _by_key_alone)),
     Bug("labels: add", "earlier but dearer dominates", replaced(Labels, "_covered", _by_epoch_alone)),
+    Bug("labels: add", "busy robots dominate idle ones", replaced(Labels, "_covered", _never_busy)),
     Bug(
         "labels: no_worse",
         "limits don't count in dominance",

@@ -16,6 +16,7 @@ def hand_made() -> Iterator[PlanCall]:
     yield from _goals()
     yield from _limits()
     yield from _provisions()
+    yield from _walks()
 
 
 def _epochs() -> Iterator[PlanCall]:
@@ -116,6 +117,7 @@ def _limits() -> Iterator[PlanCall]:
         "pull h r": "b -> c !b",
     }
     yield PlanCall(build(init="a", goal="c", actions=twice), {"max_cost": "3", "window_weight": "3"})
+    yield PlanCall(build(init="a", goal="c", actions=twice), {"mode": "communication", "keep_prefix": "true"})
     # Dear and short against cheap and long: the limit on the window keeps the first.
     either = {
         "do h": "-> g @ 9",
@@ -190,3 +192,39 @@ def _provisions() -> Iterator[PlanCall]:
     for mode in ("serendipity", "communication"):
         options = {"mode": mode, "horizon": "2", "window_weight": "0"}
         yield PlanCall(build(init="a", goal="g", actions=twice), options)
+
+
+def _walks() -> Iterator[PlanCall]:
+    """Who is busy can't walk: what is dear now leaves time for what is cheap later."""
+    actions = {
+        "one h": "h0 -> h1 !h0",
+        "two h": "h1 -> h2 m !h1",
+        "three h": "h2 -> h3 !h2",
+        "long h": "h3 -> g @ 20",
+        "jump h": "h3 y -> g",
+        "go01 r": "r0 -> r1 !r0",
+        "go12 r": "r1 -> r2 !r1",
+        "near r": "r0 m -> x !m",
+        "far r": "r2 x -> y !x",
+        "go01 s": "s0 -> s1 !s0",
+        "fetch s": "s0 m -> x !m @ 3",
+        "help s": "s1 x -> y !x @ 12",
+    }
+    for horizon in ("5", "6"):
+        task = build(agents="h r s", init="h0 r0 s0", goal="g", actions=actions)
+        yield PlanCall(task, {"horizon": horizon})
+    # A step of his plan, of no use, that wants the robot to be where it is.
+    looks = {
+        "one h": "h0 -> h1 !h0",
+        "look h": "r0 -> z",
+        "two h": "h1 -> h2 !h1",
+        "long h": "h2 -> g @ 20",
+        "jump h": "h2 y -> g",
+        "go01 r": "r0 -> r1 !r0",
+        "go12 r": "r1 -> r2 !r1",
+        "far r": "r2 -> y",
+        "go01 s": "s0 -> s1 !s0",
+        "help s": "s1 -> y @ 12",
+    }
+    task = build(agents="h r s", init="h0 r0 s0", goal="g", actions=looks)
+    yield PlanCall(task, {}, ("one h", "look h", "two h", "long h"))
