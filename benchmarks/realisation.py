@@ -1,17 +1,18 @@
 """How much of the promised help happens with people who replan, over a folder of tasks.
 
-    python benchmarks/realisation.py FOLDER [--human NAME] [--discounts 0,0.5,0.9] [--limit N]
+    python benchmarks/realisation.py FOLDER [--human NAME] [--discounts 0,0.5,0.9] [--limit N] [--certify]
 
 For each discount: which of the paper's answers (serendipity, defaults) an observant and a local
 human make happen, what the rest of them cost then, and how much can be saved by planning for such
-a human in the first place.  Prints tables in Markdown, and the time of the planning calls.
+a human in the first place.  Prints tables in Markdown, and the time of the planning calls; with
+``--certify`` also how many of the answers for such humans are certified, and the processor time.
 """
 
 import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 
 import serendipity
 from serendipity import Result, Task
@@ -34,8 +35,10 @@ class Tally:
     stranded: dict[str, int] = field(default_factory=lambda: dict.fromkeys(HUMAN_MODELS, 0))
     turned_out: dict[str, float] = field(default_factory=lambda: dict.fromkeys(HUMAN_MODELS, 0.0))
     seconds: dict[str, list[float]] = field(default_factory=lambda: {model: [] for model in PLANNED})
+    proved: dict[str, int] = field(default_factory=lambda: dict.fromkeys(HUMAN_MODELS, 0))
+    proving: dict[str, list[float]] = field(default_factory=lambda: {model: [] for model in HUMAN_MODELS})
 
-    def add(self, task: Task, discount: str) -> None:
+    def add(self, task: Task, discount: str, *, certify: bool) -> None:
         """Plan for each human, and play the paper's answers against those who replan."""
         self.tasks += 1
         answers = {model: self._plan(task, discount, model) for model in PLANNED}
@@ -49,6 +52,10 @@ class Tally:
                 self._play(task, answers["omniscient"], model)
             if told.opportunity:
                 self.unannounced[model] += serendipity.simulate(task, told, model).realised
+            if certify:
+                started = process_time()
+                self.proved[model] += serendipity.verify(task, answers[model]).verdict == "proved"
+                self.proving[model].append(process_time() - started)
 
     def _plan(self, task: Task, discount: str, model: str) -> Result:
         started = perf_counter()
@@ -73,10 +80,12 @@ def main() -> None:
         task = serendipity.load(folder, human=arguments.human)
         task.variables  # noqa: B018 - found once per task, like its facts
         for discount, tally in tallies.items():
-            tally.add(task, discount)
+            tally.add(task, discount, certify=arguments.certify)
     _print_realised(tallies)
     _print_savings(tallies)
     _print_times(tallies)
+    if arguments.certify:
+        _print_proofs(tallies)
 
 
 def _arguments() -> argparse.Namespace:
@@ -85,6 +94,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--human", default=None)
     parser.add_argument("--discounts", default=DISCOUNTS, help=f"by default {DISCOUNTS}")
     parser.add_argument("--limit", type=int, default=None, help="at most N tasks")
+    parser.add_argument("--certify", action="store_true", help="certify the answers for humans who replan")
     return parser.parse_args()
 
 
@@ -149,6 +159,15 @@ def _print_times(tallies: dict[str, Tally]) -> None:
     _head("discount", *(f"{m}: p50 / p95 / max ms" for m in PLANNED))
     for discount, t in tallies.items():
         _row(discount, *(_quantiles(t.seconds[m]) for m in PLANNED))
+
+
+def _print_proofs(tallies: dict[str, Tally]) -> None:
+    _head("discount", *(f"{m}: proved, p50 / p95 / max ms" for m in HUMAN_MODELS))
+    for discount, t in tallies.items():
+        _row(
+            discount,
+            *(f"{_share(t.proved[m], t.tasks)}, {_quantiles(t.proving[m])}" for m in HUMAN_MODELS),
+        )
 
 
 def _share(part: int, whole: int) -> str:
