@@ -79,7 +79,7 @@ bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders 
 	@mkdir -p build/bench
 	@$(BIN)/python -m benchmarks.usar
 	@echo && $(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 \
-	  --contenders search,automata,paper,fast-downward -o build/bench/side-by-side.csv --plot build/bench/side-by-side.png
+	  --contenders search,again,automata,paper,fast-downward -o build/bench/side-by-side.csv --plot build/bench/side-by-side.png
 	@echo && $(BIN)/serendipity bench --scaling all --seeds 3 -o build/bench/scaling.csv --plot build/bench/scaling.png
 
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests

@@ -41,8 +41,8 @@ def bench(
     ] = "serendipity,communication,composite-inf",
     discounts: Annotated[str, typer.Option(help="Discounts, separated by commas.")] = "0,0.5,0.9",
     contenders: Annotated[
-        str, typer.Option(help="Some of search, automata, paper, fast-downward, separated by commas.")
-    ] = "search,automata,fast-downward",
+        str, typer.Option(help="Some of search, again, automata, paper, fast-downward, separated by commas.")
+    ] = "search,again,automata,fast-downward",
     scaling: Annotated[
         str | None,
         typer.Option(
