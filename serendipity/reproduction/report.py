@@ -12,12 +12,13 @@ from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
 
 _STYLE: Final = """
 :root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
 table { border-collapse: collapse; margin: 1rem 0; }
 .wide { overflow-x: auto; }
 th, td { padding: .25rem .75rem; text-align: right; border-bottom: 1px solid #8886; white-space: nowrap; }
+th { white-space: normal; vertical-align: bottom; }
 th:first-child, td:first-child { text-align: left; }
-svg { width: 100%; max-width: 44rem; height: auto; }
+svg { width: 100%; min-width: 36rem; max-width: 44rem; height: auto; }
 """
 _MOST_BINS: Final = 16
 _WIDTHS: Final = tuple(Fraction(10) ** power * factor for power in range(-6, 12) for factor in (1, 2, 5))
@@ -43,7 +44,10 @@ def html_report(
         "<h2>The examples of sections III-B to III-D</h2>",
         _table(*examples_grid(answers)),
     ]
-    body = "\n".join(part for part in parts if part)
+    # Wide things scroll by themselves, so that the page fits narrow screens and its words stay readable.
+    body = "\n".join(
+        f'<div class="wide">{part}</div>' if part.startswith("<svg") else part for part in parts if part
+    )
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
