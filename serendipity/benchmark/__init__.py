@@ -8,7 +8,7 @@ who wants a plot.
 from serendipity.benchmark.contenders import CONTENDERS, Contender
 from serendipity.benchmark.measure import MODES, Timing, measure
 from serendipity.benchmark.report import HEADER, machine, summary
-from serendipity.benchmark.scaling import AXES, Axis, Sample, scale
+from serendipity.benchmark.scaling import AXES, Axis, Sample, planned, scale
 from serendipity.benchmark.scaling_report import EXPONENTS_HEADER, SCALING_HEADER, exponents, scaling_table
 from serendipity.benchmark.usage import peak_memory
 
@@ -27,6 +27,7 @@ __all__ = [
     "machine",
     "measure",
     "peak_memory",
+    "planned",
     "scale",
     "scaling_table",
     "summary",

@@ -149,17 +149,26 @@ def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> I
         UsageError: there is no such axis.
         SerendipityError: a process fails.
     """
-    chosen = list(axes)
-    for name in chosen:
+    for name, value, size, seed in planned(axes, seeds):
+        found = _answered(size, seed, time_limit)
+        at = max(1, found["length"]) if AXES[name].measured else value
+        yield Sample(axis=name, value=at, seed=seed, **_fields(size), **found)
+
+
+def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, float, Size, int]]:
+    """The tasks of series: axis, value on it, what to generate from, seed.
+
+    Raises:
+        UsageError: there is no such axis.
+    """
+    tasks = []
+    for name in axes:
         if name not in AXES:
             raise UsageError(f"--scaling: expected some of {', '.join(AXES)}, got '{name}'")
-    for name in chosen:
         axis = AXES[name]
-        for value, size in axis.sizes:
-            for seed in range(seeds * _MORE_SEEDS if axis.measured else seeds):
-                found = _answered(size, seed, time_limit)
-                at = max(1, found["length"]) if axis.measured else value
-                yield Sample(axis=name, value=at, seed=seed, **_fields(size), **found)
+        each = range(seeds * _MORE_SEEDS if axis.measured else seeds)
+        tasks += [(name, value, size, seed) for value, size in axis.sizes for seed in each]
+    return tasks
 
 
 def _fields(size: Size) -> dict[str, Any]:

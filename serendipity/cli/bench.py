@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from serendipity.cli import output
+from serendipity.cli import output, progress
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.render import Grid, Line, rendered
 from serendipity.model import InputError, Task, UsageError
@@ -64,7 +64,7 @@ def bench(
     if scaling is not None:
         if folder is not None:
             raise UsageError("--scaling: generates its buildings, so it takes no folder")
-        return _scaling(scaling, seeds, time_limit, output_file, plot)
+        return _scaling(scaling, seeds, time_limit, output_file, plot, quiet=quiet)
     from serendipity import benchmark
 
     chosen = _present(contenders.split(","), quiet=quiet)
@@ -73,11 +73,14 @@ def bench(
             tasks = list(_generated(Path(scratch), rooms, medkits, robots, seeds or 10))
         else:
             tasks = list(_loaded(folder, stride))
-    timings = list(
-        benchmark.measure(
-            tasks, modes.split(","), discounts.split(","), chosen, repeat=repeat, time_limit=time_limit
-        )
+    timings: list[Timing] = []
+    found = benchmark.measure(
+        tasks, modes.split(","), discounts.split(","), chosen, repeat=repeat, time_limit=time_limit
     )
+    with progress.counting("tasks", quiet=quiet) as on_progress:
+        for timing in found:
+            timings.append(timing)
+            on_progress(len({timing.task for timing in timings}), len(tasks))
     most = f"{benchmark.peak_memory():.0f} MiB with all tasks in memory"
     parts: list[Line | Grid] = [
         Line(f"{len(tasks)} tasks; {benchmark.machine()}"),
@@ -95,12 +98,23 @@ def bench(
 
 
 def _scaling(
-    axes: str, seeds: int | None, time_limit: float, output_file: Path | None, plot: Path | None
+    axes: str,
+    seeds: int | None,
+    time_limit: float,
+    output_file: Path | None,
+    plot: Path | None,
+    *,
+    quiet: bool,
 ) -> int:
     from serendipity import benchmark
 
     names = list(benchmark.AXES) if axes == "all" else axes.split(",")
-    samples = list(benchmark.scale(names, seeds=seeds or 5, time_limit=time_limit))
+    total = len(benchmark.planned(names, seeds or 5))
+    samples: list[Sample] = []
+    with progress.counting("tasks", quiet=quiet) as on_progress:
+        for sample in benchmark.scale(names, seeds=seeds or 5, time_limit=time_limit):
+            samples.append(sample)
+            on_progress(len(samples), total)
     parts: list[Line | Grid] = [
         Line(f"{len(samples)} tasks, each in a process of its own; {benchmark.machine()}"),
         Line(f"Medians of processor time, at most {time_limit:g} s a call; the most memory."),
