@@ -87,7 +87,10 @@ class _Display:
         self._lock = Lock()
         self._timer = Timer(_PATIENCE, self._appear)
         self._timer.daemon = True
-        if stays:
+
+    def open(self) -> None:
+        """Show the bar, now or when the work has taken a while."""
+        if self._stays:
             self._appear()
         else:
             self._timer.start()
@@ -125,6 +128,7 @@ class _Display:
 def _display(what: str, *, counts: bool, stays: bool = False) -> Iterator[_Display]:
     display = _Display(what, counts=counts, stays=stays)
     try:
+        display.open()
         yield display
     finally:
         display.close()
