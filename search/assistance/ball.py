@@ -32,13 +32,13 @@ MAX_BITS: Final = 28
 _WIDE_BITS: Final = 24
 """Up to here a distance has four bytes."""
 
-_MOST_TOGETHER: Final = 4096
+_MOST_TOGETHER: Final = 64
 """Combinations of fields that share bits."""
 
-_MOST_GOALS: Final = 1_000_000
+_MOST_STEPS: Final = 5_000
+"""Each is tried at every distance; where there are more, trying takes longer than looking them up."""
 
-_MOST_AT_ONCE: Final = 1 << 20
-"""States expanded between two looks at the clock."""
+_MOST_GOALS: Final = 1_000_000
 
 
 class _Axis(NamedTuple):
@@ -83,7 +83,7 @@ class Places:
                 parts += [(field, list(alone[field])) for field in fields if field & group]
             else:
                 parts.append((group, found))
-        # The busiest come first, in the highest bits: neighbours in the order share their actions.
+        # The busiest come last, in the highest bits: neighbours in the order share their actions.
         parts.sort(key=lambda part: sum(arc.condition.mask & part[0] != 0 for arc in arcs))
         self.bits = 0
         axes = []
@@ -106,15 +106,29 @@ class Places:
 
     def backward(self, condition: Goal, keep: int, put: int) -> Iterator[tuple[int, int, int]]:
         """Mask and bits of places that an action leads to, and the offset to where it came from."""
+        mask, choices = self._choices(condition, keep, put)
+        for chosen in product(*choices):
+            after = sum(after for _, after in chosen)
+            yield mask, after, sum(before for before, _ in chosen) - after
+
+    def steps(self, arcs: "Sequence[Arc]") -> int:
+        """How many steps backward have to be tried at each distance, over all values of the first axis."""
+        top = self.axes[0]
+        total = 0
+        for arc in arcs:
+            ways = prod(map(len, self._choices(arc.condition, arc.keep, arc.put)[1]))
+            total += ways if (arc.condition.mask | ~arc.keep) & top.mask else ways * len(top.values)
+        return total
+
+    def _choices(self, condition: Goal, keep: int, put: int) -> tuple[int, list[list[tuple[int, int]]]]:
+        """Per axis that an action mentions, the pairs of places that it leads between; and their mask."""
         choices = []
         mask = 0
         for axis in self.axes:
             if condition.mask & axis.mask or axis.mask & ~keep:
                 choices.append(list(_pairs(axis, condition, keep, put)))
                 mask |= (1 << axis.width) - 1 << axis.shift
-        for chosen in product(*choices):
-            after = sum(after for _, after in chosen)
-            yield mask, after, sum(before for before, _ in chosen) - after
+        return mask, choices
 
     def holding(self, condition: Goal) -> Array | None:
         """Places of the states in which a condition holds; None where they are too many."""
@@ -189,9 +203,6 @@ class Ball:
         self._most_minor = (1 << self._minor_bits) - 2 - longest
         # A distance is stored plus 1, so that places that nobody touches take no memory.
         self._known: Array = np.zeros(1 << places.bits, dtype=np.uint32 if wide else np.uint16)
-        majors = [arc.weight >> MINOR_BITS for arc in arcs]
-        # All of one cost at once; by length, too, where a step may cost nothing.
-        self._level_shift = self._minor_bits if all(majors) else 0
         self._steps = self._backward(arcs)
         self._known[goals] = 1
         self._buckets: dict[int, list[Array]] = {0: [goals]}
@@ -208,15 +219,13 @@ class Ball:
         while True:
             found = int(self._known[place])
             level = self._queue[0] if self._queue else None
-            if found and (level is None or found - 1 >> self._level_shift <= level):
+            if found and (level is None or found - 1 >> self._minor_bits < level):
                 major, minor = divmod(found - 1, 1 << self._minor_bits)
                 return (major << MINOR_BITS) + minor
             if level is None:
                 return INFINITE_KEY
-            least = level << self._level_shift
-            reached = (least >> self._minor_bits) << MINOR_BITS
-            if reached >= limit:
-                return reached
+            if level << MINOR_BITS >= limit:
+                return level << MINOR_BITS
             if not self._grow():
                 return None
 
@@ -230,29 +239,31 @@ class Ball:
             weight = (major << self._minor_bits) + minor
             for asked, want, offset in self._places.backward(arc.condition, arc.keep, arc.put):
                 if offset:
-                    for at, steps in by_place.items():
-                        if not asked & mask or want & mask == at:
-                            steps.append(_Back(asked & ~mask, want & ~mask, offset, weight))
+                    step = _Back(asked & ~mask, want & ~mask, offset, weight)
+                    for at in [want & mask] if asked & mask else by_place:
+                        by_place[at].append(step)
         return sorted(by_place.items())
 
     def _grow(self) -> bool:
-        """Go on by one distance; False where a distance does not fit any more."""
+        """Go on by one major distance; False where a distance does not fit any more."""
         level = self._queue[0]
-        known, shift = self._known, self._level_shift
-        places = _distinct(np.concatenate(self._buckets[level]))
-        places = places[(known[places] - 1 >> shift) == level]
-        self._buckets[level] = [places]  # still there if the time is up before they are expanded
-        minor = int((known[places] - 1 & (1 << self._minor_bits) - 1).max(initial=0))
-        if minor > self._most_minor or (level << shift >> self._minor_bits) > self._most_major:
+        if level > self._most_major:
             return False
-        for first in range(0, len(places), _MOST_AT_ONCE):
+        known, minor_mask = self._known, (1 << self._minor_bits) - 1
+        while self._buckets[level]:  # steps without a major part stay on the level
+            places = _distinct(np.concatenate(self._buckets[level]))
+            self._buckets[level] = [places]  # still there if the time is up
+            places = places[(known[places] - 1 >> self._minor_bits) == level]
+            if int((known[places] - 1 & minor_mask).max(initial=0)) > self._most_minor:
+                return False
             self._clock.check()
-            self._expand(places[first : first + _MOST_AT_ONCE])
+            self._buckets[level] = []
+            self._expand(places)
         del self._buckets[heappop(self._queue)]
         return True
 
     def _expand(self, places: Array) -> None:
-        known, shift = self._known, self._level_shift
+        known = self._known
         bounds = np.searchsorted(places, [at for at, _ in self._steps] + [1 << self._places.bits])
         for (_, steps), first, last in zip(self._steps, bounds, bounds[1:], strict=False):
             if first == last:
@@ -270,11 +281,11 @@ class Ball:
                 if len(better):
                     before, reached = before[better], reached[better]
                     known[before] = reached
-                    self._remember(before, reached, shift)
+                    self._remember(before, reached)
 
-    def _remember(self, places: Array, distances: Array, shift: int) -> None:
+    def _remember(self, places: Array, distances: Array) -> None:
         """Put places into the buckets of their distances."""
-        levels = distances - 1 >> shift
+        levels = distances - 1 >> self._minor_bits
         lowest, highest = int(levels.min()), int(levels.max())
         for level in range(lowest, highest + 1):
             chosen = places if lowest == highest else places[levels == level]
@@ -295,9 +306,11 @@ def ball_around(
 ) -> Ball | None:
     """A ball that a state can be asked of; None where it would be too large, or a step is free."""
     if not fields or not all(arc.weight for arc in arcs):
-        return None
+        return None  # a step that costs nothing at all may go round for ever
     places = Places(arcs, fields, values, start)
-    goals = places.holding(goal) if places.bits <= MAX_BITS else None
+    if places.bits > MAX_BITS or places.steps(arcs) > _MOST_STEPS:
+        return None
+    goals = places.holding(goal)
     return None if goals is None else Ball(places, arcs, goals, clock)
 
 

@@ -36,7 +36,11 @@ class Bound:
         """A value that no policy undercuts from ``state``."""
         if self._joint is None:
             return self._provision(state)
-        key = self._joint.key(state)
+        try:
+            key = self._joint.key(state)
+        except TooManyStatesError:  # a distance that is too large to be told
+            self._joint = None
+            return self._provision(state)
         if key >= INFINITE_KEY:
             return INFINITE
         prime, supporter = divmod(key, 1 << _SUPPORTER_BITS)

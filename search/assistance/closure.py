@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 SMALL: Final = 3_000
 """States that are explored one by one before arrays take over."""
 
+MEDIUM: Final = 200_000
+"""States that are all looked at before only those near the goal are."""
+
 _CHECK_EVERY: Final = 512
 
 
@@ -159,16 +162,32 @@ class Closure:
             self._known[state] = distances.get(state, INFINITE_KEY)
 
     def _settle_many(self, start: int) -> None:
-        # Load numpy: only a task with a large closure pays for it.
-        from search.assistance.ball import ball_around
+        """All of them where they are not too many; else what is near the goal; else all of them."""
+        if self._settle_in_layers(start, min(MEDIUM, self._limit)) or self._grow_ball(start):
+            return
+        if self._limit <= MEDIUM or not self._settle_in_layers(start, self._limit):
+            raise TooManyStatesError
+
+    def _settle_in_layers(self, start: int, limit: int) -> bool:
+        # Loads numpy: only a task with a large closure pays for it.
         from search.assistance.layers import Layers
 
-        if not self._balls:
-            ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._clock)
-            if ball is not None:
-                self._balls.append(ball)
-                return
-        self._layers.append(Layers(self._arcs, self._goal, self._fields, start, self._limit, self._clock))
+        try:
+            self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._clock))
+        except TooManyStatesError:
+            return False
+        return True
+
+    def _grow_ball(self, start: int) -> bool:
+        """Whether there is a ball now that there was not before."""
+        from search.assistance.ball import ball_around
+
+        if self._balls:
+            return False
+        ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._clock)
+        if ball is not None:
+            self._balls.append(ball)
+        return ball is not None
 
 
 def _by_field(arcs: list[Arc], fields: Sequence[int]) -> _ByField:

@@ -59,7 +59,7 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
     *_, full = assist(game, options, Clock())
     with pytest.MonkeyPatch.context() as patch:
         for module in (closure, provision, branching, shortest):
-            for name in ("_CHECK_EVERY", "SMALL"):
+            for name in ("_CHECK_EVERY", "SMALL", "MEDIUM"):
                 if hasattr(module, name):
                     patch.setattr(module, name, 1)
         if not tables:
