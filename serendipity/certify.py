@@ -1,6 +1,7 @@
 """The facade over the verifier: a result in, a certificate out."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from time import perf_counter
 from typing import Final
 
@@ -15,11 +16,17 @@ _REPLAYED: Final = {
 }
 """Claims that following the rules proves, and how the certificate says so."""
 
+_A_MOMENT: Final = 1.0
+"""Seconds for working out what the human would do in a policy's states."""
+
 _NEEDS_SOLVER: Final = "not examined: the rules alone can't prove it"
 
 
 def check(task: Task, result: Result) -> Certificate:
     """Replay a result rule by rule; quick, and asks no solver.
+
+    A policy of mode ``assistance`` is walked through: every state that it can meet, its actions,
+    its values and that every run ends.
 
     Args:
         task: the task that was asked.
@@ -38,7 +45,20 @@ def check(task: Task, result: Result) -> Certificate:
         from verify.goals import check_goals  # with what proves single goals
 
         return Certificate(tuple(check_goals(task, result, _by_rules, None)), perf_counter() - start)
+    if result.mode == "assistance":
+        return Certificate(tuple(_by_walking(task, result)), perf_counter() - start)
     return Certificate(_by_rules(task, result), perf_counter() - start)
+
+
+def _by_walking(task: Task, result: Result) -> Iterator[Claim]:
+    """Claims of a policy (SPEC 7): what a walk through its states shows within a moment."""
+    from verify.policy import check_policy
+
+    for claim in check_policy(task, result, time_limit=_A_MOMENT, replay_only=True):
+        late = claim.verdict == "undecided"
+        yield (
+            replace(claim, verdict="not_in_scope", reason=f"not examined: {claim.reason}") if late else claim
+        )
 
 
 def _by_rules(task: Task, result: Result) -> tuple[Claim, ...]:

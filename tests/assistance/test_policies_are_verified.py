@@ -122,3 +122,23 @@ def test_certificate_of_the_facade_covers_policies() -> None:
     certificate = serendipity.verify(case_6(), serendipity.plan(case_6(), mode="assistance", ties="robust"))
     assert certificate.verdict == "proved"
     assert [claim.claim for claim in certificate.claims] == ["replay", "cost", "optimal"]
+
+
+@pytest.mark.parametrize("ties", TIES)
+def test_check_walks_through_the_policy(ties: str) -> None:
+    result = serendipity.plan(case_6(), mode="assistance", ties=ties)
+    claims = serendipity.check(case_6(), result).claims
+    assert [(claim.claim, claim.verdict) for claim in claims] == [
+        ("replay", "proved"),
+        ("cost", "proved"),
+        ("optimal", "not_in_scope"),
+    ]
+    wrong = replace(result, policy=tampered(result.policy, 0, value=(Fraction(0), Fraction(1))))
+    assert serendipity.check(case_6(), wrong).verdict == "refuted"
+
+
+def test_check_says_what_it_did_not_examine() -> None:
+    infeasible = replace(serendipity.plan(case_5(), mode="assistance"), status="infeasible", policy=None)
+    (claim,) = serendipity.check(case_5(), infeasible).claims
+    assert (claim.claim, claim.verdict) == ("infeasible", "not_in_scope")
+    assert "verify" in claim.reason

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
+from typing import Final
 
 from serendipity.model import Claim, Result, Task
 from verify.policy.board import Board, Costs
@@ -14,16 +15,21 @@ from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
 
+_NO_WALK: Final = "not examined: it takes more than a walk through the policy; verify looks at it"
 
-def check_policy(task: Task, result: Result, *, time_limit: float | None = None) -> tuple[Claim, ...]:
+
+def check_policy(
+    task: Task, result: Result, *, time_limit: float | None = None, replay_only: bool = False
+) -> tuple[Claim, ...]:
     """Claims about a policy: ``replay``, ``cost``, ``optimal`` or ``infeasible``.
 
     Args:
         task: one human, one robot.
         result: an answer of mode ``assistance``.
         time_limit: seconds after which claims stay undecided, or None.
+        replay_only: leave out what needs more than a walk through the policy's own states.
     """
-    checker = _Checker(task, result, Deadline(time_limit))
+    checker = _Checker(task, result, Deadline(time_limit), replay_only=replay_only)
     claims = []
     started = perf_counter()
     for claim in checker.claims():
@@ -34,8 +40,9 @@ def check_policy(task: Task, result: Result, *, time_limit: float | None = None)
 
 
 class _Checker:
-    def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:
+    def __init__(self, task: Task, result: Result, deadline: Deadline, *, replay_only: bool) -> None:
         self._result = result
+        self._replay_only = replay_only
         self._ties = result.options.ties
         self._no_block = bool(result.options.no_block)
         self._task = task
@@ -48,7 +55,11 @@ class _Checker:
             return
         board = Board(self._task, fixed=self._ties == "fixed", deadline=self._deadline)
         if result.status == "infeasible":
-            yield self._infeasible(board)
+            yield (
+                Claim("infeasible", "not_in_scope", _NO_WALK)
+                if self._replay_only
+                else self._infeasible(board)
+            )
         elif result.policy is not None:
             yield from self._with_policy(board)
 
@@ -79,7 +90,11 @@ class _Checker:
         yield Claim("replay", "proved", "closed under what the human may do, and every run ends")
         yield self._cost(value)
         if self._result.status == "optimal":
-            yield self._optimal(board, value)
+            yield (
+                Claim("optimal", "not_in_scope", _NO_WALK)
+                if self._replay_only
+                else self._optimal(board, value)
+            )
 
     def _cost(self, value: Costs) -> Claim:
         result = self._result
