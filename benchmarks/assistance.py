@@ -1,7 +1,12 @@
 """Silent assistance on the published problems: ``python -m benchmarks.assistance [FOLDER] [options]``.
 
-Prints a table (problem, ties, status, lower and upper value as ``human, supporter``,
-seconds with loading) and a summary by domain.
+Prints a table (problem, ties, status, lower and upper value as ``human, supporter``, CPU
+seconds with loading), whether the values stand in their order (SPEC 7), and a summary by
+domain.  The order: both together without turns <= optimistic <= fixed, and optimistic <=
+expected <= robust; where a value is not proved its bounds must not contradict it.  *Together*
+is the bound that the search prunes with; with ``--composite SECONDS`` it is also worked out
+as the joint plan of mode ``composite`` (no horizon, strict interference, the supporter a
+millionth of the price), and must lie between that bound and optimistic.
 """
 
 import argparse
@@ -9,12 +14,29 @@ import re
 import statistics
 import time
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 
 import serendipity
+from search import Clock, OutOfTimeError
+from search.assistance import joint_optimum
+from serendipity import Task
 
 TIES = ("optimistic", "fixed", "expected", "robust")
+ORDER = (
+    ("bound", "composite"),
+    ("composite", "optimistic"),
+    ("bound", "optimistic"),
+    ("optimistic", "fixed"),
+    ("optimistic", "expected"),
+    ("expected", "robust"),
+)
 DEFAULT = Path(__file__).resolve().parents[2] / "shared" / "spa"
+
+Costs = tuple[Fraction, Fraction]
+Bounds = tuple[Costs, Costs | None]
+"""A lower and an upper value; None where none is known, or none is finite."""
 
 
 def problems(folder: Path) -> Iterator[tuple[str, Path, Path]]:
@@ -35,40 +57,119 @@ def domain_of(problem: Path) -> Path:
     return problem.with_name(re.sub(r"problem_\d+", "domain", problem.name))
 
 
-def main() -> None:
-    """Run all problems under all ties."""
+def load(prime: Path, supporter: Path) -> Task:
+    """The task of two problem files."""
+    return serendipity.load_agents(
+        {"prime": (domain_of(prime), prime), "supporter": (domain_of(supporter), supporter)}, human="prime"
+    )
+
+
+@dataclass
+class Tally:
+    """What the summary is made of."""
+
+    seconds: dict[tuple[str, str], list[float]] = field(default_factory=dict)
+    proved: dict[tuple[str, str], int] = field(default_factory=dict)
+    compared: int = 0
+    exact: int = 0
+    joint: int = 0
+    contradictions: list[str] = field(default_factory=list)
+
+
+def main() -> int:
+    """Run all problems under all ties; 1 where values do not stand in their order."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", nargs="?", type=Path, default=DEFAULT)
     parser.add_argument("--only", default="", help="part of the problems' names")
     parser.add_argument("--ties", nargs="+", default=TIES, choices=TIES)
     parser.add_argument("--time-limit", type=float, default=60)
+    parser.add_argument("--composite", type=float, metavar="SECONDS", help="work the joint plan out, too")
     chosen = parser.parse_args()
-    seconds: dict[tuple[str, str], list[float]] = {}
-    proved: dict[tuple[str, str], int] = {}
+    tally = Tally()
     for name, prime, supporter in problems(chosen.folder):
-        if chosen.only not in name:
-            continue
-        for ties in chosen.ties:
-            start = time.perf_counter()
-            task = serendipity.load_agents(
-                {"prime": (domain_of(prime), prime), "supporter": (domain_of(supporter), supporter)},
-                human="prime",
-            )
-            result = serendipity.plan(task, mode="assistance", ties=ties, time_limit=chosen.time_limit)
-            took = time.perf_counter() - start
-            bounds = result.statistics["bounds"]
-            lower, upper = (", ".join(bounds[side] or ["-"]) for side in ("lower", "upper"))
-            print(
-                f"{name:<28} {ties:<11} {result.status:<10} {lower:>14} {upper:>14} {took:8.3f}", flush=True
-            )
-            key = (name.split("/")[0], ties)
-            seconds.setdefault(key, []).append(took)
-            proved[key] = proved.get(key, 0) + (result.status in ("optimal", "infeasible"))
+        if chosen.only in name:
+            values: dict[str, Bounds] = {}
+            for ties in chosen.ties:
+                values[ties] = _solve(name, load(prime, supporter), ties, chosen.time_limit, tally)
+            task = load(prime, supporter)
+            values["bound"] = _bound(task, chosen.time_limit)
+            if chosen.composite is not None:
+                values["composite"] = _composite(task, chosen.composite)
+            _compare(name, values, tally)
+    _summary(tally)
+    return 1 if tally.contradictions else 0
+
+
+def _solve(name: str, task: Task, ties: str, time_limit: float, tally: Tally) -> Bounds:
+    start = time.process_time()
+    result = serendipity.plan(task, mode="assistance", ties=ties, time_limit=time_limit)
+    took = time.process_time() - start
+    bounds = result.statistics["bounds"]
+    lower, upper = (", ".join(bounds[side] or ["-"]) for side in ("lower", "upper"))
+    print(f"{name:<28} {ties:<11} {result.status:<10} {lower:>14} {upper:>14} {took:8.3f}", flush=True)
+    key = (name.split("/")[0], ties)
+    tally.seconds.setdefault(key, []).append(took)
+    tally.proved[key] = tally.proved.get(key, 0) + (result.status in ("optimal", "infeasible"))
+    return _pair(bounds["lower"]), None if bounds["upper"] is None else _pair(bounds["upper"])
+
+
+def _pair(texts: list[str]) -> Costs:
+    first, second = map(Fraction, texts)
+    return first, second
+
+
+def _bound(task: Task, time_limit: float) -> Bounds:
+    try:
+        value = joint_optimum(task, Clock(time_limit))
+    except OutOfTimeError:
+        value = None
+    return (value, value) if value is not None else ((Fraction(0), Fraction(0)), None)
+
+
+def _composite(task: Task, seconds: float) -> Bounds:
+    """The joint optimum as mode ``composite`` sees it; without bounds where it is not proved."""
+    nothing = (Fraction(0), Fraction(0))
+    result = serendipity.plan(
+        task,
+        mode="composite",
+        horizon="inf",
+        discount="0.999999",
+        interference="strict",
+        time_limit=seconds,
+    )
+    if result.status != "optimal" or result.plan is None:
+        return nothing, None
+    totals = {True: Fraction(0), False: Fraction(0)}
+    for step in result.plan:
+        totals[step.agents == (result.human,)] += task.actions[task.named[step.action][0]].cost
+    value = totals[True], totals[False]
+    return value, value
+
+
+def _compare(name: str, values: dict[str, Bounds], tally: Tally) -> None:
+    """Whether the values of one problem stand in their order, as far as they are known."""
+    tally.compared += 1
+    exact = [b for b in values.values() if b[0] == b[1]]
+    tally.exact += len(exact) == len(values)
+    tally.joint += "composite" in values and values["composite"][1] is not None
+    for less, more in ORDER:
+        if less in values and more in values:
+            upper = values[more][1]
+            if upper is not None and values[less][0] > upper:
+                tally.contradictions.append(f"{name}: {less} is above {more}")
+
+
+def _summary(tally: Tally) -> None:
     print(f"\n{'domain':<28} {'ties':<11} {'proved':>10} {'median s':>10} {'max s':>10}")
-    for (domain, ties), times in seconds.items():
-        share = f"{proved[domain, ties]}/{len(times)}"
+    for (domain, ties), times in tally.seconds.items():
+        share = f"{tally.proved[domain, ties]}/{len(times)}"
         print(f"{domain:<28} {ties:<11} {share:>10} {statistics.median(times):10.3f} {max(times):10.3f}")
+    contradicted = len({text.split(":")[0] for text in tally.contradictions})
+    print(f"\nIn order: {tally.compared - contradicted} of {tally.compared} problems.")
+    print(f"All values proved on {tally.exact}; joint plan worked out on {tally.joint}.")
+    for contradiction in tally.contradictions:
+        print(contradiction)
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(main())
