@@ -6,11 +6,11 @@ Tasks come from the classes below in turn, seed by seed.  One is taken in if its
 ends without a proof; how many were looked at for that is told.  Calls are made on the task as
 it was just loaded (``fresh``: nothing is packed) and, as in a control loop, on one that was
 packed before (``packed``).  All modules are loaded before, and what is in memory is kept from
-the garbage collector (``gc.freeze``).  A deadline
-is *kept* if the call returns within 110 % of it and 5 ms, by the clock; what the process
-itself had spent by then is told beside it, since on a busy machine the clock also counts what
-others do.  The gap is ``(objective - lower_bound) / objective`` of the answer.  With ``--csv``
-rows are appended, and a later run with the same file goes on where the first one stopped.
+the garbage collector (``gc.freeze``).  A deadline is *kept* if the call returns within 110 %
+of it and 5 ms, by the clock; what the process itself had spent by then is told beside it,
+since on a busy machine the clock also counts what others do.  The gap is
+``(objective - lower_bound) / objective`` of the answer.  With ``--csv`` rows are appended, and
+a later run with the same file goes on where the first one stopped.
 """
 
 import argparse

@@ -55,22 +55,22 @@ class Axis:
 
 AXES: Final[dict[str, Axis]] = {
     "rooms": Axis(
-        "rooms (2 medkits, 1 robot, serendipity, 0.9)",
+        "rooms (2 medkits, 1 robot, 0.9)",
         "rooms",
         tuple((n, Size(rooms=n)) for n in (21, 42, 84, 210, 420, 840, 2100)),
     ),
     "medkits": Axis(
-        "medkits (210 rooms, 1 robot, serendipity, 0.9)",
+        "medkits (210 rooms, 1 robot, 0.9)",
         "medkits",
         tuple((n, Size(medkits=n)) for n in (2, 4, 6, 8, 10)),
     ),
     "robots": Axis(
-        "robots (84 rooms, 4 medkits, serendipity, 0.9)",
+        "robots (84 rooms, 4 medkits, 0.9)",
         "robots",
         tuple((n, Size(rooms=84, medkits=4, robots=n)) for n in (1, 2, 3)),
     ),
     "length": Axis(
-        "length of the human's plan (840 rooms, 2 medkits, 1 robot, serendipity, 0.9)",
+        "length of his plan (840 rooms, 2 medkits, 1 robot, 0.9)",
         "actions",
         ((0, Size(rooms=840)),),
         measured=True,
@@ -82,7 +82,7 @@ AXES: Final[dict[str, Axis]] = {
         labels=tuple(MODES),
     ),
     "discounts": Axis(
-        "discounts (84 rooms, 2 medkits, 1 robot, communication)",
+        "discounts (84 rooms, 2 medkits, communication)",
         "discount",
         tuple((i, Size(rooms=84, mode="communication", discount=d)) for i, d in enumerate(_DISCOUNTS)),
         labels=_DISCOUNTS,
