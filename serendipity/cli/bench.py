@@ -67,7 +67,7 @@ def bench(
         return _scaling(scaling, seeds, time_limit, output_file, plot, quiet=quiet)
     from serendipity import benchmark
 
-    chosen = _present(contenders.split(","), quiet=quiet)
+    chosen, absent = _present(contenders.split(","))
     with tempfile.TemporaryDirectory() as scratch:
         if folder is None:
             tasks = list(_generated(Path(scratch), rooms, medkits, robots, seeds or 10))
@@ -81,6 +81,7 @@ def bench(
         for timing in found:
             timings.append(timing)
             on_progress(len({timing.task for timing in timings}), len(tasks))
+    output.warn(absent, quiet=quiet)
     most = f"{benchmark.peak_memory():.0f} MiB with all tasks in memory"
     parts: list[Line | Grid] = [
         Line(f"{len(tasks)} tasks; {benchmark.machine()}"),
@@ -143,13 +144,13 @@ def _check_files(output_file: Path | None, plot: Path | None) -> None:
         check_suffix(plot.suffix)
 
 
-def _present(names: Sequence[str], *, quiet: bool) -> list[str]:
-    """The contenders that can run here; a line on stderr for each that can't."""
+def _present(names: Sequence[str]) -> tuple[list[str], tuple[str, ...]]:
+    """The contenders that can run here, and a warning for each that can't."""
     from serendipity.benchmark import CONTENDERS
 
     reasons = {name: CONTENDERS[name].absent() for name in names if name in CONTENDERS}
-    output.warn(tuple(reason for reason in reasons.values() if reason is not None), quiet=quiet)
-    return [name for name in names if reasons.get(name) is None]
+    absent = tuple(reason for reason in reasons.values() if reason is not None)
+    return [name for name in names if reasons.get(name) is None], absent
 
 
 def _write_csv(rows: "Sequence[Timing] | Sequence[Sample]", output_file: Path | None) -> None:

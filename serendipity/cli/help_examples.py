@@ -14,7 +14,7 @@ EXAMPLES: Final = (
     "serendipity show --example room7 help.json --epoch 6 -o help.svg",
     "serendipity solve --example room7 --discount 0.6 --mode communication --solver highs",
     "serendipity crosscheck --count 5 --judges search,automata",
-    "serendipity bench --rooms 12 --seeds 2 --discounts 0.9 --repeat 1 -o timings.csv",
+    "serendipity bench --rooms 12 --seeds 2 --contenders search,automata --repeat 1 -o timings.csv",
     "serendipity generate usar --rooms 30 --medkits 3 --seed 7 -o building",
     "serendipity plan building --discount 0.9",
     "serendipity generate usar --preset figure2 --seed 7 --layout pair -o figure2",
