@@ -83,9 +83,9 @@ bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders 
 	@echo && $(BIN)/serendipity bench --scaling all --seeds 3 -o build/bench/scaling.csv --plot build/bench/scaling.png
 
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests
-	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
 	@$(BIN)/serendipity crosscheck --count 10000 --judges search,automata -o build/disagreement
 	@$(BIN)/serendipity crosscheck --count 1000 --seed 10000 --judges search,automata,paper,cbc -o build/disagreement
+	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
 
 requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \

@@ -11,7 +11,7 @@ SHARED = Path(__file__).resolve().parents[2] / "shared"
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("ci", derandomize=True, max_examples=100, database=None, **_CALM)
 settings.register_profile("dev", max_examples=50, **_CALM)
-settings.register_profile("fuzz", max_examples=3000, print_blob=True, **_CALM)
+settings.register_profile("fuzz", max_examples=1000, print_blob=True, **_CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 

@@ -6,7 +6,7 @@ from search.simulation import simulate
 from tests.simulation.strategies import Played, played
 from verify.simulator import play
 
-EXAMPLES = 10_000 if settings().max_examples > 1000 else 300
+EXAMPLES = 10_000 if settings().max_examples >= 1000 else 300
 """More than other tests take: the stories differ in many ways, and each is quick to tell."""
 
 
