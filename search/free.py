@@ -49,7 +49,7 @@ class Free:
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
         self._labels.add(self._initial, 0, 0)
-        yield self._bounds.untouched(0, self._initial), Node(0, 0, self._initial, UNTOUCHED, 0, None, ())
+        yield self._bounds.untouched(0, self._initial, 0), Node(0, 0, self._initial, UNTOUCHED, 0, None, ())
 
     def alive(self, node: Node) -> bool:
         """Whether no cheaper node that is as early makes this one superfluous."""
@@ -59,24 +59,24 @@ class Free:
         """Successors of a node; those in which the goals hold are offered to ``best``."""
         if node.parent is None:
             self._offer(node, best)
-        if self._horizon is None:
-            epoch, parts = node.epoch, self._one_after_another(node.state)
-        elif node.epoch < self._horizon:
-            epoch, parts = node.epoch + 1, self._together(node.state)
-        else:
+        epoch = node.epoch if self._horizon is None else node.epoch + 1
+        if self._horizon is not None and epoch > self._horizon:
             return
         bounds = self._bounds
-        for part, option in parts:
+        for part, option in self._together(node.state):
             after = node.state & option.keep | option.put
             key = node.key + option.weight
             bound = key + bounds.private(after)
             if bound >= best.key or self._too_dear(bound) or not option.actions:
                 continue
-            if self._horizon is not None and epoch + bounds.steps(after) > self._horizon:
+            if self._horizon is None:
+                if self._in_turn(option):
+                    continue
+            elif epoch + bounds.steps(after) > self._horizon:
                 continue
             touched = node.phase == TOUCHED or bounds.touches(part.actions)
             if not touched:
-                bound = max(bound, key + bounds.untouched(epoch, after))
+                bound = max(bound, key + bounds.untouched(epoch, after, key))
                 if bound >= best.key:
                     continue
             if self._labels.add(after, epoch, key):
@@ -98,11 +98,9 @@ class Free:
             for option in successors.with_robots(part, state):
                 yield part, option
 
-    def _one_after_another(self, state: int) -> Iterator[tuple[Option, Option]]:
-        """Without a horizon only sets that can't be put in a sequence need to be sets."""
-        for part, option in self._together(state):
-            if len(option.actions) <= 1 or not self._successors.sequential(option.actions):
-                yield part, option
+    def _in_turn(self, option: Option) -> bool:
+        """Whether a set can as well be done in a sequence: without a horizon it need not be a set."""
+        return len(option.actions) > 1 and self._successors.sequential(option.actions)
 
     def _too_dear(self, key: int) -> bool:
         return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

@@ -9,8 +9,8 @@ are too dear already from the initial state stay so, since both parts are
 distances: a first pass leaves few of them.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 from itertools import accumulate, pairwise
 from operator import itemgetter
 from typing import NamedTuple, Protocol
@@ -31,8 +31,15 @@ _MOST_TOUCHES = 1024
 class Timed(Protocol):
     """Lower bound of the key increment from an epoch and a packed state after it."""
 
-    def __call__(self, epoch: int, state: int, idle: Idle = (), /) -> int:
-        """The bound, where robots have been idle for so many epochs."""
+    def __call__(self, epoch: int, state: int, spent: int, idle: Idle = (), /) -> int:
+        """The bound.
+
+        Args:
+            epoch: how many have passed.
+            state: the packed state after it.
+            spent: the key so far; what would end dearer than the bound needs no close look.
+            idle: for how many epochs robots have been idle.
+        """
 
 
 class Choice(NamedTuple):
@@ -49,14 +56,30 @@ class Choice(NamedTuple):
     latest: int
 
 
-@dataclass(frozen=True, slots=True)
 class Provided:
-    """Least key increment, and least number of epochs, for robots to provide a need."""
+    """Least key increment, and least number of epochs, for robots to provide a need.
 
-    cost: Distances
-    steps: Distances
-    unit: int
-    """What ``steps`` counts an epoch as."""
+    Args:
+        need: its id.
+        by_cost: what robots can do, weighed.
+        by_step: the same, counting epochs; None where the weight tells them.
+        unit: weight of an epoch, then.
+    """
+
+    def __init__(self, need: int, by_cost: Provision, by_step: Provision | None, unit: int) -> None:
+        self._need = need
+        self._by_cost = by_cost
+        self._by_step = by_step
+        self._unit = unit
+
+    @cached_property
+    def cost(self) -> Distances:
+        """Least key increment from a packed state."""
+        return self._by_cost.distances(self._need)
+
+    @cached_property
+    def _steps(self) -> Distances:
+        return self.cost if self._by_step is None else self._by_step.distances(self._need)
 
     def epochs(self, state: int, idle: Idle) -> int:
         """In how many epochs from now the need can be provided, from a packed state.
@@ -64,12 +87,12 @@ class Provided:
         Robots that have been idle may have walked meanwhile, where walks are folded.
         """
         if not idle:
-            return self.steps(state) // self.unit
+            return self._steps(state) // self._unit
         return max(0, min(epochs - rest for epochs, rest in zip(self.each(state), idle, strict=True)))
 
     def each(self, state: int) -> tuple[int, ...]:
         """The same without a rest, per robot that may act first."""
-        return tuple(steps // self.unit for steps in self.steps.each(state))
+        return tuple(steps // self._unit for steps in self._steps.each(state))
 
 
 class Providers:
@@ -152,16 +175,14 @@ class Providers:
             needs: their ids.
             horizon: number of epochs; beyond it steps are not told apart.
         """
-        by_step, unit = self._by_cost, self._unit
+        unit = self._unit
         if not self._uniform:
             self._explore(self._by_step, needs, [1] * len(self._weights), horizon.__ge__)
-            by_step, unit = self._by_step, 1
+            unit = 1
         found = {}
         for need in needs:
             group = self._group(need)
-            cost = self._by_cost[group].distances(need)
-            steps = cost if self._uniform else by_step[group].distances(need)
-            found[need] = Provided(cost, steps, unit)
+            found[need] = Provided(need, self._by_cost[group], self._by_step.get(group), unit)
         return found
 
     def _explore(
@@ -227,42 +248,43 @@ class Helped:
     Args:
         bound: private distances to the goal.
         ways: the human's side.
-        needs: the surviving needs; one may stand there twice, before and after ``pi_H``
-            has changed what it is judged by.
+        needs: the surviving needs with the least totals of plans that touch them first; one may
+            stand there twice, before and after ``pi_H`` has changed what it is judged by.
         horizon: number of epochs.
     """
 
     def __init__(
-        self, bound: Projection, ways: Ways, needs: Sequence[tuple[int, Provided]], horizon: int
+        self, bound: Projection, ways: Ways, needs: Iterable[tuple[int, Provided, int]], horizon: int
     ) -> None:
         self._mask = bound.mask
         self._ways = ways
-        self._needs = needs
-        self._horizon = horizon
-        self._without: dict[int, int] | None = None
-        self._pairs: list[tuple[dict[int, int], Provided, int]] = []
+        self._promises = [
+            _Promise(ways, need, provided, total, horizon)
+            for need, provided, total in sorted(needs, key=itemgetter(2))
+        ]
         self._cheap: dict[int, list[tuple[int, Provided, int]]] = {}
 
-    def __call__(self, epoch: int, state: int, idle: Idle = (), /) -> int:
+    @cached_property
+    def _without(self) -> dict[int, int]:
+        return self._ways.to_goal()
+
+    def __call__(self, epoch: int, state: int, spent: int, idle: Idle = (), /) -> int:
         """See :class:`Timed`."""
-        if self._without is None:
-            self._prepare()
-        assert self._without is not None
         at = state & self._mask
         least = self._without.get(at, INFINITE_KEY)
-        for cost, provided, latest in self._from(at, least):
-            if cost >= least:
+        for promise in self._promises:
+            if promise.total - spent >= least:
                 break
-            total = cost + provided.cost(state)
-            if total < least and epoch + provided.epochs(state, idle) <= latest:
+            total = promise.way.get(at, INFINITE_KEY)
+            if total >= least:
+                continue
+            total += promise.provided.cost(state)
+            if total < least and epoch + promise.provided.epochs(state, idle) <= promise.latest:
                 least = total
         return least
 
     def choices(self, state: int) -> list[Choice]:
         """All that the bound is the least of, ascending; none has a cheaper one that is never later."""
-        if self._without is None:
-            self._prepare()
-        assert self._without is not None
         at = state & self._mask
         least = self._without.get(at, INFINITE_KEY)
         found = []
@@ -280,22 +302,31 @@ class Helped:
         return kept
 
     def _from(self, at: int, least: int) -> list[tuple[int, Provided, int]]:
-        """What costs him less than doing without, from a projected state; the cheapest first."""
+        """What costs him less than doing without, from a projected state."""
         known = self._cheap.get(at)
         if known is None:
-            costs = ((way.get(at, INFINITE_KEY), provided, latest) for way, provided, latest in self._pairs)
+            costs = ((p.way.get(at, INFINITE_KEY), p.provided, p.latest) for p in self._promises)
             known = self._cheap[at] = [entry for entry in costs if entry[0] < least]
-            known.sort(key=itemgetter(0))
         return known
 
-    def _prepare(self) -> None:
-        self._without = self._ways.to_goal()
-        for need, provided in self._needs:
-            latest = self._horizon - 1 - self._ways.steps_after[need]
-            self._pairs.append((self._ways.through(need), provided, latest))
+
+class _Promise:
+    """A need that may pay, with the human's ways to its touches once they are asked for."""
+
+    def __init__(self, ways: Ways, need: int, provided: Provided, total: int, horizon: int) -> None:
+        self._ways = ways
+        self._need = need
+        self.provided = provided
+        self.total = total
+        self.latest = horizon - 1 - ways.steps_after[need]
+
+    @cached_property
+    def way(self) -> dict[int, int]:
+        """Least key to the goal with a first touch of the need, by projected state."""
+        return self._ways.through(self._need)
 
 
-def no_bound(_epoch: int, _state: int, _idle: Idle = (), /) -> int:
+def no_bound(_epoch: int, _state: int, _spent: int, _idle: Idle = (), /) -> int:
     """The bound that is always right."""
     return 0
 

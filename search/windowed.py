@@ -218,7 +218,8 @@ class Windowed:
             def promising(option: Option, rest: int = rest, touched: bool = touched) -> bool:
                 least = rest
                 if not touched:
-                    least = max(rest, bounds.untouched(epoch, state & option.keep | option.put, sooner))
+                    after = state & option.keep | option.put
+                    least = max(rest, bounds.untouched(epoch, after, base + option.weight, sooner))
                 return base + option.weight + least < best.key
 
             for option in successors.beside(part, state, node.idle, promising):
@@ -233,7 +234,8 @@ class Windowed:
                 self._end(child, best)
                 if not goes_on or bound + again >= best.key:
                     continue
-                bound = key + again + (rest if touched else max(rest, bounds.untouched(epoch, after, idle)))
+                ahead = rest if touched else max(rest, bounds.untouched(epoch, after, key, idle))
+                bound = key + again + ahead
                 if bound < best.key and self._labels.add(after, epoch, key, idle):
                     yield bound, child
 

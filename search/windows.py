@@ -141,7 +141,10 @@ def bounds_along(
             openings.refine(i, first, [base + rest.get(place, INFINITE_KEY) for base, place in at])
     paying = [i for i in paying if openings.total(i, costs[i], providers.epochs(costs[i])) < limit]
     provided = providers.provided(paying, horizon)
-    off_plan = [(providers.touched(need), provided[need]) for need in paying]
+    off_plan = [
+        (providers.touched(i), provided[i], openings.total(i, costs[i], providers.epochs(costs[i])))
+        for i in paying
+    ]
     return HelpedOnTheWay(openings, spent, {**provided}, outside), Helped(
         tables.bound, ways, off_plan, horizon
     )
@@ -171,9 +174,12 @@ def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) 
         def pays(cost: int) -> bool:
             return start + cost < limit and providers.epochs(cost) < last
 
-        paying = survivors(providers.costs(sorted(least), pays), limit, total)
+        costs = providers.costs(sorted(least), pays)
+        paying = survivors(costs, limit, total)
         if paying is not None:
-            untouched = Helped(tables.bound, ways, list(providers.provided(paying, last).items()), last)
+            provided = providers.provided(paying, last)
+            needs = [(need, provided[need], total(need, costs[need])) for need in paying]
+            untouched = Helped(tables.bound, ways, needs, last)
     return Bounds(tables.bound, tables.steps, untouched, tables.touches)
 
 
