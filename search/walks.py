@@ -94,16 +94,11 @@ class Walks:
         return all(len(cost) <= 1 for cost in costs)
 
     def _place_facts(self) -> list[set[int]]:
-        """Per slot the facts of its place, and those that nothing changes."""
-        task = self._encoding.task
-        changed = {f for action in task.actions for f in (*action.add, *action.delete)}
-        fixed = set(range(len(task.facts))) - changed
-        bits = self._encoding.fact_bits
-        found = [set(fixed) for _ in self.fields]
-        for fact in changed:
-            place = bits[fact]
-            if place is not None and place[0] & self.mask:
-                found[self.fields.index(place[0])].add(fact)
+        """Per slot the facts of its place."""
+        found: list[set[int]] = [set() for _ in self.fields]
+        for fact, bits in enumerate(self._encoding.fact_bits):
+            if bits is not None and bits[0] & self.mask:
+                found[self.fields.index(bits[0])].add(fact)
         return found
 
     def _walker(self, op: Op, facts: Sequence[set[int]]) -> int:
@@ -112,7 +107,7 @@ class Walks:
             return -1
         slot = self._bits.index(op.agents)
         place = self.fields[slot]
-        if op.need_mask & place != place or op.forbidden or not place & ~op.keep:
+        if op.need_mask != place or op.forbidden or not place & ~op.keep:
             return -1
         action = self._encoding.task.actions[op.action]
         mentioned = (*action.pre, *action.neg, *action.add, *action.delete)

@@ -78,6 +78,18 @@ def test_what_else_a_move_changes_makes_it_a_deed():
     assert walks.distance(0, b, a) == -1
 
 
+def test_a_walk_that_asks_for_more_than_a_place_is_a_deed():
+    """Even for what nothing changes: it may be false."""
+    moves = {"go r a b": "at-a lit -> at-b !at-a", "go r b a": "at-b -> at-a !at-b"}
+    deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
+    task = builders.task(init="at-a", goal="done", actions=moves | deeds)
+    packed = encoding(task, Clock())
+    walks = Walks(packed, Clock())
+    a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
+    assert walks.distance(0, a, b) == -1
+    assert walks.distance(0, b, a) == 1
+
+
 def _step_by_step(tables, plan):
     """In place of ``Tables.walks``: none that can be folded."""
 
