@@ -4,7 +4,7 @@
 
 *Reading* is parsing, uniting and grounding with the files in the page cache, after a
 warm-up: ``warm`` keeps what was parsed of equal domain texts, ``cold`` forgets it before
-each task.  *Packing* is what is made once per task (finite-domain variables, packed ops).
+each task.  *Packing* is what the search makes once per task (packed ops).
 *Search* is a planning call on a packed task that nothing was asked of before: every other
 table is built inside the time.  The garbage collector is frozen around the loops, since a
 caller has one task in memory, not 200.
