@@ -4,7 +4,7 @@ from typing import Any
 
 from search import projection, windows
 from search.alone import Alone
-from search.help import Helped, HelpedOnTheWay, Provided, Providers
+from search.help import Helped, HelpedOnTheWay, Provided, Providers, _Promise
 from search.keys import INFINITE_KEY
 from search.provision import Acts, Distances, Provision
 from search.successors import Idle
@@ -25,9 +25,9 @@ def _own_moves(original: Any, self: Any, fields: Any, ops: Any, *arguments: Any)
     original(self, fields, [op for op in ops if not op.agents & (op.agents - 1)], *arguments)
 
 
-def _too_late(original: Any, self: Helped) -> None:
-    original(self)
-    self._pairs = [(way, provided, latest - 2) for way, provided, latest in self._pairs]
+def _too_late(original: Any, self: _Promise, *arguments: Any) -> None:
+    original(self, *arguments)
+    self.latest -= 2
 
 
 def _no_help(self: HelpedOnTheWay, epoch: int, state: int, idle: Idle = ()) -> int:
@@ -81,10 +81,11 @@ def _limit_is_exact(original: Any, self: Alone, start: int, limit: int) -> int:
 
 def _dear(original: Any, self: Providers, *arguments: Any) -> dict[int, Provided]:
     found = original(self, *arguments)
-    return {
-        need: Provided(lambda state, old=old: 3 * old.cost(state), old.steps, old.unit)
-        for need, old in found.items()
-    }
+    for provided in found.values():
+        cost = provided.cost
+        provided.__dict__["_steps"] = provided._steps
+        provided.__dict__["cost"] = lambda state, cost=cost: 3 * cost(state)
+    return found
 
 
 _SLOWER = "a weaker bound is still a bound: the search only takes longer"
@@ -101,7 +102,7 @@ BUGS = (
     ),
     Bug("touches: is_touch", "a joint action is none", wrapped(Touches, "is_touch", _own_touches)),
     Bug("ways: explore", "the goal is two actions further", wrapped(Ways, "explore", _far_goal)),
-    Bug("help: Helped", "help has to come two epochs earlier", wrapped(Helped, "_prepare", _too_late)),
+    Bug("help: Helped", "help has to come two epochs earlier", wrapped(_Promise, "__init__", _too_late)),
     Bug("help: opening", "nobody helps", replaced(HelpedOnTheWay, "opening", _no_help)),
     Bug("help: later", "nobody helps later", wrapped(HelpedOnTheWay, "later", _no_help_later)),
     Bug("help: survivors", "only the first need is kept", wrapped(windows, "survivors", _cheapest_need)),
