@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from search import Clock, Outcome, OutOfTimeError, least_over_ties, optimal_human_plans, solve
 from search.simulation import solve_for_human
 from serendipity.gap import Gap, news
+from serendipity.model.collection import no_collection
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options
@@ -69,8 +70,9 @@ def plan(
             return plan(about, human_plan=names, visible=visible, cancelled=cancelled, **options)
 
         return plan_for_goals(task, goals, observed, beta, options_from(options), known, cancelled=cancelled)
-    *_, last = _answers(task, human_plan, visible, options, cancelled)
-    return last()
+    with no_collection():  # beside a large task a collection takes longer than a short deadline
+        *_, last = _answers(task, human_plan, visible, options, cancelled)
+        return last()
 
 
 def plan_anytime(
