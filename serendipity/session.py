@@ -27,6 +27,7 @@ class Session:
 
     def __init__(self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> None:
         self._task = task
+        _ = task.named  # what every epoch's actions are looked up in
         self._options = options
         self._human_plan = None if human_plan is None else tuple(human_plan)
         self._cancelled = threading.Event()
