@@ -3,7 +3,7 @@
 import threading
 import time
 
-_EVERY = 127
+_EVERY = 31
 """All ones in binary: ticks between two looks at the time, less one."""
 
 

@@ -24,7 +24,7 @@ from serendipity.ties import combined, until_settled
 if TYPE_CHECKING:
     from serendipity.goals import GoalsGiven, ObservedGiven
 
-_VERDICT_SHARE: Final = 0.05
+_VERDICT_SHARE: Final = 0.02
 """What the verdict on humans who replan may add to the time limit: a share of it."""
 
 
