@@ -17,7 +17,8 @@ from functools import cached_property
 from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 from search.clock import Clock
-from serendipity.model.actions import Condition, GroundAction, conflicting
+from search.relevance import relevant_to_goals
+from serendipity.model.actions import Condition, conflicting
 from serendipity.model.collection import no_collection
 from serendipity.model.task import Task
 
@@ -136,7 +137,7 @@ class Encoding:
             self._build(task, extra, clock)
 
     def _build(self, task: Task, extra: frozenset[int], clock: Clock) -> None:
-        relevant, useful = _relevant(task, extra, clock)
+        relevant, useful = relevant_to_goals(task, extra, clock)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
@@ -369,31 +370,6 @@ def human_facts(task: Task) -> frozenset[int]:
 
 def _with_human_facts(task: Task, clock: Clock) -> Encoding:
     return Encoding(task, human_facts(task), clock)
-
-
-def _relevant(task: Task, extra: frozenset[int], clock: Clock) -> tuple[set[int], tuple[int, ...]]:
-    """Facts and actions from which the goals can be influenced (backward closure)."""
-    relevant = {*extra, *task.goal.positive, *task.goal.negative}
-    relevant.update(task.robot_goal.positive, task.robot_goal.negative)
-    changers: dict[int, list[int]] = {}
-    for i, action in enumerate(task.actions):
-        clock.tick()
-        for fact in action.add + action.delete:
-            changers.setdefault(fact, []).append(i)
-    useful: set[int] = set()
-    pending = list(relevant)
-    while pending:
-        for i in changers.get(pending.pop(), ()):
-            if i in useful:
-                continue
-            clock.tick()
-            useful.add(i)
-            cause: GroundAction = task.actions[i]
-            for fact in (*cause.pre, *cause.neg):
-                if fact not in relevant:
-                    relevant.add(fact)
-                    pending.append(fact)
-    return relevant, tuple(sorted(useful))
 
 
 def _distinct_costs(task: Task) -> tuple[Fraction, ...]:

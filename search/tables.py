@@ -1,12 +1,10 @@
 """What every search of one call shares: packed task, key weights, bounds, the human alone."""
 
-from collections.abc import Sequence
 from functools import cached_property
 
 from search.alone import Alone, PlanGraph, Priced
 from search.clock import Clock
 from search.encoding import Encoding, Goal, Op, encoding, full_encoding, human_facts
-from search.help import Providers
 from search.keys import INFINITE_KEY, Weights
 from search.projection import Projection, human_projection, human_steps
 from search.successors import Option, Successors, as_option
@@ -94,10 +92,6 @@ class Tables:
     def ways(self) -> Ways:
         """The human's ways to his touches."""
         return Ways(self.encoding, self.touches, self.bound, self.steps, self.weights, self.clock)
-
-    def providers(self, followed: Sequence[Op] = ()) -> Providers:
-        """What robots need to provide touches, while the human does ``followed``."""
-        return Providers(self.encoding, self.touches, self.weights.robots, followed, self.clock)
 
     def successors(self, *, idle: bool = False) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing."""

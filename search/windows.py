@@ -3,9 +3,11 @@
 from collections.abc import Callable, Sequence
 
 from search.encoding import human_facts
-from search.help import Bounds, Helped, HelpedOnTheWay, Openings, Providers, Timed, no_bound, survivors
+from search.help import Bounds, Helped, Timed, no_bound, survivors
 from search.keys import INFINITE_KEY, Keys
 from search.labels import Labels
+from search.openings import HelpedOnTheWay, Openings
+from search.providers import Providers
 from search.suffix import Preserved, Replan, Subplan, Suffix
 from search.tables import Tables
 from search.ways import NEVER
@@ -162,7 +164,8 @@ def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) 
     untouched: Timed = no_bound
     last = NEVER if horizon is None else horizon
     if not idle:
-        ways, providers = tables.ways, tables.providers()
+        ways = tables.ways
+        providers = Providers(tables.encoding, tables.touches, tables.weights.robots, (), tables.clock)
         least = ways.explore([(0, tables.encoding.init)], limit).totals
 
         def total(need: int, cost: int) -> int:

@@ -25,7 +25,7 @@ from search.goals.timeline import Ended, Situation
 from search.keys import INFINITE_KEY
 from search.outcome import Outcome, path_steps, plan_steps
 from search.planner import solve
-from search.successors import NOTHING, Option, Successors, as_option
+from search.successors import NOTHING, Option, Successors, as_option, together
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window
 from serendipity.model.task import Task
@@ -150,7 +150,7 @@ class _Search:
         for step in outcome.steps or ():
             if self._task.human not in self._task.actions[step.action].participants:
                 op = self._packed.op(step.action)
-                found[step.epoch] = _joined(found.get(step.epoch, NOTHING), as_option(op, self._team(op)))
+                found[step.epoch] = together(found.get(step.epoch, NOTHING), as_option(op, self._team(op)))
         return found
 
     def _offer(self, robots: dict[int, Option], acting: Successors) -> None:
@@ -313,16 +313,6 @@ class _Search:
     def _served(self, end: Ended) -> Served:
         window = Window(end.node.start, end.end) if end.end else None
         return Served(path_steps(end.node) + plan_steps(end.tail, end.end), window, self._keys.cost(end.key))
-
-
-def _joined(first: Option, second: Option) -> Option:
-    return Option(
-        first.weight + second.weight,
-        first.keep & second.keep,
-        first.put | second.put,
-        first.actions + second.actions,
-        first.agents | second.agents,
-    )
 
 
 def _is_new(node: _Node, seen: dict[object, int]) -> bool:

@@ -121,7 +121,11 @@ BUGS = (
         wrapped(Encoding, "_literals", _positive_only),
     ),
     Bug("encoding: Encoding.op", "a third condition is lost", wrapped(Encoding, "_literals", _first_two)),
-    Bug("encoding: relevance", "deleting is of no use", wrapped(encoding, "_relevant", _useful_by_adding)),
+    Bug(
+        "encoding: relevance",
+        "deleting is of no use",
+        wrapped(encoding, "relevant_to_goals", _useful_by_adding),
+    ),
     Bug("encoding: Encoding.compatible", "everything is", replaced(Encoding, "compatible", always(True))),
     Bug("encoding: Encoding.compatible", "nothing is", replaced(Encoding, "compatible", always(False))),
     Bug(

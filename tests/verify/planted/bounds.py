@@ -4,8 +4,10 @@ from typing import Any
 
 from search import projection, windows
 from search.alone import Alone
-from search.help import Helped, HelpedOnTheWay, Provided, Providers, _Promise
+from search.help import Helped, _Promise
 from search.keys import INFINITE_KEY
+from search.openings import HelpedOnTheWay
+from search.providers import Provided, Providers
 from search.provision import Acts, Distances, Provision
 from search.successors import Idle
 from search.touches import Touches
