@@ -17,9 +17,9 @@ from search.keys import Keys
 from search.labels import Labels
 from search.planner import solve
 from search.projection import Projection
-from search.successors import Idle, Option
+from search.successors import Option
 from search.tables import Tables
-from search.windowed import Windowed
+from search.windowed import Unscheduled, Windowed
 from search.windows import no_worse, suffix_rule
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan, Task
@@ -80,26 +80,15 @@ def _by_windows(
     return tables.keys.cost(best.key)
 
 
-class _AnyOptimal:
+class _AnyOptimal(Unscheduled):
     """Rule 1 for all optimal plans at once; see :class:`search.windowed.Prefix`."""
 
     def __init__(
         self, steps: Sequence[Sequence[tuple[Op, Option]]], bound: Projection, keys: Keys, horizon: int
     ) -> None:
-        self.last = len(steps)
+        super().__init__(len(steps), bound, keys, horizon)
         self._steps = steps
-        self._bound = bound
-        self._keys = keys
-        self._horizon = horizon
 
     def options(self, epoch: int, state: int) -> Iterable[Option]:
         """What some optimal plan does in the epoch, where it is applicable."""
         return [option for op, option in self._steps[epoch - 1] if applicable(op, state)]
-
-    def bound(self, epoch: int, state: int, idle: Idle) -> int:
-        """See :class:`search.windowed.Prefix`."""
-        return self._keys.of_start(self.last, self._horizon) + self._keys.epoch_weight + self._bound(state)
-
-    def opening(self, epoch: int, state: int, idle: Idle) -> int:
-        """See :class:`search.windowed.Prefix`."""
-        return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)

@@ -17,6 +17,7 @@ from search.openings import HelpedOnTheWay
 from search.projection import Projection
 from search.successors import NOTHING, Idle, Option, Successors, in_time
 from search.suffix import Suffix
+from serendipity.model.task import HumanPlan
 
 PREFIX, WINDOW, TOUCHED = 0, 1, 2
 """Phases: before the window; in it, before and after the first touch of the human in it."""
@@ -70,30 +71,21 @@ class Timetable:
         return self._bound.opening(epoch, state, idle)
 
 
-class AnyOfPlan:
-    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (SPEC 3.4)."""
+class Unscheduled:
+    """A :class:`Prefix` whose epochs are not known in advance: his private distances bound the rest.
 
-    def __init__(
-        self,
-        *,
-        successors: Successors,
-        planned: frozenset[int],
-        last: int,
-        bound: Projection,
-        keys: Keys,
-        horizon: int,
-    ) -> None:
+    Args:
+        last: the last epoch in which a window may open.
+        bound: his private distances to the goal.
+        keys: layout of keys.
+        horizon: number of epochs.
+    """
+
+    def __init__(self, last: int, bound: Projection, keys: Keys, horizon: int) -> None:
         self.last = last
-        self._successors = successors
-        self._planned = planned
         self._bound = bound
         self._keys = keys
         self._horizon = horizon
-
-    def options(self, epoch: int, state: int) -> Iterable[Option]:
-        """See :class:`Prefix`."""
-        own = (o for o in self._successors.human(state) if o.actions[0] in self._planned)
-        return (NOTHING, *own)
 
     def bound(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`Prefix`."""
@@ -102,6 +94,22 @@ class AnyOfPlan:
     def opening(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`Prefix`."""
         return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
+
+
+class AnyOfPlan(Unscheduled):
+    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (SPEC 3.4)."""
+
+    def __init__(
+        self, successors: Successors, plan: HumanPlan, bound: Projection, keys: Keys, horizon: int
+    ) -> None:
+        super().__init__(len(plan), bound, keys, horizon)
+        self._successors = successors
+        self._planned = frozenset(plan)
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """See :class:`Prefix`."""
+        own = (o for o in self._successors.human(state) if o.actions[0] in self._planned)
+        return (NOTHING, *own)
 
 
 class Windowed:

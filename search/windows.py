@@ -35,14 +35,7 @@ def window_space(
     prefix: Prefix
     if options.keep_prefix:
         untouched: Timed = no_bound
-        prefix = AnyOfPlan(
-            successors=successors,
-            planned=frozenset(plan),
-            last=len(plan),
-            bound=tables.bound,
-            keys=tables.keys,
-            horizon=horizon,
-        )
+        prefix = AnyOfPlan(successors, plan, tables.bound, tables.keys, horizon)
     else:
         keys = tables.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
