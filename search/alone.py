@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterator
 from heapq import heappop, heappush
 
 from search.clock import Clock
-from search.encoding import Encoding, Goal, Op
+from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY, Weights, own_weights
+from search.ops import Op
 from search.projection import Projection, own_projection
 from search.successors import Lookup
 
@@ -88,7 +89,7 @@ class Memory:
         self.lookup = lookup
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
-        self.plans: tuple[int, PlanGraph] | None = None
+        self.plans: tuple[int, PlanGraph | None] | None = None
 
 
 class Alone:
@@ -177,27 +178,30 @@ class Alone:
             known[end] = rest
         return target
 
-    def optimal_plans(self, state: int) -> "PlanGraph":
-        """All his optimal plans from a packed state that has one."""
+    def plans(self, state: int) -> "PlanGraph | None":
+        """All his optimal plans from a packed state; None if there is none."""
         start = state & self._mask
         last = self._memory.plans
         if last is None or last[0] != start:
-            last = self._memory.plans = start, PlanGraph(start, self._optimal_edges(start))
+            edges = self._optimal_edges(start)
+            last = self._memory.plans = start, None if edges is None else PlanGraph(start, edges)
         return last[1]
 
-    def _optimal_edges(self, start: int) -> Edges:
-        """Per state on an optimal path the actions, ascending, that continue one.
+    def _optimal_edges(self, start: int) -> Edges | None:
+        """Per state on an optimal path the actions, ascending, that continue one; None if there is none.
 
         Every state whose bound does not exceed the optimum is expanded; edges that lie on
         an optimal path are then those between exact distances.
         """
-        optimum = self.key(start)
-        assert optimum < INFINITE_KEY, "asked for plans where there are none"
+        known = self._known.get(start)
+        if known == INFINITE_KEY:
+            return None
+        optimum = INFINITE_KEY if known is None else known
         distance = {start: 0}
         expanded: dict[int, list[tuple[int, int, int]]] = {}
         queue = [(self._bound(start), 0, start)]
         goals = []
-        while queue and queue[0][0] <= optimum:
+        while queue and queue[0][0] <= optimum and queue[0][0] < INFINITE_KEY:
             _, g, state = heappop(queue)
             if state in expanded:
                 continue
@@ -205,8 +209,8 @@ class Alone:
             steps: list[tuple[int, int, int]] = []
             expanded[state] = steps
             if self._goal.holds(state):
-                if g == optimum:
-                    goals.append(state)
+                optimum = g  # the first one is a cheapest one, others are no dearer
+                goals.append(state)
                 continue
             for option in self._lookup.options(state):
                 after = state & option.keep | option.put
@@ -215,7 +219,13 @@ class Alone:
                 if cost < distance.get(after, INFINITE_KEY):
                     distance[after] = cost
                     heappush(queue, (cost + self._bound(after), cost, after))
-        return _edges_into(goals, expanded, distance)
+        if not goals:
+            self._known[start] = INFINITE_KEY
+            return None
+        edges = _edges_into(goals, expanded, distance)
+        for state in (*edges, *goals):
+            self._known[state] = optimum - distance[state]
+        return edges
 
 
 class Priced:
@@ -242,14 +252,21 @@ class Priced:
             found = self._alone.key(state, self._weights.own_limit(limit))
         return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
 
-    def optimal_plans(self, state: int) -> PlanGraph:
-        """See :meth:`Alone.optimal_plans`."""
-        return self._alone.optimal_plans(state)
+    def plans(self, state: int) -> PlanGraph | None:
+        """See :meth:`Alone.plans`."""
+        return self._alone.plans(state)
 
 
 def _memory(encoding: Encoding) -> Memory:
     own = own_weights(encoding)
     return Memory(Lookup(encoding.own_index, lambda op: own[op.cost]))
+
+
+def canonical(alone: Alone | Priced, state: int) -> tuple[int, ...]:
+    """The canonical optimal plan (SPEC 1) from a packed state that has one."""
+    graph = alone.plans(state)
+    assert graph is not None, "asked for plans where there are none"
+    return graph.canonical()
 
 
 def _edges_into(

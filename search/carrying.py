@@ -18,6 +18,6 @@ def at_state(task: Task, state: frozenset[int]) -> Task:
         packed = encoding(task, Clock())
         graph = packed.derived(human_graph, Clock())
         # What can be reached from a state that was reached has been reached.
-        known = packed.pack(state) & graph.mask in graph.predecessors
+        known = packed.pack(state) & graph.mask in graph.moves
         moved.keep_derived(plain_encoding, packed.moved_to(moved, derived=known))
     return moved

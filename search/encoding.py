@@ -4,19 +4,18 @@ An action is then two masks to test and two to apply, whatever the number of
 facts.  Only facts that some useful action or a goal can ask for are packed;
 conflicts between actions are still judged on their declared effects (SPEC 2).
 
-Glossary: *field* - the bits of one variable; *op* - a packed ground action;
-*leader* - the agent under whom an op is looked up (the human if he takes part).
+*Leader* is the agent under whom an op is looked up: the human if he takes part.
 """
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from search.clock import Clock
+from search.ops import Form, Op, OpIndex, forms_of, set_by
 from search.relevance import relevant_to_goals
 from serendipity.model.actions import Condition, conflicting
 from serendipity.model.collection import no_collection
@@ -24,64 +23,6 @@ from serendipity.model.task import Task
 
 T = TypeVar("T")
 P = ParamSpec("P")
-
-
-class Op(NamedTuple):
-    """A packed ground action: applicable iff ``s & need_mask == need`` and no ``s & m == v``
-    of ``forbidden``; its successor is ``s & keep | put``.
-    """
-
-    need_mask: int
-    need: int
-    keep: int
-    put: int
-    forbidden: tuple[tuple[int, int], ...]
-    action: int
-    agents: int
-    """Bit set of its participants."""
-    cost: int
-    """Index of its undiscounted cost in ``Encoding.costs``."""
-
-
-class OpIndex:
-    """Ops of one leader by the value of one field: the one that most of them ask for."""
-
-    __slots__ = ("always", "by_value", "field")
-
-    def __init__(self, ops: Sequence[Op], fields: Sequence[int], clock: Clock) -> None:
-        asked = _asked_for(ops, fields, clock)
-        self.field = max(fields, key=lambda field: asked[field], default=0)
-        self.by_value: dict[int, list[Op]] = {}
-        self.always: list[Op] = []
-        field = self.field
-        for op in ops:
-            if op.need_mask & field:
-                self.by_value.setdefault(op.need & field, []).append(op)
-            else:
-                self.always.append(op)
-
-    def candidates(self, state: int) -> list[Op]:
-        """Ops whose condition on the field holds in a packed state."""
-        return self.by_value.get(state & self.field, []) + self.always
-
-
-def _asked_for(ops: Sequence[Op], fields: Sequence[int], clock: Clock) -> Counter[int]:
-    """How many ops ask for each field; linear in what they ask for."""
-    by_lowest_bit = {field & -field: field for field in fields}
-    asked: Counter[int] = Counter()
-    for op in ops:
-        clock.tick()
-        left = op.need_mask
-        while left:
-            field = by_lowest_bit[left & -left]
-            asked[field] += 1
-            left &= ~field
-    return asked
-
-
-def applicable(op: Op, state: int) -> bool:
-    """Whether an op's precondition holds in a packed state."""
-    return state & op.need_mask == op.need and all(state & m != value for m, value in op.forbidden)
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,9 +62,10 @@ class Encoding:
         fields: masks of the fields.
         costs: the different undiscounted costs of the task's actions, ascending.
         human_bit: the human in a bit set of agents.
-        own: useful ops that the human does alone.
-        joint: useful ops in which the human and others take part.
-        others: useful ops without the human.
+        own: useful ops that the human does alone and that some state allows.
+        joint: those in which the human and others take part.
+        others: those without the human.
+        own_forms, joint_forms, other_forms: the same by their forms.
         own_index: ``own`` by their busiest field.
         joint_index: ``joint`` by theirs.
         robot_indices: ``others`` by theirs, an index for each first participant.
@@ -156,6 +98,11 @@ class Encoding:
             self._values[mask] = [code << shift for code in codes]
             shift += width
         self.boolean = {f for v in task.variables if v.boolean for f in v.facts}
+        # Deleting a value of a group clears nothing: what is added instead does.
+        self._cleared = [
+            bits[0] if bits is not None and fact in self.boolean else 0
+            for fact, bits in enumerate(self.fact_bits)
+        ]
         self.all_ones = (1 << shift) - 1
         self.init = self.pack(task.init)
         self.goal = self.condition(task.goal)
@@ -193,34 +140,45 @@ class Encoding:
     def _sort_by_actor(self, clock: Clock) -> None:
         own: list[Op] = []
         joint: list[Op] = []
-        led: dict[int, list[Op]] = {}
+        others: list[Op] = []
         human = self.human_bit
         for op in map(self.op, self.useful):
             clock.tick()
+            if op.need < 0:
+                continue  # no state passes its test
             if op.agents == human:
                 own.append(op)
             elif op.agents & human:
                 joint.append(op)
             else:
-                led.setdefault(op.agents & -op.agents, []).append(op)
-        self.own, self.joint = tuple(own), tuple(joint)
-        self.others = tuple(op for ops in led.values() for op in ops)
-        self.own_index = OpIndex(own, self.fields, clock)
-        self.joint_index = OpIndex(joint, self.fields, clock)
-        self.robot_indices = tuple(OpIndex(ops, self.fields, clock) for _, ops in sorted(led.items()))
+                others.append(op)
+        self.own, self.joint, self.others = tuple(own), tuple(joint), tuple(others)
+        self.own_forms = forms_of(own, self.all_ones, clock)
+        self.joint_forms = forms_of(joint, self.all_ones, clock)
+        self.other_forms = forms_of(others, self.all_ones, clock)
+        led: dict[int, list[Form]] = {}
+        for form in self.other_forms:
+            led.setdefault(form.agents & -form.agents, []).append(form)
+        self.own_index = OpIndex(self.own_forms, self.fields)
+        self.joint_index = OpIndex(self.joint_forms, self.fields)
+        self.robot_indices = tuple(OpIndex(forms, self.fields) for _, forms in sorted(led.items()))
 
     @cached_property
     def outside(self) -> int:
         """The fields that some op without the human sets."""
-        return self.changed_by(self.others)
+        return set_by(self.other_forms)
 
     @cached_property
     def own_mask(self) -> int:
         """The fields that what the human does alone asks for or sets."""
         mask = 0
-        for op in self.own:
-            mask |= self.mentioned(op)
+        for form in self.own_forms:
+            mask |= form.mentions
         return mask
+
+    def is_touch(self, form: Form) -> bool:
+        """Whether ops of the human mention what others change, or others take part (``search.touches``)."""
+        return form.agents != self.human_bit or bool(form.mentions & self.outside)
 
     def derived(self, build: "Callable[Concatenate[Encoding, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
         """``build(self, ...)``, computed once: tables that depend on nothing but the packed task.
@@ -290,7 +248,8 @@ class Encoding:
             bits = fact_bits[fact]
             assert bits is not None, "a condition asks only for packed facts"
             mask, value = bits
-            impossible |= bool(need_mask & mask) and need & mask != value
+            if need_mask & mask and need & mask != value:
+                impossible = True
             need_mask |= mask
             need |= value
         for fact in negative:
@@ -310,9 +269,7 @@ class Encoding:
         need_mask, need, forbidden = self._literals(action.pre, action.neg)
         clear = put = 0
         for fact in action.delete:
-            bits = self.fact_bits[fact]
-            if bits is not None and fact in self.boolean:
-                clear |= bits[0]
+            clear |= self._cleared[fact]
         for fact in action.add:
             bits = self.fact_bits[fact]
             if bits is not None:
@@ -320,16 +277,11 @@ class Encoding:
                 put |= bits[1]
         agents = self._agents.get(action.participants)
         if agents is None:
-            agents = sum(1 << agent for agent in action.participants)
-            self._agents[action.participants] = agents
-        cost = self._cost_class(action.cost)
+            agents = self._agents[action.participants] = sum(1 << agent for agent in action.participants)
+        cost = self._cost_by_identity.get(id(action.cost))
+        if cost is None:  # the task keeps its costs alive, so identities don't recur
+            cost = self._cost_by_identity[id(action.cost)] = self._cost_index[action.cost]
         return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
-
-    def _cost_class(self, cost: Fraction) -> int:
-        known = self._cost_by_identity.get(id(cost))
-        if known is None:  # the task keeps its costs alive, so identities don't recur
-            known = self._cost_by_identity[id(cost)] = self._cost_index[cost]
-        return known
 
 
 def encoding(task: Task, clock: Clock) -> Encoding:
@@ -340,18 +292,6 @@ def encoding(task: Task, clock: Clock) -> Encoding:
 def plain_encoding(task: Task, clock: Clock) -> Encoding:
     """An encoding of the facts that matter to the goals."""
     return Encoding(task, frozenset(), clock)
-
-
-def prepare(task: Task, *, afresh: bool = False) -> None:
-    """Pack a task before the first call that needs it.
-
-    Args:
-        task: the task.
-        afresh: forget first what earlier calls have left with it.
-    """
-    if afresh:
-        task.forget_derived()
-    encoding(task, Clock())
 
 
 def full_encoding(task: Task, clock: Clock) -> Encoding:

@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterator, Sequence
 
 from search.best_first import Incumbent, Node
-from search.encoding import Op, applicable
 from search.help import Bounds, Choice, no_bound
 from search.labels import Labels
 from search.openings import HelpedOnTheWay
+from search.ops import Op, applicable
 from search.successors import NOTHING, Option, Successors
 from search.suffix import Suffix
 from search.tables import Tables

@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 
 from search.best_first import Incumbent, Node
-from search.encoding import Goal, Op, applicable
+from search.encoding import Goal
+from search.ops import Op, applicable
 from search.successors import NOTHING, Option, Successors
 
 

@@ -80,6 +80,7 @@ class Helped:
         self, bound: Projection, ways: Ways, needs: Iterable[tuple[int, Provided, int]], horizon: int
     ) -> None:
         self._mask = bound.mask
+        self._outside = ways.outside
         self._ways = ways
         self._promises = [
             _Promise(ways, need, provided, total, horizon)
@@ -93,7 +94,7 @@ class Helped:
 
     def __call__(self, epoch: int, state: int, spent: int, idle: Idle = (), /) -> int:
         """See :class:`Timed`."""
-        at = state & self._mask
+        at, around = state & self._mask, state & self._outside
         least = self._without.get(at, INFINITE_KEY)
         for promise in self._promises:
             if promise.total - spent >= least:
@@ -101,7 +102,10 @@ class Helped:
             total = promise.way.get(at, INFINITE_KEY)
             if total >= least:
                 continue
-            total += promise.provided.cost(state)
+            cost = promise.costs.get(around)
+            if cost is None:
+                cost = promise.costs[around] = promise.provided.cost(state)
+            total += cost
             if total < least and epoch + promise.provided.epochs(state, idle) <= promise.latest:
                 least = total
         return least
@@ -134,13 +138,21 @@ class Helped:
 
 
 class _Promise:
-    """A need that may pay, with the human's ways to its touches once they are asked for."""
+    """A need that may pay, with the human's ways to its touches once they are asked for.
+
+    Attributes:
+        provided: what robots can do about it.
+        costs: what they need for it, at least, by the outside fields as far as it was asked.
+        total: least total of plans that touch it first.
+        latest: the last epoch by which they must have provided it.
+    """
 
     def __init__(self, ways: Ways, need: int, provided: Provided, total: int, horizon: int) -> None:
         self._ways = ways
         self._need = need
         self.provided = provided
         self.total = total
+        self.costs: dict[int, int] = {}
         self.latest = horizon - 1 - ways.steps_after[need]
 
     @cached_property

@@ -11,9 +11,9 @@ from fractions import Fraction
 
 from search.best_first import Incumbent, Progress, best_first
 from search.clock import Clock
-from search.encoding import Op
 from search.fixed_window import FixedWindow, Weighed
 from search.keys import INFINITE_KEY
+from search.ops import Op
 from search.outcome import path_steps, plan_steps
 from search.planner import solve
 from search.tables import Tables

@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 
-from search.encoding import Encoding, Op
+from search.encoding import Encoding
+from search.ops import Op
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan
 

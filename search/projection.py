@@ -9,18 +9,19 @@ agent's variables.  It depends on the task alone and is kept with it; a call has
 the distances in its keys.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
 
+from search.backward import backward
 from search.clock import Clock
-from search.encoding import Encoding, Goal, Op
+from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY, Weights, own_actions, own_weights
+from search.ops import Form, set_by
 
 _MAX_STATES = 50_000
 
 Predecessors = dict[int, list[tuple[int, int]]]
-"""Per projected state the states before it, each with the index of the cheapest cost."""
+"""Per projected state the cheapest ways to it: weight (:func:`search.keys.own_weights`), state before it."""
 
 
 class Projection:
@@ -49,11 +50,13 @@ class Projected:
 
     Attributes:
         mask: the fields that are kept.
-        predecessors: per projected state what leads to it.
+        moves: per projected state what leads to it by what mentions nothing that others change.
+        touches: the same by all else.
     """
 
     mask: int
-    predecessors: Predecessors
+    moves: Predecessors
+    touches: Predecessors
 
 
 def human_projection(encoding: Encoding, weights: Weights, clock: Clock) -> Projection:
@@ -71,7 +74,8 @@ def human_projection(encoding: Encoding, weights: Weights, clock: Clock) -> Proj
 def own_projection(encoding: Encoding, clock: Clock) -> Projection:
     """The same in the unit of :func:`search.keys.own_weights`."""
     graph = encoding.derived(human_graph, clock)
-    return Projection(graph.mask, _distances(graph, encoding.goal, own_weights(encoding), clock))
+    goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
+    return Projection(graph.mask, backward(goals, (graph.moves, graph.touches), clock))
 
 
 def human_steps(encoding: Encoding, clock: Clock) -> Projection:
@@ -80,101 +84,113 @@ def human_steps(encoding: Encoding, clock: Clock) -> Projection:
         own = encoding.derived(own_projection, clock)
         return Projection(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
     graph = encoding.derived(human_graph, clock)
-    return Projection(graph.mask, _distances(graph, encoding.goal, [1] * len(encoding.costs), clock))
+    goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
+    counted = [
+        {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}
+        for kind in (graph.moves, graph.touches)
+    ]
+    return Projection(graph.mask, backward(goals, counted, clock))
 
 
 def human_graph(encoding: Encoding, clock: Clock) -> Projected:
     """His graph over all his private fields, or over as many as stay tractable."""
-    own = (*encoding.own, *encoding.joint)
-    changed, shared = encoding.changed_by(own), encoding.outside
+    forms = (*encoding.own_forms, *encoding.joint_forms)
+    changed, shared = set_by(forms), encoding.outside
     private = [field for field in encoding.fields if field & changed and not field & shared]
     goal_first = sorted(private, key=lambda field: (not field & encoding.goal.mask, field))
+    weights = own_weights(encoding)
+    # The cheapest last, so that it stays where forms look alike.
+    dearest_first = sorted(forms, key=lambda form: -form.cost)
+    weighed = [(form, weights[form.cost], encoding.is_touch(form)) for form in dearest_first]
     for count in range(len(private), 0, -1):
         fields = goal_first[:count]
         mask = sum(fields)
-        predecessors = _explore(encoding.init & mask, _Moves(fields, own, clock), clock)
-        if predecessors is not None:
-            return Projected(mask, predecessors)
-    return Projected(0, {0: []})
+        steps = _Steps(fields, weighed, clock)
+        graph = _explore(mask, encoding.init & mask, steps, clock)
+        if graph is not None:
+            return graph
+    return Projected(0, {0: []}, {0: []})
 
 
-def _distances(graph: Projected, goal: Goal, weights: Sequence[int], clock: Clock) -> dict[int, int]:
-    """Backward Dijkstra over the projected states that are reachable forward."""
-    distances: dict[int, int] = {}
-    queue = [(0, state) for state in graph.predecessors if _satisfies(state, graph.mask, goal)]
-    heapify(queue)
-    while queue:
-        distance, state = heappop(queue)
-        if state in distances:
-            continue
-        distances[state] = distance
-        clock.tick()
-        for before, cost in graph.predecessors[state]:
-            if before not in distances:
-                heappush(queue, (distance + weights[cost], before))
-    return distances
+def _satisfying(graph: Projected, goal: Goal) -> list[int]:
+    """The projected states of which some state may satisfy the goal."""
+    if goal.need < 0:
+        return []
+    mask, need = goal.need_mask & graph.mask, goal.need & graph.mask
+    forbidden = [(m, value) for m, value in goal.forbidden if m & graph.mask]
+    found = [state for state in graph.moves if state & mask == need]
+    return [s for s in found if all(s & m != v for m, v in forbidden)] if forbidden else found
 
 
-def _satisfies(state: int, mask: int, goal: Goal) -> bool:
-    if goal.need < 0 or state & goal.need_mask != goal.need & mask:
-        return False
-    return all(not m & mask or state & m != value for m, value in goal.forbidden)
-
-
-def _explore(start: int, moves: "_Moves", clock: Clock) -> Predecessors | None:
-    """Predecessors of every projected state reachable from ``start``; None if too many."""
-    predecessors: Predecessors = {start: []}
+def _explore(mask: int, start: int, steps: "_Steps", clock: Clock) -> Projected | None:
+    """What leads from ``start`` to each projected state; None if they are too many."""
+    moves: Predecessors = {start: []}
+    touches: Predecessors = {start: []}
+    index, by_value, always = steps.index, steps.by_value, steps.always
     pending = [start]
     while pending:
         state = pending.pop()
         clock.tick()
-        for after, cost in moves(state):
-            known = predecessors.get(after)
-            if known is not None:
-                known.append((state, cost))
-            elif len(predecessors) >= _MAX_STATES:
-                return None
-            else:
-                predecessors[after] = [(state, cost)]
-                pending.append(after)
-    return predecessors
+        for entries in (by_value.get(state & index, ()), always):
+            for need_mask, need, keep, put, forbidden, weight, touch in entries:
+                if state & need_mask != need:
+                    continue
+                after = state & keep | put
+                if after == state or (forbidden and any(state & m == value for m, value in forbidden)):
+                    continue
+                if after not in moves:
+                    if len(moves) >= _MAX_STATES:
+                        return None
+                    moves[after], touches[after] = [], []
+                    pending.append(after)
+                (touches if touch else moves)[after].append((weight, state))
+    return Projected(mask, moves, touches)
 
 
-Transition = tuple[int, int, int, int, tuple[tuple[int, int], ...], int]
-"""``need_mask, need, keep, put, forbidden, cost`` of an op seen through the projection."""
+Transition = tuple[int, int, int, int, tuple[tuple[int, int], ...], int, bool]
+"""``need_mask, need, keep, put, forbidden, weight`` of an op seen through the projection, and
+whether it is a touch."""
+
+Literals = tuple[tuple[int, int], ...]
+"""Fields, and values that they must not have."""
 
 
-class _Moves:
-    """Successors in the projection; ops that look alike there are merged, the cheapest kept."""
+class _Steps:
+    """Ops in the projection, by the value of one field; those that look alike are merged, the cheapest kept.
 
-    def __init__(self, fields: Sequence[int], ops: Sequence[Op], clock: Clock) -> None:
+    Attributes:
+        index: the field that most of them ask for.
+        by_value: those that ask for it, by its value.
+        always: the others.
+    """
+
+    def __init__(self, fields: Sequence[int], forms: Iterable[tuple[Form, int, bool]], clock: Clock) -> None:
         mask = sum(fields)
-        merged: dict[tuple[int, int, int, int, tuple[tuple[int, int], ...]], int] = {}
-        for op in ops:
-            clock.tick()
-            if op.keep & mask == mask or op.need < 0:
-                continue
-            forbidden = tuple((m, v) for m, v in op.forbidden if m & mask) if op.forbidden else ()
-            form = (op.need_mask & mask, op.need & mask, op.keep & mask, op.put & mask, forbidden)
-            merged[form] = min(op.cost, merged.get(form, op.cost))
-        self.index = max(fields, key=lambda field: sum(form[0] & field != 0 for form in merged))
+        merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
+        for form, weight, touch in forms:
+            clock.check()
+            if form.sets & mask:
+                shape = form.need_mask & mask, mask & ~form.sets, touch
+                merged.setdefault(shape, {}).update(_seen(form, mask, weight))
+        self.index = max(fields, key=lambda field: sum(len(m) for s, m in merged.items() if s[0] & field))
         self.by_value: dict[int, list[Transition]] = {}
         self.always: list[Transition] = []
-        for (need_mask, need, keep, put, forbidden), cost in merged.items():
-            entry = (need_mask, need, keep, put, forbidden, cost)
-            if need_mask & self.index:
-                self.by_value.setdefault(need & self.index, []).append(entry)
-            else:
-                self.always.append(entry)
+        for (need_mask, keep, touch), values in merged.items():
+            indexed = need_mask & self.index
+            for (need, put, forbidden), weight in values.items():
+                clock.tick()
+                entry = (need_mask, need, keep, put, forbidden, weight, touch)
+                if indexed:
+                    self.by_value.setdefault(need & self.index, []).append(entry)
+                else:
+                    self.always.append(entry)
 
-    def __call__(self, state: int) -> list[tuple[int, int]]:
-        found = []
-        for entries in (self.by_value.get(state & self.index, ()), self.always):
-            for need_mask, need, keep, put, forbidden, cost in entries:
-                if state & need_mask == need:
-                    after = state & keep | put
-                    if after == state:
-                        continue
-                    if not forbidden or all(state & m != value for m, value in forbidden):
-                        found.append((after, cost))
-        return found
+
+def _seen(form: Form, mask: int, weight: int) -> dict[tuple[int, int, Literals], int]:
+    """What the ops of a form ask for and set in some fields, with their weight."""
+    if not form.forbids & mask:
+        return {(op.need & mask, op.put & mask, ()): weight for op in form.ops}
+    return {
+        (op.need & mask, op.put & mask, tuple((m, v) for m, v in op.forbidden if m & mask)): weight
+        for op in form.ops
+    }

@@ -5,7 +5,8 @@ from functools import cached_property
 from itertools import pairwise
 
 from search.clock import Clock
-from search.encoding import Encoding, Op
+from search.encoding import Encoding
+from search.ops import Op
 from search.provision import Distances, Places, Provision
 from search.successors import Idle
 from search.touches import Touches

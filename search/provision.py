@@ -16,9 +16,11 @@ from collections.abc import Set as AbstractSet
 from heapq import heappop, heappush
 from typing import TypeVar
 
+from search.backward import backward
 from search.clock import Clock
-from search.encoding import Encoding, Op
+from search.encoding import Encoding
 from search.keys import INFINITE_KEY
+from search.ops import Form, Op, forms_of, set_by, split
 from search.touches import Need
 
 Spot = tuple[int, int, int, int]
@@ -38,57 +40,63 @@ class Places:
         field: per robot's bit its place field, 0 where it has none.
         moves: per robot and place, -1 for anywhere, what sets its place: the place, and the op.
         walks: the same with the index of the op's cost.
-        walkers: the actions of all moves.
     """
 
     def __init__(self, encoding: Encoding, clock: Clock) -> None:
         self.field: dict[int, int] = {}
         self.moves: dict[int, dict[int, list[tuple[int, Op]]]] = {}
-        changers = (*encoding.own, *encoding.joint, *encoding.others)
+        forms = (*encoding.own_forms, *encoding.joint_forms, *encoding.other_forms)
         for robot in encoding.task.robots:
             bit = 1 << robot
-            mine = [op for op in encoding.others if op.agents & bit]
-            foreign = encoding.changed_by(op for op in changers if not op.agents & bit)
-            private = encoding.changed_by(mine) & ~foreign
-            counts = {f: 0 for f in encoding.fields if f & private}
-            for op in mine:
-                clock.tick()
-                for field in counts:
-                    counts[field] += op.need_mask & field != 0
+            mine = [form for form in encoding.other_forms if form.agents & bit]
+            foreign = set_by(form for form in forms if not form.agents & bit)
+            private = set_by(mine) & ~foreign
+            counts = {
+                field: sum(len(form.ops) for form in mine if form.need_mask & field)
+                for field in encoding.fields
+                if field & private
+            }
             field = max(counts, key=lambda f: counts[f], default=0)
             self.field[bit] = field
             moves: dict[int, list[tuple[int, Op]]] = {}
-            for op in mine:
-                if field & ~op.keep and op.need >= 0:
-                    # Without a condition on the place it can be done from anywhere: key -1.
-                    origin = op.need & field if op.need_mask & field else -1
-                    moves.setdefault(origin, []).append((op.put & field, op))
+            for form in mine:
+                if not field & form.sets:
+                    continue
+                # Without a condition on the place it can be done from anywhere: key -1.
+                anywhere = not form.need_mask & field
+                for op in form.ops:
+                    clock.tick()
+                    moves.setdefault(-1 if anywhere else op.need & field, []).append((op.put & field, op))
             self.moves[bit] = moves
         self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
-        self.walkers = {op.action for moves in self.moves.values() for ops in moves.values() for _, op in ops}
 
 
 class Acts:
     """Robots' ops as one outside field sees them; kept with the packed task.
 
     Attributes:
-        on: ops that mention the field, by its values.
         walks: per robot and place what leads elsewhere without mentioning the field: the
             place, and the index of the cost.  Walks that are possible anywhere stand under -1.
     """
 
-    def __init__(self, field: int, values: Sequence[int], ops: Sequence[Op], places: Places) -> None:
-        self.on = _by_value(field, ops, values)
+    def __init__(self, field: int, forms: Sequence[Form], places: Places) -> None:
+        self._on = _by_value(field, forms)
         self._places = places.field
         self._here: dict[tuple[int, int], dict[int, list[Op]]] = {}
         self.walks = places.walks
-        mentioning = {op.action for op in ops}
-        if not mentioning.isdisjoint(places.walkers):
+        if any(
+            form.agents & bit and form.sets & place for form in forms for bit, place in self._places.items()
+        ):
+            mentioning = {op.action for form in forms for op in form.ops}
             self.walks = {robot: _walks(moves, mentioning) for robot, moves in places.moves.items()}
+
+    def on(self, value: int) -> list[Op]:
+        """What robots can do to a value of the field."""
+        return _with_anything(self._on, value)
 
     def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
         """Where a robot can walk from a place, with the index of the cost."""
-        return _with_anywhere(self.walks[robot], place)
+        return _with_anything(self.walks[robot], place)
 
     def by_place(self, value: int, robot: int) -> dict[int, list[Op]]:
         """What a robot can do to a value of the field, by its place (-1: anywhere)."""
@@ -96,7 +104,7 @@ class Acts:
         if found is None:
             found = self._here[value, robot] = {}
             place = self._places[robot]
-            for op in self.on.get(value, ()):
+            for op in self.on(value):
                 if op.agents & robot:
                     found.setdefault(op.need & place if op.need_mask & place else -1, []).append(op)
         return found
@@ -108,22 +116,18 @@ class AllActs:
     def __init__(self, encoding: Encoding, clock: Clock) -> None:
         self._encoding = encoding
         self._places = encoding.derived(Places, clock)
-        self._mentioning: dict[int, list[Op]] = {}
+        self._mentioning: dict[int, list[Form]] = {}
         by_lowest_bit = {field & -field: field for field in encoding.fields}
-        for op in encoding.others:
-            clock.tick()
-            left = encoding.mentioned(op)
-            while left:
-                field = by_lowest_bit[left & -left]
-                self._mentioning.setdefault(field, []).append(op)
-                left &= ~field
+        for form in encoding.other_forms:
+            for field in split(form.mentions, by_lowest_bit):
+                self._mentioning.setdefault(field, []).append(form)
         self._known: dict[int, Acts] = {}
 
     def on(self, field: int) -> Acts:
         """What robots' ops are to a field."""
         if field not in self._known:
-            ops = self._mentioning.get(field, ())
-            self._known[field] = Acts(field, self._encoding.values(field), ops, self._places)
+            forms = self._mentioning.get(field, ())
+            self._known[field] = Acts(field, forms, self._places)
         return self._known[field]
 
 
@@ -155,7 +159,8 @@ class Provision:
         self._initial = encoding.init
         self._encoding = encoding
         self._acts = encoding.derived(AllActs, clock).on(field)
-        self._flips = _by_value(field, (op for op in flips if field & ~op.keep), encoding.values(field))
+        changing = (op for op in flips if field & ~op.keep)
+        self._flips = _by_value(field, forms_of(changing, encoding.all_ones, clock))
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
@@ -168,58 +173,60 @@ class Provision:
 
     def explore(self, pays: Callable[[int], bool]) -> None:
         """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
-        queue: list[tuple[int, Spot]] = []
+        levels: dict[int, list[Spot]] = {0: []}
         value = self._initial & self._field
         for robot, place in self._places.field.items():
-            heappush(queue, (0, (value, 0, robot, self._initial & place)))
-        settled: dict[Spot, int] = {}
+            levels[0].append((value, 0, robot, self._initial & place))
+        queue = [0]
+        settled: set[Spot] = set()
         open_exits: dict[tuple[int, int, int], set[int]] = {}
-        while queue:
-            cost, spot = heappop(queue)
-            if spot in settled:
-                continue
-            settled[spot] = cost
-            self._clock.tick()
-            self._accept(spot, cost)
-            value, team, robot, place = spot
-            for weight, after in self._changes(spot):
-                self._relax(queue, settled, spot, cost, weight, after, pays)
-            if not robot:
-                continue
-            exits = open_exits.get((value, team, robot))
-            if exits is None:
-                exits = open_exits[value, team, robot] = self._exits(value, robot)
-            exits.discard(place)
-            exits.discard(-1)
-            if not exits:
-                self._stopped.add((value, team, robot))
-                continue
-            for there, index in self._acts.from_place(robot, place):
-                after = (value, team, robot, there)
-                self._relax(queue, settled, spot, cost, self._weights[index], after, pays)
 
-    def _relax(
-        self,
-        queue: list[tuple[int, Spot]],
-        settled: dict[Spot, int],
-        spot: Spot,
-        cost: int,
-        weight: int,
-        after: Spot,
-        pays: Callable[[int], bool],
-    ) -> None:
-        self._entries.setdefault(after, []).append((weight, spot))
-        if after not in settled and pays(cost + weight):
-            heappush(queue, (cost + weight, after))
+        while queue:
+            self._clock.check()
+            cost = heappop(queue)
+            for spot in levels.pop(cost):
+                if spot in settled:
+                    continue
+                settled.add(spot)
+                self._accept(spot, cost)
+                for weight, after in self._changes(spot) + self._elsewhere(spot, open_exits):
+                    self._entries.setdefault(after, []).append((weight, spot))
+                    if after in settled:
+                        continue
+                    level = levels.get(cost + weight)
+                    if level is None:
+                        level = levels[cost + weight] = []
+                        if pays(cost + weight):
+                            heappush(queue, cost + weight)
+                    level.append(after)
+
+    def _elsewhere(self, spot: Spot, open_exits: dict[tuple[int, int, int], set[int]]) -> list[Edge]:
+        """Edges to other places, as long as not all places have been met where something can happen."""
+        value, team, robot, place = spot
+        if not robot:
+            return []
+        exits = open_exits.get((value, team, robot))
+        if exits is None:
+            exits = open_exits[value, team, robot] = self._exits(value, robot)
+        exits.discard(place)
+        exits.discard(-1)
+        if not exits:
+            self._stopped.add((value, team, robot))
+            return []
+        weights = self._weights
+        return [
+            (weights[index], (value, team, robot, there))
+            for there, index in self._acts.from_place(robot, place)
+        ]
 
     def _changes(self, spot: Spot) -> list[Edge]:
         """Edges that set the field, or hand over tracking."""
         value, team, robot, place = spot
         edges: list[Edge] = []
         if robot:
-            ops = _with_anywhere(self._acts.by_place(value, robot), place)
+            ops = _with_anything(self._acts.by_place(value, robot), place)
         else:
-            ops = [op for op in self._acts.on.get(value, ()) if not op.agents & team]
+            ops = [op for op in self._acts.on(value) if not op.agents & team]
         for op in ops:
             after = op.put & self._field if self._field & ~op.keep else value
             weight = self._weights[op.cost]
@@ -229,7 +236,7 @@ class Provision:
                     edges += [
                         (weight, (after, op.agents, other, p)) for p in self._after(op, other, field, here)
                     ]
-        for op in self._flips.get(value, ()):
+        for op in _with_anything(self._flips, value):
             edges.append((0, (op.put & self._field, team, robot, place)))
         if robot and team and len(self._places.field) > 1:
             edges.append((0, (value, team, 0, 0)))
@@ -275,17 +282,8 @@ class Provision:
 
     def distances(self, need: int) -> "Distances":
         """Backward from a need, over what :meth:`explore` has seen."""
-        queue = [(0, spot) for spot in self._accepted.get(need, ())]
-        found: dict[Spot, int] = {}
-        while queue:
-            cost, spot = heappop(queue)
-            if spot in found:
-                continue
-            found[spot] = cost
-            self._clock.tick()
-            for weight, before in self._entries.get(spot, ()):
-                if before not in found:
-                    heappush(queue, (cost + weight, before))
+        sources = [(0, spot) for spot in self._accepted.get(need, ())]
+        found = backward(sources, [self._entries], self._clock)
         return Distances(self._field, self._places.field, found, self._stopped)
 
 
@@ -341,10 +339,11 @@ class Distances:
             yield self._fallback.get((mask, state & self._field), 0) if weight is None else weight
 
 
-def _with_anywhere(by_place: dict[int, list[Item]], place: int) -> list[Item]:
-    anywhere = by_place.get(-1)
-    known = by_place.get(place, [])
-    return known + anywhere if anywhere else known
+def _with_anything(by_value: dict[int, list[Item]], value: int) -> list[Item]:
+    """What stands under a value or a place, and what stands under all of them (-1)."""
+    anything = by_value.get(-1)
+    known = by_value.get(value, [])
+    return known + anything if anything else known
 
 
 def _walks(moves: dict[int, list[tuple[int, Op]]], but: AbstractSet[int]) -> dict[int, list[tuple[int, int]]]:
@@ -355,15 +354,13 @@ def _walks(moves: dict[int, list[tuple[int, Op]]], but: AbstractSet[int]) -> dic
     }
 
 
-def _by_value(field: int, ops: Iterable[Op], values: Sequence[int]) -> dict[int, list[Op]]:
-    """Ops by the values of a field under which they are possible."""
-    found: dict[int, list[Op]] = {value: [] for value in values}
-    for op in ops:
-        if op.need < 0:
+def _by_value(field: int, forms: Iterable[Form]) -> dict[int, list[Op]]:
+    """Ops by the value of a field that they ask for; under -1 where they don't."""
+    found: dict[int, list[Op]] = {}
+    for form in forms:
+        if not form.need_mask & field:
+            found.setdefault(-1, []).extend(form.ops)
             continue
-        if op.need_mask & field:
-            found[op.need & field].append(op)
-        else:
-            for value in values:
-                found[value].append(op)
+        for op in form.ops:
+            found.setdefault(op.need & field, []).append(op)
     return found

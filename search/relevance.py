@@ -1,30 +1,34 @@
 """What can matter to the goals, whatever anybody does: all else is not packed."""
 
+from itertools import compress
+
 from search.clock import Clock
-from serendipity.model.actions import GroundAction
 from serendipity.model.task import Task
 
 
 def relevant_to_goals(task: Task, extra: frozenset[int], clock: Clock) -> tuple[set[int], tuple[int, ...]]:
     """Facts and actions from which the goals can be influenced (backward closure)."""
+    actions = task.actions
     relevant = {*extra, *task.goal.positive, *task.goal.negative}
     relevant.update(task.robot_goal.positive, task.robot_goal.negative)
-    changers: dict[int, list[int]] = {}
-    for i, action in enumerate(task.actions):
+    changers: list[list[int]] = [[] for _ in task.facts]
+    for i, action in enumerate(actions):
         clock.tick()
-        for fact in action.add + action.delete:
-            changers.setdefault(fact, []).append(i)
-    useful: set[int] = set()
+        for fact in action.add:
+            changers[fact].append(i)
+        for fact in action.delete:
+            changers[fact].append(i)
+    useful = bytearray(len(actions))
     pending = list(relevant)
     while pending:
-        for i in changers.get(pending.pop(), ()):
-            if i in useful:
+        for i in changers[pending.pop()]:
+            if useful[i]:
                 continue
             clock.tick()
-            useful.add(i)
-            cause: GroundAction = task.actions[i]
-            for fact in (*cause.pre, *cause.neg):
+            useful[i] = 1
+            cause = actions[i]
+            for fact in cause.pre + cause.neg:
                 if fact not in relevant:
                     relevant.add(fact)
                     pending.append(fact)
-    return relevant, tuple(sorted(useful))
+    return relevant, tuple(compress(range(len(actions)), useful))

@@ -2,9 +2,10 @@
 
 from typing import Protocol
 
-from search.alone import Alone, Priced
-from search.encoding import Encoding, Goal, applicable
+from search.alone import Alone, Priced, canonical
+from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY, Keys
+from search.ops import applicable
 from serendipity.model.task import HumanPlan
 
 
@@ -60,7 +61,7 @@ class Replan:
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
         """See :class:`Suffix`."""
-        return (self._both or self._alone).optimal_plans(state).canonical()
+        return canonical(self._both or self._alone, state)
 
 
 class Subplan:

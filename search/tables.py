@@ -4,8 +4,9 @@ from functools import cached_property
 
 from search.alone import Alone, PlanGraph, Priced
 from search.clock import Clock
-from search.encoding import Encoding, Goal, Op, encoding, full_encoding, human_facts
-from search.keys import INFINITE_KEY, Weights
+from search.encoding import Encoding, Goal, encoding, full_encoding, human_facts
+from search.keys import Weights
+from search.ops import Op
 from search.projection import Projection, human_projection, human_steps
 from search.successors import Option, Successors, as_option
 from search.touches import Touches
@@ -117,14 +118,19 @@ class Tables:
 
     def optimal_plans(self) -> PlanGraph | None:
         """The human's optimal plans from ``I``, or None where he has none."""
-        if self.alone.key(self.encoding.init) >= INFINITE_KEY:
-            return None
-        return self.alone.optimal_plans(self.encoding.init)
+        return self.alone.plans(self.encoding.init)
+
+    @cached_property
+    def _followed(self) -> dict[HumanPlan, list[tuple[Op, Option]]]:
+        return {}
 
     def followed(self, plan: HumanPlan) -> list[tuple[Op, Option]]:
         """The packed actions of a human plan and what they do, in order."""
-        ops = [self.encoding.op(i) for i in plan]
-        return [(op, as_option(op, self.weights.team(op))) for op in ops]
+        known = self._followed.get(plan)
+        if known is None:
+            ops = [self.encoding.op(i) for i in plan]
+            known = self._followed[plan] = [(op, as_option(op, self.weights.team(op))) for op in ops]
+        return known
 
 
 def _both(task: Task) -> Condition:

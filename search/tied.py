@@ -11,10 +11,10 @@ from fractions import Fraction
 from search.alone import PlanGraph
 from search.best_first import Incumbent, Progress, best_first
 from search.clock import Clock, OutOfTimeError
-from search.encoding import Op, applicable
 from search.help import Bounds, no_bound
 from search.keys import Keys
 from search.labels import Labels
+from search.ops import Op, applicable
 from search.planner import solve
 from search.projection import Projection
 from search.successors import Option

@@ -7,10 +7,12 @@ his private fields, and nothing outside changes but by robots.  A *need* is the
 outside part of the condition of a touch.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from search.clock import Clock
-from search.encoding import Encoding, Op, OpIndex
+from search.encoding import Encoding
+from search.ops import Op, OpIndex
 from search.projection import human_graph
 
 
@@ -63,6 +65,15 @@ class Touches:
             found += [op for op in ops if state & op.need_mask == op.need]
         return found
 
+    def of(self, need: int) -> Iterator[Seen]:
+        """All touches of a need."""
+        mask, value = self.needs[need]
+        for form in (*self._encoding.own_forms, *self._encoding.joint_forms):
+            if form.need_mask & self.outside == mask and self._encoding.is_touch(form):
+                for op in form.ops:
+                    if op.need & self.outside == value:
+                        yield self._project(op)
+
     def is_touch(self, action: int) -> bool:
         """Whether an action of the human's is a touch."""
         op = self._encoding.op(action)
@@ -74,7 +85,7 @@ class Touches:
         ops = (
             (op for ops in index.by_value.values() for op in ops) if hidden else index.by_value.get(value, ())
         )
-        return [self._project(op) for op in (*ops, *index.always) if op.need >= 0]
+        return [self._project(op) for op in (*ops, *index.always)]
 
     def _project(self, op: Op) -> Seen:
         mask = self.mask

@@ -11,31 +11,30 @@ Glossary: *slot* - index of a robot among ``task.robots``; *idle* - per slot, fo
 epochs a robot has done no deed, as far as it matters.
 """
 
-from collections import Counter, deque
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import chain
 from typing import NamedTuple
 
 from search.best_first import Node
 from search.clock import Clock
-from search.encoding import Encoding, Op
+from search.encoding import Encoding
+from search.ops import Form, Op
 from search.provision import Places
 from search.successors import Idle, Option, Successors, in_time, together
 from serendipity.model.plans import Step
 
 
 class Deed(NamedTuple):
-    """An op of robots that is no walk.
+    """A form of robots' ops that are no walks.
 
     Attributes:
-        op: the op.
-        need_mask, need: what it asks for, places aside.
-        at: where each robot that takes part has to be: slot and place.
+        form: the ops.
+        need_mask: the fields that they ask for, places aside.
+        at: the robots that take part: slot, and field of the place where each has to be.
     """
 
-    op: Op
+    form: Form
     need_mask: int
-    need: int
     at: tuple[tuple[int, int], ...]
 
 
@@ -63,7 +62,7 @@ class Walks:
         self.mask = sum(self.fields)
         self._moves: list[dict[int, list[tuple[int, Op]]]] = [{} for _ in self.fields]
         self._from: dict[tuple[int, int], dict[int, tuple[int, int, int]]] = {}
-        self.joint = DeedIndex((), ())
+        self.joint = DeedIndex((), encoding)
         self.led: list[DeedIndex] = []
         self.foldable = all(self.fields) and self._fold(clock)
 
@@ -74,22 +73,20 @@ class Walks:
         if (packed.goal.mask | packed.robot_goal.mask | packed.own_mask) & self.mask:
             return False
         own_facts = self._place_facts()
-        for op in (*packed.joint, *packed.others):
-            clock.tick()
-            slot = self._walker(op, own_facts)
-            if slot >= 0:
-                place = self.fields[slot]
-                self._moves[slot].setdefault(op.need & place, []).append((op.put & place, op))
+        for form in (*packed.joint_forms, *packed.other_forms):
+            clock.check()
+            rest = self._without_walks(form, own_facts)
+            if not rest.ops:
                 continue
-            deed = self._deed(op)
+            deed = self._deed(rest)
             if deed is None:
                 return False
-            if op.agents & packed.human_bit:
+            if form.agents & packed.human_bit:
                 joint.append(deed)
             else:
-                led.setdefault(op.agents & -op.agents, []).append(deed)
-        self.joint = DeedIndex(joint, packed.fields)
-        self.led = [DeedIndex(deeds, packed.fields) for _, deeds in sorted(led.items())]
+                led.setdefault(form.agents & -form.agents, []).append(deed)
+        self.joint = DeedIndex(joint, packed)
+        self.led = [DeedIndex(deeds, packed) for _, deeds in sorted(led.items())]
         costs = [{op.cost for moves in way.values() for _, op in moves} for way in self._moves]
         return all(len(cost) <= 1 for cost in costs)
 
@@ -101,31 +98,36 @@ class Walks:
                 found[self.fields.index(bits[0])].add(fact)
         return found
 
-    def _walker(self, op: Op, facts: Sequence[set[int]]) -> int:
-        """The slot of the robot that walks in an op, or -1 if it is no walk."""
-        if op.agents not in self._bits or op.need < 0:
-            return -1
-        slot = self._bits.index(op.agents)
+    def _without_walks(self, form: Form, facts: Sequence[set[int]]) -> Form:
+        """The form without the ops in which a robot does nothing but walk; those are noted."""
+        if form.agents not in self._bits:
+            return form
+        slot = self._bits.index(form.agents)
         place = self.fields[slot]
-        if op.need_mask != place or op.forbidden or not place & ~op.keep:
-            return -1
-        action = self._encoding.task.actions[op.action]
-        mentioned = (*action.pre, *action.neg, *action.add, *action.delete)
-        return slot if facts[slot].issuperset(mentioned) else -1
+        if form.need_mask != place or form.forbids or not form.sets & place:
+            return form
+        rest = []
+        for op in form.ops:
+            action = self._encoding.task.actions[op.action]
+            if facts[slot].issuperset((*action.pre, *action.neg, *action.add, *action.delete)):
+                self._moves[slot].setdefault(op.need & place, []).append((op.put & place, op))
+            else:
+                rest.append(op)
+        return form._replace(ops=rest)
 
-    def _deed(self, op: Op) -> Deed | None:
+    def _deed(self, form: Form) -> Deed | None:
         """None where a place is left open, or is somebody's who takes no part."""
         at = []
         for slot, (bit, place) in enumerate(zip(self._bits, self.fields, strict=True)):
-            if op.agents & bit:
-                if op.need_mask & place != place:
+            if form.agents & bit:
+                if form.need_mask & place != place:
                     return None
-                at.append((slot, op.need & place))
-            elif (op.need_mask | ~op.keep) & place:
+                at.append((slot, place))
+            elif (form.need_mask | form.sets) & place:
                 return None
-        if any(mask & self.mask for mask, _ in op.forbidden):
+        if form.forbids & self.mask:
             return None
-        return Deed(op, op.need_mask & ~self.mask, op.need & ~self.mask, tuple(at))
+        return Deed(form, form.need_mask & ~self.mask, tuple(at))
 
     def touched_by(self, ops: Iterable[Op]) -> bool:
         """Whether some of the human's ops mention a robot's place."""
@@ -143,7 +145,9 @@ class Walks:
 
     def farthest(self, slot: int, here: int) -> int:
         """The most steps from a place to another."""
-        *_, (steps, _, _) = self._ways(slot, here).values()  # breadth first: the last is the farthest
+        steps, _, _ = next(
+            reversed(self._ways(slot, here).values())
+        )  # breadth first: the last is the farthest
         return steps
 
     def walk(self, slot: int, here: int, there: int) -> list[int]:
@@ -182,35 +186,26 @@ class Walks:
 
 
 class DeedIndex:
-    """Deeds by the rarest value that they ask for."""
+    """Deeds by the value of the largest field that they ask for, places aside."""
 
-    def __init__(self, deeds: Sequence[Deed], fields: Sequence[int]) -> None:
-        by_lowest_bit = {field & -field: field for field in fields}
-        asked = [list(_values(deed, by_lowest_bit)) for deed in deeds]
-        counts = Counter(chain.from_iterable(asked))
-        self._always: list[Deed] = []
-        self._by_field: dict[int, dict[int, list[Deed]]] = {}
-        for deed, pairs in zip(deeds, asked, strict=True):
-            if not pairs:
-                self._always.append(deed)
+    def __init__(self, deeds: Iterable[Deed], encoding: Encoding) -> None:
+        largest_first = sorted(encoding.fields, key=lambda field: -len(encoding.values(field)))
+        self._always: list[tuple[Deed, Op]] = []
+        self._by_field: dict[int, dict[int, list[tuple[Deed, Op]]]] = {}
+        for deed in deeds:
+            field = next((field for field in largest_first if deed.need_mask & field), 0)
+            if not field:
+                self._always += [(deed, op) for op in deed.form.ops]
                 continue
-            field, value = min(pairs, key=lambda pair: counts[pair])
-            self._by_field.setdefault(field, {}).setdefault(value, []).append(deed)
+            by_value = self._by_field.setdefault(field, {})
+            for op in deed.form.ops:
+                by_value.setdefault(op.need & field, []).append((deed, op))
 
-    def candidates(self, state: int) -> Iterator[Deed]:
-        """Deeds that may be possible in a packed state."""
+    def candidates(self, state: int) -> Iterator[tuple[Deed, Op]]:
+        """Ops that may be possible in a packed state, with their deeds."""
         yield from self._always
         for field, by_value in self._by_field.items():
             yield from by_value.get(state & field, ())
-
-
-def _values(deed: Deed, by_lowest_bit: dict[int, int]) -> Iterator[tuple[int, int]]:
-    """The fields that a deed asks for, places aside, and their values."""
-    left = deed.need_mask
-    while left:
-        field = by_lowest_bit[left & -left]
-        yield field, deed.need & field
-        left &= ~field
 
 
 class FoldedSuccessors(Successors):
@@ -231,6 +226,7 @@ class FoldedSuccessors(Successors):
         self._weight = weight
         self._step = walks.weights(weight)
         self._possible: dict[int, tuple[list[Option], list[list[Option]]]] = {}
+        self._latest: tuple[int, Idle, list[list[Option]]] = (-1, (), [])
 
     def joint(self, state: int) -> list[Option]:
         """See :class:`Successors`."""
@@ -241,12 +237,11 @@ class FoldedSuccessors(Successors):
     ) -> list[Option]:
         """See :class:`Successors`."""
         found = [first]
-        for options in self._all(state)[1]:
+        for options in self._in_time(state, idle):
             more = [
                 deed
                 for deed in options
-                if in_time(deed, idle)
-                and not deed.agents & first.agents
+                if not deed.agents & first.agents
                 and self._fits(deed, first)
                 and promising(together(first, deed))
             ]
@@ -268,6 +263,13 @@ class FoldedSuccessors(Successors):
             for slot, epochs in enumerate(idle)
         )
 
+    def _in_time(self, state: int, idle: Idle) -> list[list[Option]]:
+        """Deeds to which the robots that lead them can have walked by now."""
+        if self._latest[:2] != (state, idle):
+            ready = [[deed for deed in led if in_time(deed, idle)] for led in self._all(state)[1]]
+            self._latest = state, idle, ready
+        return self._latest[2]
+
     def _all(self, state: int) -> tuple[list[Option], list[list[Option]]]:
         found = self._possible.get(state)
         if found is None:
@@ -278,13 +280,13 @@ class FoldedSuccessors(Successors):
     def _options(self, index: DeedIndex, state: int) -> list[Option]:
         """Deeds that are possible after a walk, cheapest first."""
         walks, found = self._walks, []
-        for deed in index.candidates(state):
-            op = deed.op
-            if state & deed.need_mask != deed.need or any(state & m == v for m, v in op.forbidden):
+        for deed, op in index.candidates(state):
+            need = op.need & deed.need_mask
+            if state & deed.need_mask != need or any(state & m == v for m, v in op.forbidden):
                 continue
             weight, keep, put, due = self._weight(op), op.keep, op.put, []
-            for slot, place in deed.at:
-                field = walks.fields[slot]
+            for slot, field in deed.at:
+                place = op.need & field
                 steps = walks.distance(slot, state & field, place)
                 if steps < 0:
                     break

@@ -1,13 +1,14 @@
 """The human's side of help: his way to each touch, and on to the goal, in his private fields."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from heapq import heapify, heappop, heappush
 
+from search.backward import backward
 from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY, Weights, own_weights
-from search.projection import Projection, own_projection
-from search.touches import Touches
+from search.projection import Projection, human_graph, own_projection
+from search.touches import Seen, Touches
 
 NEVER = 1 << 40
 """An epoch after every horizon."""
@@ -40,7 +41,7 @@ class Corridor:
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        return backward(self._entries.get(need, ()), self._before, self._clock)
+        return backward(self._entries.get(need, ()), [self._before], self._clock)
 
 
 class Ways:
@@ -55,6 +56,7 @@ class Ways:
         clock: asked for time.
 
     Attributes:
+        outside: the fields that others change.
         steps_after: least number of actions to the goal after a touch, by its need, over
             the touches that :meth:`explore` has met.
     """
@@ -68,6 +70,7 @@ class Ways:
         weights: Weights,
         clock: Clock,
     ) -> None:
+        self.outside = touches.outside
         self._encoding = encoding
         self._touches = touches
         self._bound = bound
@@ -128,50 +131,41 @@ class Ways:
 
 
 class OwnWays:
-    """His moves backward, in the unit of :func:`search.keys.own_weights`; kept with the packed task."""
+    """His ways backward, in the unit of :func:`search.keys.own_weights`; kept with the packed task."""
 
     def __init__(self, encoding: Encoding, touches: Touches, clock: Clock) -> None:
-        weights = own_weights(encoding)
-        distances = encoding.derived(own_projection, clock).distances
-        self._goals = [(0, at) for at, rest in distances.items() if rest == 0]
-        self._before: dict[int, list[tuple[int, int]]] = {}
-        self._entries: dict[int, list[tuple[int, int]]] = {}
+        self._weights = own_weights(encoding)
+        self._touches = touches
+        self._distances = encoding.derived(own_projection, clock).distances
+        self._moves = encoding.derived(human_graph, clock).moves
+        self._field = encoding.own_index.field & touches.mask
+        self._by_value: dict[int, list[int]] = {}
+        for at in self._distances:
+            self._by_value.setdefault(at & self._field, []).append(at)
         self._to_goal: dict[int, int] | None = None
-        for at in distances:
-            clock.tick()
-            for op in touches.seen(at):
-                after = at & op.keep | op.put
-                if op.touch < 0:
-                    self._before.setdefault(after, []).append((weights[op.cost], at))
-                elif after in distances:
-                    entry = (weights[op.cost] + distances[after], at)
-                    self._entries.setdefault(op.touch, []).append(entry)
 
     def to_goal(self, clock: Clock) -> dict[int, int]:
         """Least cost to the goal without a touch, by projected state."""
         if self._to_goal is None:
-            self._to_goal = backward(self._goals, self._before, clock)
+            goals = [(0, at) for at, rest in self._distances.items() if rest == 0]
+            self._to_goal = backward(goals, [self._moves], clock)
         return self._to_goal
 
     def through(self, need: int, clock: Clock) -> dict[int, int]:
         """Least cost to the goal with a first touch of a need, by projected state."""
-        return backward(self._entries.get(need, ()), self._before, clock)
+        return backward(self._entries(need), [self._moves], clock)
 
+    def _entries(self, need: int) -> Iterator[tuple[int, int]]:
+        """What a touch of a need costs to the goal, it included, and where it is possible."""
+        for op in self._touches.of(need):
+            weight = self._weights[op.cost]
+            for at in self._where(op):
+                rest = self._distances.get(at & op.keep | op.put)
+                if rest is not None and at & op.need_mask == op.need:
+                    yield weight + rest, at
 
-def backward(
-    sources: Iterable[tuple[int, int]], before: dict[int, list[tuple[int, int]]], clock: Clock
-) -> dict[int, int]:
-    """Dijkstra against the direction of moves."""
-    queue = list(sources)
-    heapify(queue)
-    found: dict[int, int] = {}
-    while queue:
-        cost, at = heappop(queue)
-        if at in found:
-            continue
-        clock.tick()
-        found[at] = cost
-        for weight, earlier in before.get(at, ()):
-            if earlier not in found:
-                heappush(queue, (cost + weight, earlier))
-    return found
+    def _where(self, op: Seen) -> Iterable[int]:
+        """Projected states in which an op may be possible."""
+        if op.need_mask & self._field:
+            return self._by_value.get(op.need & self._field, ())
+        return self._distances

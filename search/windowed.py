@@ -9,11 +9,11 @@ from collections.abc import Iterable, Iterator
 from typing import Protocol
 
 from search.best_first import Incumbent, Node
-from search.encoding import Op, applicable
 from search.help import Bounds
 from search.keys import Keys
 from search.labels import Labels
 from search.openings import HelpedOnTheWay
+from search.ops import Op, applicable
 from search.projection import Projection
 from search.successors import NOTHING, Idle, Option, Successors, in_time
 from search.suffix import Suffix

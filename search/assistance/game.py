@@ -14,7 +14,8 @@ from typing import Final, NamedTuple
 from search.assistance.own import UNREACHABLE, OwnCosts
 from search.assistance.watched import Watched
 from search.clock import Clock
-from search.encoding import Encoding, Op, applicable, encoding
+from search.encoding import Encoding, encoding
+from search.ops import Op, applicable
 from serendipity.model.actions import Condition
 from serendipity.model.errors import UsageError
 from serendipity.model.task import Task

@@ -10,8 +10,9 @@ from search.alone import Alone
 from search.assistance.closure import Arc, Closure, TooManyStatesError
 from search.assistance.watched import Watched
 from search.clock import Clock
-from search.encoding import Encoding, Goal, Op, applicable
+from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY
+from search.ops import Op, applicable
 from search.projection import Projection
 
 LENGTH_BITS: Final = 24

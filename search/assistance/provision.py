@@ -15,7 +15,7 @@ from heapq import heappop, heappush
 from typing import NamedTuple
 
 from search.assistance.game import INFINITE, UNIT_BITS, Game
-from search.encoding import Op
+from search.ops import Op
 
 _CHECK_EVERY = 256
 

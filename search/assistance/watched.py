@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 from operator import itemgetter
 
-from search.encoding import Op
+from search.ops import Op
 
 _RANK = itemgetter(0)
 

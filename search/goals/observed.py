@@ -11,8 +11,9 @@ from fractions import Fraction
 from heapq import heappop, heappush
 
 from search.clock import Clock
-from search.encoding import Encoding, OpIndex
+from search.encoding import Encoding
 from search.keys import INFINITE_KEY, Weights
+from search.ops import OpIndex, forms_of
 from search.projection import human_projection
 from search.successors import Lookup
 from serendipity.model.actions import Condition
@@ -66,7 +67,8 @@ class _Search:
         packed = Encoding(task, frozenset(asked), clock)
         weights = Weights(packed, Options(), None)
         own = sorted({op.action for op in packed.own} | seen)
-        self._lookup = Lookup(OpIndex([packed.op(i) for i in own], packed.fields, clock), weights.alone)
+        forms = forms_of((packed.op(i) for i in own), packed.all_ones, clock)
+        self._lookup = Lookup(OpIndex(forms, packed.fields), weights.alone)
         self._keys = weights.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.best_first import Node
-from search.encoding import Encoding, Goal, Op, applicable
+from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY, Keys
+from search.ops import Op, applicable
 from search.projection import Projection
 from search.successors import NOTHING, Option, Successors
 from search.suffix import Suffix

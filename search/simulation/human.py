@@ -4,10 +4,11 @@ from bisect import bisect_left
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from search.alone import Alone, Priced
+from search.alone import Alone, Priced, canonical
 from search.clock import Clock
-from search.encoding import Encoding, Op, applicable, encoding
+from search.encoding import Encoding, encoding
 from search.keys import INFINITE_KEY, Weights
+from search.ops import Op, applicable
 from search.projection import Projection, human_projection
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions
@@ -92,7 +93,7 @@ class Human:
         best = self.alone.key(belief, limit)
         if best >= limit:
             return Look(intention, kept, kept)
-        plan = self.alone.optimal_plans(belief).canonical()
+        plan = canonical(self.alone, belief)
         return Look(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
 
     def accepts(self, joint: Op, belief: int, best: int | None) -> bool:
@@ -122,10 +123,8 @@ class Human:
 
     def plan_alone(self) -> HumanPlan | None:
         """His canonical optimal plan from ``I``, or None."""
-        init = self.encoding.init
-        if self.alone.key(init) >= INFINITE_KEY:
-            return None
-        return self.alone.optimal_plans(init).canonical()
+        graph = self.alone.plans(self.encoding.init)
+        return None if graph is None else graph.canonical()
 
 
 def _encodings(

@@ -4,8 +4,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from search.encoding import Encoding, Goal, Op, applicable
+from search.encoding import Encoding, Goal
 from search.keys import Keys
+from search.ops import Op, applicable
 from search.successors import NOTHING, Option
 
 

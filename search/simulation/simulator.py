@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from search.clock import Clock
-from search.encoding import Op, applicable
+from search.ops import Op, applicable
 from search.simulation.human import Human, Look
 from search.simulation.intention import Intention
 from serendipity.model.options import Options

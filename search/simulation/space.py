@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from search.best_first import Incumbent, Node
-from search.encoding import applicable
 from search.labels import Labels
+from search.ops import applicable
 from search.simulation.human import Human, Look
 from search.simulation.intention import Intention
 from search.successors import NOTHING, Option, Successors

@@ -4,7 +4,8 @@ from hypothesis import given
 
 from search import Clock
 from search.assistance.watched import Watched
-from search.encoding import applicable, encoding
+from search.encoding import encoding
+from search.ops import applicable
 from serendipity.model import Task
 from tests.assistance.strategies import games
 

@@ -3,8 +3,9 @@
 from dataclasses import replace
 from typing import Any
 
-from search import encoding, schedule
-from search.encoding import Encoding, Goal, Op, OpIndex
+from search import encoding, ops, schedule
+from search.encoding import Encoding, Goal
+from search.ops import Op, OpIndex
 from search.successors import Option, Successors
 from serendipity.model import GroundAction
 from serendipity.model.actions import conflicting, disables
@@ -106,9 +107,9 @@ BUGS = (
         everywhere(disables, _disables_by_deleting),
     ),
     Bug(
-        "encoding: applicable",
+        "ops: applicable",
         "values that a condition forbids are forgotten",
-        everywhere(encoding.applicable, lambda op, state: state & op.need_mask == op.need),
+        everywhere(ops.applicable, lambda op, state: state & op.need_mask == op.need),
     ),
     Bug(
         "encoding: Encoding.op",
@@ -134,7 +135,7 @@ BUGS = (
         replaced(Goal, "holds", lambda self, state: state & self.need_mask == self.need),
     ),
     Bug(
-        "encoding: OpIndex",
+        "ops: OpIndex",
         "ops without the indexed field are lost",
         replaced(OpIndex, "candidates", _only_indexed),
     ),

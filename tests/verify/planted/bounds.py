@@ -23,8 +23,8 @@ def _zero(original: Any, *arguments: Any) -> dict[int, int]:
     return dict.fromkeys(original(*arguments), 0)
 
 
-def _own_moves(original: Any, self: Any, fields: Any, ops: Any, *arguments: Any) -> None:
-    original(self, fields, [op for op in ops if not op.agents & (op.agents - 1)], *arguments)
+def _own_moves(original: Any, self: Any, fields: Any, forms: Any, *arguments: Any) -> None:
+    original(self, fields, [f for f in forms if not f[0].agents & (f[0].agents - 1)], *arguments)
 
 
 def _too_late(original: Any, self: _Promise, *arguments: Any) -> None:
@@ -93,10 +93,10 @@ def _dear(original: Any, self: Providers, *arguments: Any) -> dict[int, Provided
 _SLOWER = "a weaker bound is still a bound: the search only takes longer"
 
 BUGS = (
-    Bug("projection", "distances are doubled", wrapped(projection, "_distances", _doubled)),
-    Bug("projection", "distances are all zero", wrapped(projection, "_distances", _zero), _SLOWER),
+    Bug("projection", "distances are doubled", wrapped(projection, "backward", _doubled)),
+    Bug("projection", "distances are all zero", wrapped(projection, "backward", _zero), _SLOWER),
     Bug("help: Helped", "says nothing", replaced(Helped, "__call__", always(0)), _SLOWER),
-    Bug("projection", "joint actions are forgotten", wrapped(projection._Moves, "__init__", _own_moves)),
+    Bug("projection", "joint actions are forgotten", wrapped(projection._Steps, "__init__", _own_moves)),
     Bug(
         "alone: _search",
         "a value beyond the limit is taken for exact",

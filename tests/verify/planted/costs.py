@@ -4,9 +4,9 @@ from dataclasses import replace
 from typing import Any
 
 from search.alone import PlanGraph
-from search.encoding import Op
 from search.keys import INFINITE_KEY, Keys, Weights
 from search.labels import Label, Labels
+from search.ops import Op
 from search.successors import Idle
 from search.suffix import Preserved, Replan, Subplan
 from tests.verify.planted.bug import Bug, always, replaced, wrapped

@@ -1,0 +1,137 @@
+"""Packed ground actions, and what many of them have in common.
+
+Actions of one schema ask for the same fields and set the same fields, whatever the
+places and things they are about; what depends on the fields alone is told once for
+all of them.
+
+Glossary: *field* - the bits of one variable; *op* - a packed ground action; *form* -
+ops of the same agents that mention the same fields in the same way.
+"""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from search.clock import Clock
+
+
+class Op(NamedTuple):
+    """A packed ground action: applicable iff ``s & need_mask == need`` and no ``s & m == v``
+    of ``forbidden``; its successor is ``s & keep | put``.
+    """
+
+    need_mask: int
+    need: int
+    keep: int
+    put: int
+    forbidden: tuple[tuple[int, int], ...]
+    action: int
+    agents: int
+    """Bit set of its participants."""
+    cost: int
+    """Index of its undiscounted cost in ``Encoding.costs``."""
+
+
+class Form(NamedTuple):
+    """Ops that differ in values only.
+
+    Attributes:
+        agents: bit set of the participants.
+        need_mask: the fields that ``need`` is about.
+        forbids: the fields that ``forbidden`` is about.
+        sets: the fields that the ops set.
+        cost: index of the cost.
+        ops: the ops, in the order of their actions.
+    """
+
+    agents: int
+    need_mask: int
+    forbids: int
+    sets: int
+    cost: int
+    ops: list[Op]
+
+    @property
+    def mentions(self) -> int:
+        """The fields that the ops ask for or set."""
+        return self.need_mask | self.forbids | self.sets
+
+
+def forms_of(ops: Iterable[Op], all_ones: int, clock: Clock) -> tuple[Form, ...]:
+    """Ops by their forms.
+
+    Args:
+        ops: the ops.
+        all_ones: all fields.
+        clock: asked for time.
+    """
+    members: dict[tuple[int, int, int, int, int], list[Op]] = {}
+    for op in ops:
+        clock.tick()
+        need_mask, _, keep, _, forbidden, _, agents, cost = op
+        forbids = 0
+        for mask, _ in forbidden:
+            forbids |= mask
+        shape = (agents, need_mask, forbids, keep, cost)
+        known = members.get(shape)
+        if known is None:
+            members[shape] = [op]
+        else:
+            known.append(op)
+    return tuple(
+        Form(agents, need_mask, forbids, all_ones & ~keep, cost, listed)
+        for (agents, need_mask, forbids, keep, cost), listed in members.items()
+    )
+
+
+def set_by(forms: Iterable[Form]) -> int:
+    """The fields that some ops set."""
+    fields = 0
+    for form in forms:
+        fields |= form.sets
+    return fields
+
+
+def split(mask: int, by_lowest_bit: dict[int, int]) -> Iterator[int]:
+    """The fields in a mask.
+
+    Args:
+        mask: a union of fields.
+        by_lowest_bit: each field by its lowest bit.
+    """
+    while mask:
+        field = by_lowest_bit[mask & -mask]
+        yield field
+        mask &= ~field
+
+
+class OpIndex:
+    """Ops of one leader by the value of one field: the one that most of them ask for."""
+
+    __slots__ = ("always", "by_value", "field")
+
+    def __init__(self, forms: Sequence[Form], fields: Sequence[int]) -> None:
+        by_lowest_bit = {field & -field: field for field in fields}
+        asked: Counter[int] = Counter()
+        for form in forms:
+            for field in split(form.need_mask, by_lowest_bit):
+                asked[field] += len(form.ops)
+        self.field = max(fields, key=lambda field: asked[field], default=0)
+        self.by_value: dict[int, list[Op]] = {}
+        self.always: list[Op] = []
+        field = self.field
+        for form in forms:
+            if not form.need_mask & field:
+                self.always += form.ops
+                continue
+            for op in form.ops:
+                self.by_value.setdefault(op.need & field, []).append(op)
+
+    def candidates(self, state: int) -> list[Op]:
+        """Ops whose condition on the field holds in a packed state."""
+        return self.by_value.get(state & self.field, []) + self.always
+
+
+def applicable(op: Op, state: int) -> bool:
+    """Whether an op's precondition holds in a packed state."""
+    return state & op.need_mask == op.need and all(state & m != value for m, value in op.forbidden)
