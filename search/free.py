@@ -69,10 +69,7 @@ class Free:
             bound = key + bounds.private(after)
             if bound >= best.key or self._too_dear(bound) or not option.actions:
                 continue
-            if self._horizon is None:
-                if self._in_turn(option):
-                    continue
-            elif epoch + bounds.steps(after) > self._horizon:
+            if self._horizon is not None and epoch + bounds.steps(after) > self._horizon:
                 continue
             touched = node.phase == TOUCHED or bounds.touches(part.actions)
             if not touched:
@@ -94,13 +91,12 @@ class Free:
     def _together(self, state: int) -> Iterator[tuple[Option, Option]]:
         """The human's part of each action set, and the whole set."""
         successors = self._successors
+        if self._horizon is None:
+            yield from successors.in_turn(state)
+            return
         for part in (NOTHING, *successors.human(state), *successors.joint(state)):
             for option in successors.with_robots(part, state):
                 yield part, option
-
-    def _in_turn(self, option: Option) -> bool:
-        """Whether a set can as well be done in a sequence: without a horizon it need not be a set."""
-        return len(option.actions) > 1 and self._successors.sequential(option.actions)
 
     def _too_dear(self, key: int) -> bool:
         return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

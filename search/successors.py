@@ -5,6 +5,7 @@ of the leader's actions ask for (a position, as a rule).
 """
 
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
 from typing import NamedTuple
 
 from search.encoding import Encoding
@@ -130,6 +131,46 @@ class Successors:
             state: the packed state after it.
         """
         return ()
+
+    def in_turn(self, state: int) -> Iterator[tuple[Option, Option]]:
+        """What can happen next where epochs don't count: one action, or a set that needs one epoch.
+
+        The human's part comes first, then the whole.
+        """
+        groups = [[*self.human(state), *self.joint(state)]]
+        groups += [lookup.options(state) for lookup in self._led]
+        for part in groups[0]:
+            yield part, part
+        for option in chain.from_iterable(groups[1:]):
+            yield NOTHING, option
+        if not self._strict:  # which keeps apart what could be in a circle
+            yield from self._circles([self._entangled(group, groups) for group in groups])
+
+    def _entangled(self, group: list[Option], groups: list[list[Option]]) -> list[Option]:
+        """Options that may disable others of the groups, and be disabled by them."""
+        asked = changed = 0
+        for option in chain.from_iterable(other for other in groups if other is not group):
+            asked |= self._asked(option)
+            changed |= ~option.keep
+        return [o for o in group if ~o.keep & asked and self._asked(o) & changed]
+
+    def _asked(self, option: Option) -> int:
+        """The fields that a single action asks for."""
+        op = self._encoding.op(option.actions[0])
+        asked = op.need_mask
+        for mask, _ in op.forbidden:
+            asked |= mask
+        return asked
+
+    def _circles(self, groups: list[list[Option]]) -> Iterator[tuple[Option, Option]]:
+        """Sets of one option from each of several groups that can't be done in a sequence."""
+        sets = [NOTHING]
+        for group in groups[1:]:
+            sets += list(self._extend(sets, group))
+        for part in (NOTHING, *groups[0]):
+            for option in self._combine(part, sets):
+                if len(option.actions) > 1 and not self.sequential(option.actions):
+                    yield part, option
 
     def sequential(self, actions: tuple[int, ...]) -> bool:
         """Whether a compatible set has the same effect one action after another, in some order.
