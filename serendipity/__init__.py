@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from serendipity.explanation import Explanation, explain
     from serendipity.goals import Recognition, recognise
     from serendipity.interruptibility import interruptions
+    from serendipity.loading import load, load_agents, load_pddl
     from serendipity.model import (
         Certificate,
         InputError,
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
         UsageError,
         Window,
     )
-    from serendipity.pddl import load, load_agents, load_pddl
     from serendipity.planning import plan, plan_anytime
     from serendipity.reproduction import reproduce
     from serendipity.scenarios import example, generate_usar
@@ -74,9 +74,9 @@ __all__ = [
 ]
 
 _HOMES: Final = {
-    "load": "serendipity.pddl",
-    "load_agents": "serendipity.pddl",
-    "load_pddl": "serendipity.pddl",
+    "load": "serendipity.loading",
+    "load_agents": "serendipity.loading",
+    "load_pddl": "serendipity.loading",
     "example": "serendipity.scenarios",
     "generate_usar": "serendipity.scenarios",
     "plan": "serendipity.planning",
@@ -98,6 +98,7 @@ _NEED_SIBLINGS: Final = (
     "serendipity.planning",
     "serendipity.certify",
     "serendipity.interruptibility",
+    "serendipity.loading",
     "serendipity.explanation",
     "serendipity.goals",
     "serendipity.reproduction",

@@ -1,0 +1,35 @@
+"""What takes time linear in the files is done when a task is loaded, not in the first call."""
+
+import pytest
+
+import serendipity
+from search.encoding import Encoding
+from serendipity import pddl
+
+
+def _no_packing(*_: object) -> None:
+    raise AssertionError("packed in a planning call")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    serendipity.generate_usar(tmp_path / "building", rooms=8, medkits=2, seed=1)
+    return tmp_path / "building"
+
+
+def test_a_loaded_task_is_packed(folder, monkeypatch):
+    task = serendipity.load(folder)
+    monkeypatch.setattr(Encoding, "__init__", _no_packing)
+    assert serendipity.plan(task, discount=0.6).status == "optimal"
+
+
+def test_what_is_only_read_is_packed_by_the_first_call(folder, monkeypatch):
+    task = pddl.load(folder)
+    monkeypatch.setattr(Encoding, "__init__", _no_packing)
+    with pytest.raises(AssertionError, match="packed in a planning call"):
+        serendipity.plan(task, discount=0.6)
+
+
+def test_both_plan_alike(folder):
+    loaded, read = (serendipity.plan(load(folder), discount=0.6) for load in (serendipity.load, pddl.load))
+    assert (loaded.cost, loaded.plan) == (read.cost, read.plan)
