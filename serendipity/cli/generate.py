@@ -25,6 +25,12 @@ def usar(
     extra_edges: Annotated[
         int, typer.Option(metavar="E", help="Connections beyond a tree; each closes a cycle.")
     ] = 0,
+    corridors: Annotated[
+        int | None,
+        typer.Option(
+            metavar="C", help="Corridors that the halls form: fewer are longer; by chance by default."
+        ),
+    ] = None,
     preset: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="figure2 (the paper's building), or room2, room5, room7 in it."),
@@ -47,6 +53,7 @@ def usar(
         robots=robots,
         seed=seed,
         extra_edges=extra_edges,
+        corridors=corridors,
         preset=preset,
         layout=layout,
     )

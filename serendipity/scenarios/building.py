@@ -58,33 +58,42 @@ def figure2() -> Building:
     )
 
 
-def random_building(locations: int, *, seed: int = 0, extra_edges: int = 0) -> Building:
+def random_building(
+    locations: int, *, seed: int = 0, extra_edges: int = 0, corridors: int | None = None
+) -> Building:
     """A random building in the manner of Figure 2: corridors of halls, with rooms off them.
 
     Args:
         locations: how many halls and rooms together, at least 2.
         seed: equal arguments give equal buildings.
         extra_edges: connections beyond the tree; each closes a cycle.
+        corridors: how many the halls form; fewer are longer, and 1 is what Figure 2 has.
+            By default each hall starts one with a chance of a fifth.
 
     Raises:
-        UsageError: too few locations, or more extra connections than there are free pairs.
+        UsageError: too few locations, or more extra connections or corridors than there is
+            room for.
     """
     if locations < 2:
         raise UsageError(f"rooms: expected at least 2, got {locations}")
     free = (locations - 1) * (locations - 2) // 2
     if not 0 <= extra_edges <= free:
         raise UsageError(f"extra_edges: expected from 0 to {free} for {locations} rooms, got {extra_edges}")
-    random = Random(f"building {seed}")
     halls = [f"hall{i}" for i in range(1, max(1, round(locations * _HALLS_PER_LOCATION)) + 1)]
+    if corridors is not None and not 1 <= corridors <= len(halls):
+        raise UsageError(f"corridors: expected from 1 to {len(halls)} for {locations} rooms, got {corridors}")
+    random = Random(f"building {seed}")
     rooms = [f"room{i}" for i in range(1, locations - len(halls) + 1)]
-    tree = _corridors(halls, random) + _doors(halls, rooms, random)
+    tree = _corridors(halls, corridors, random) + _doors(halls, rooms, random)
     return Building(tuple(halls + rooms), tuple(tree + _extra(halls + rooms, tree, extra_edges, random)))
 
 
-def _corridors(halls: list[str], random: Random) -> list[tuple[str, str]]:
+def _corridors(halls: list[str], wanted: int | None, random: Random) -> list[tuple[str, str]]:
+    first = None if wanted is None else set(random.sample(range(1, len(halls)), wanted - 1))
     connections = []
     for i in range(1, len(halls)):
-        before = random.randrange(i) if random.random() < _NEW_CORRIDOR else i - 1
+        starts = random.random() < _NEW_CORRIDOR if first is None else i in first
+        before = random.randrange(i) if starts else i - 1
         connections.append((halls[before], halls[i]))
     return connections
 

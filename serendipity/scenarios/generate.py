@@ -58,6 +58,7 @@ def make_usar(
     robots: int = 1,
     seed: int = 0,
     extra_edges: int = 0,
+    corridors: int | None = None,
     preset: str | None = None,
 ) -> Usar:
     """A seeded search-and-rescue task; equal arguments give equal tasks.
@@ -68,8 +69,11 @@ def make_usar(
         robots: how many robots.
         seed: of the building and of the positions.
         extra_edges: connections beyond a tree.
-        preset: ``figure2`` (the paper's building instead of a random one: ``rooms`` and
-            ``extra_edges`` do not count) or a worked example (nothing else counts).
+        corridors: how many the halls form; fewer are longer.  By default by chance, a fifth
+            as many as halls.
+        preset: ``figure2`` (the paper's building instead of a random one: ``rooms``,
+            ``extra_edges`` and ``corridors`` do not count) or a worked example (nothing else
+            counts).
 
     Raises:
         UsageError: a number is out of range, or there is no such preset.
@@ -81,8 +85,9 @@ def make_usar(
         return random_usar(figure2(), name=name, medkits=medkits, robots=robots, seed=seed)
     if preset is not None:
         raise UsageError(f"preset: expected one of {', '.join(PRESETS)}, got '{preset}'")
-    name = f"usar-r{rooms}-m{medkits}-k{robots}-e{extra_edges}-s{seed}"
-    building = random_building(rooms, seed=seed, extra_edges=extra_edges)
+    shape = f"e{extra_edges}" if corridors is None else f"e{extra_edges}-c{corridors}"
+    name = f"usar-r{rooms}-m{medkits}-k{robots}-{shape}-s{seed}"
+    building = random_building(rooms, seed=seed, extra_edges=extra_edges, corridors=corridors)
     return random_usar(building, name=name, medkits=medkits, robots=robots, seed=seed)
 
 
@@ -113,6 +118,7 @@ def generate_usar(
     robots: int = 1,
     seed: int = 0,
     extra_edges: int = 0,
+    corridors: int | None = None,
     preset: str | None = None,
     layout: str = "agents",
 ) -> tuple[Path, ...]:
@@ -125,6 +131,7 @@ def generate_usar(
         robots: how many robots.
         seed: of the building and of the positions.
         extra_edges: connections beyond a tree.
+        corridors: how many the halls form; by default by chance.
         preset: ``figure2``, ``room2``, ``room5`` or ``room7``.
         layout: ``agents`` or ``pair``; see ``usar_pddl.LAYOUTS``.
 
@@ -135,6 +142,12 @@ def generate_usar(
         UsageError: an argument is out of range, or a file can't be written.
     """
     task = make_usar(
-        rooms=rooms, medkits=medkits, robots=robots, seed=seed, extra_edges=extra_edges, preset=preset
+        rooms=rooms,
+        medkits=medkits,
+        robots=robots,
+        seed=seed,
+        extra_edges=extra_edges,
+        corridors=corridors,
+        preset=preset,
     )
     return _write_files(pddl_files(task, layout), Path(folder))

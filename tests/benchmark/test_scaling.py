@@ -43,7 +43,7 @@ def test_an_unknown_axis() -> None:
 
 
 def sample(value: float, seconds: float, *, axis: str = "rooms", status: str = "optimal") -> Sample:
-    size = (21, 2, 1, "serendipity", "0.9", 0, 100, 9)
+    size = (21, 2, 1, None, "serendipity", "0.9", 0, 100, 9)
     return Sample(axis, value, *size, 1.0, 1.0, seconds, seconds, 20 * value, status, 1.0, 5)
 
 

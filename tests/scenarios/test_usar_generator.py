@@ -39,6 +39,26 @@ def test_extra_edges_close_cycles(locations: int, extra: int) -> None:
     assert graph.number_of_edges() == locations - 1 + extra
 
 
+@pytest.mark.parametrize("corridors", [1, 2, 7, 80])
+def test_halls_form_as_many_corridors_as_asked(corridors: int) -> None:
+    graph = nx.Graph(random_building(210, seed=3, corridors=corridors).connections)
+    assert nx.is_tree(graph)
+    halls = graph.subgraph(node for node in graph if node.startswith("hall"))
+    assert nx.is_connected(halls)
+    ends = sum(degree == 1 for _, degree in halls.degree)
+    assert ends <= corridors + 1
+    if corridors == 1:
+        assert nx.diameter(halls) == len(halls) - 1
+
+
+def test_fewer_corridors_are_longer() -> None:
+    diameters = [
+        nx.diameter(nx.Graph(random_building(210, seed=1, corridors=n).connections)) for n in (1, 4, 16, 64)
+    ]
+    assert diameters == sorted(diameters, reverse=True)
+    assert diameters[0] > 3 * diameters[-1]
+
+
 def test_figure_2_is_the_papers_tree() -> None:
     graph = nx.Graph(figure2().connections)
     assert (graph.number_of_nodes(), graph.number_of_edges()) == (21, 20)
@@ -119,6 +139,8 @@ def test_shipped_examples_are_what_the_generator_writes(name: str) -> None:
         {"robots": 0},
         {"rooms": 5, "extra_edges": 7},
         {"extra_edges": -1},
+        {"corridors": 0},
+        {"rooms": 21, "corridors": 9},
         {"preset": "room3"},
         {"layout": "tree"},
     ],
