@@ -78,8 +78,10 @@ bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders 
 	  || echo "No Fast Downward, and it can't be installed here: it is left out."
 	@mkdir -p build/bench
 	@$(BIN)/python -m benchmarks.usar
-	@echo && $(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 \
-	  --contenders search,again,automata,paper,fast-downward -o build/bench/side-by-side.csv --plot build/bench/side-by-side.png
+	@echo && $(BIN)/serendipity bench ../shared/usar200 --stride 4 --discounts 0,0.1,0.3,0.5,0.7,0.9 \
+	  --contenders search,in-turn,automata,fast-downward -o build/bench/side-by-side.csv --plot build/bench/side-by-side.png
+	@echo && $(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 --modes serendipity,communication \
+	  --contenders search,again,paper -o build/bench/paper.csv --plot build/bench/paper.png
 	@echo && $(BIN)/serendipity bench --scaling all --seeds 3 -o build/bench/scaling.csv --plot build/bench/scaling.png
 
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests

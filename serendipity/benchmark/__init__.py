@@ -7,7 +7,7 @@ who wants a plot.
 
 from serendipity.benchmark.contenders import CONTENDERS, Contender
 from serendipity.benchmark.measure import MODES, Timing, measure
-from serendipity.benchmark.report import HEADER, machine, summary
+from serendipity.benchmark.report import RATIOS_HEADER, TIMES_HEADER, machine, ratios, times
 from serendipity.benchmark.scaling import AXES, Axis, Sample, planned, scale
 from serendipity.benchmark.scaling_report import EXPONENTS_HEADER, SCALING_HEADER, exponents, scaling_table
 from serendipity.benchmark.usage import peak_memory
@@ -16,9 +16,10 @@ __all__ = [
     "AXES",
     "CONTENDERS",
     "EXPONENTS_HEADER",
-    "HEADER",
     "MODES",
+    "RATIOS_HEADER",
     "SCALING_HEADER",
+    "TIMES_HEADER",
     "Axis",
     "Contender",
     "Sample",
@@ -28,7 +29,8 @@ __all__ = [
     "measure",
     "peak_memory",
     "planned",
+    "ratios",
     "scale",
     "scaling_table",
-    "summary",
+    "times",
 ]

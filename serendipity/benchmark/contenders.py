@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from search import Clock, prepare, solve
+from search import Clock, solve
 from serendipity.benchmark import fast_downward
 from serendipity.benchmark.answer import Answer
 from serendipity.model.options import INFINITE, Options
@@ -20,21 +20,20 @@ class Contender:
         answer: answers a call and times itself.
         accepts: whether it can answer a call with these options at all.
         absent: why it can't run here, or None.
+        afresh: whether the task is packed anew before each pass, without anything that earlier
+            calls have left with it.
+        in_turn: whether a pass is all calls on a task, one after another; else it is one call.
     """
 
     answer: Callable[[Task, Options], Answer]
     accepts: Callable[[Options], bool] = lambda _: True
     absent: Callable[[], str | None] = lambda: None
+    afresh: bool = False
+    in_turn: bool = False
 
 
 def _search(task: Task, options: Options) -> Answer:
-    """The first call on a packed task: every other table is built inside the time."""
-    prepare(task, afresh=True)
-    return _again(task, options)
-
-
-def _again(task: Task, options: Options) -> Answer:
-    """The same call again, as in a control loop: the warm-up has left its tables with the task."""
+    """Every table that the task does not have yet is built inside the time."""
     start = time.process_time()
     *_, outcome = solve(task, options, clock=Clock(options.time_limit))
     seconds = time.process_time() - start
@@ -61,10 +60,15 @@ def _with_horizon(options: Options) -> bool:
 
 
 CONTENDERS: Final[dict[str, Contender]] = {
-    "search": Contender(_search),
-    "again": Contender(_again),
+    "search": Contender(_search, afresh=True),
+    "in-turn": Contender(_search, afresh=True, in_turn=True),
+    "again": Contender(_search),
     "automata": Contender(_program("automata")),
     "paper": Contender(_program("paper"), _with_horizon),  # its epochs are numbered
     "fast-downward": Contender(fast_downward.answer, _without_horizon, fast_downward.absent),
 }
-"""Our search, also when it is called again, our integer program, the paper's, and Fast Downward."""
+"""Our search: first calls, one discount after another, the same call again; our integer program,
+the paper's, and Fast Downward."""
+
+SEARCHES: Final = ("search", "in-turn", "again")
+"""Ways to call our search: what the others are compared with."""

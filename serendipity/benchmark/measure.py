@@ -2,11 +2,11 @@
 
 import gc
 import statistics
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any, Final, TypeVar
 
+from search import prepare
 from serendipity.benchmark.answer import Answer
 from serendipity.benchmark.contenders import CONTENDERS, Contender
 from serendipity.model.errors import UsageError
@@ -25,7 +25,7 @@ MODES: Final[dict[str, dict[str, Any]]] = {
 """Modes by the names that a benchmark has for them: composite also without a horizon."""
 
 _SLOW: Final = 1.0
-"""Seconds; a first call that takes longer is no warm-up but the figure itself."""
+"""Seconds; a first pass that takes longer is no warm-up but the figure itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,33 +71,40 @@ def measure(
     repeat: int = 5,
     time_limit: float | None = None,
 ) -> Iterator[Timing]:
-    """Time each contender on each call that it accepts.
+    """Time each contender on each call that it accepts: it is asked all discounts of a mode, or none.
 
     Args:
         tasks: the tasks.
         modes: names in ``MODES``.
         discounts: as texts, so that they stay exact.
         contenders: names in ``CONTENDERS``; those that are absent must be left out before.
-        repeat: calls per figure, after a warm-up; calls of over a second are made once.
+        repeat: calls per figure, after a warm-up; for contenders that answer the discounts in
+            turn, passes through all of them.  What takes over a second is done once.
         time_limit: seconds for each call.
 
     Raises:
         UsageError: a mode or contender is unknown, or two that proved an answer disagree.
     """
     chosen = {name: _known(name, CONTENDERS, "contenders") for name in contenders}
-    calls = {name: _known(name, MODES, "modes") for name in modes}
+    kinds = {name: _known(name, MODES, "modes") for name in modes}
     discounts = list(discounts)
     gc.collect()
     gc.freeze()  # a caller has one task in memory, not all of these
     try:
         for task in tasks:
-            for mode, fixed in calls.items():
-                for discount in discounts:
-                    options = Options(discount=Fraction(discount), time_limit=time_limit, **fixed)
+            for mode, fixed in kinds.items():
+                asked = [
+                    Options(discount=text, time_limit=time_limit, **fixed)  # type: ignore[arg-type]
+                    for text in discounts
+                ]
+                answers = {
+                    name: _answers(contender, task, asked, repeat)
+                    for name, contender in chosen.items()
+                    if all(map(contender.accepts, asked))
+                }
+                for i, discount in enumerate(discounts):
                     found = [
-                        _timing((task.name, mode, discount, name), _answers(contender, task, options, repeat))
-                        for name, contender in chosen.items()
-                        if contender.accepts(options)
+                        _timing((task.name, mode, discount, name), of[i]) for name, of in answers.items()
                     ]
                     _compare(found)
                     yield from found
@@ -111,14 +118,30 @@ def _known(name: str, known: Mapping[str, T], what: str) -> T:
     return known[name]
 
 
-def _answers(contender: Contender, task: Task, options: Options, repeat: int) -> list[Answer]:
-    first = contender.answer(task, options)
-    if max(first.seconds, first.process_seconds or 0) > _SLOW:
-        return [first]
-    return [contender.answer(task, options) for _ in range(repeat)]
+def _answers(
+    contender: Contender, task: Task, calls: Sequence[Options], repeat: int
+) -> list[tuple[Answer, ...]]:
+    """All answers to each call."""
+    passes = [calls] if contender.in_turn else [[call] for call in calls]
+    return [answers for one in passes for answers in _repeated(contender, task, one, repeat)]
 
 
-def _timing(call: tuple[str, str, str, str], answers: list[Answer]) -> Timing:
+def _repeated(
+    contender: Contender, task: Task, calls: Sequence[Options], repeat: int
+) -> list[tuple[Answer, ...]]:
+    warm_up = _pass(contender, task, calls)
+    slow = sum(max(answer.seconds, answer.process_seconds or 0) for answer in warm_up) > _SLOW
+    passes = [warm_up] if slow else [_pass(contender, task, calls) for _ in range(repeat)]
+    return list(zip(*passes, strict=True))
+
+
+def _pass(contender: Contender, task: Task, calls: Sequence[Options]) -> list[Answer]:
+    if contender.afresh:
+        prepare(task, afresh=True)
+    return [contender.answer(task, options) for options in calls]
+
+
+def _timing(call: tuple[str, str, str, str], answers: Sequence[Answer]) -> Timing:
     seconds = [answer.seconds for answer in answers]
     last = answers[-1]
     of_processes = [answer.process_seconds for answer in answers if answer.process_seconds is not None]

@@ -41,8 +41,12 @@ def bench(
     ] = "serendipity,communication,composite-inf",
     discounts: Annotated[str, typer.Option(help="Discounts, separated by commas.")] = "0,0.5,0.9",
     contenders: Annotated[
-        str, typer.Option(help="Some of search, again, automata, paper, fast-downward, separated by commas.")
-    ] = "search,again,automata,fast-downward",
+        str,
+        typer.Option(
+            help="Some of search (first calls), in-turn (each task's discounts one after another), again "
+            "(the same call again), automata, paper, fast-downward, separated by commas."
+        ),
+    ] = "search,in-turn,automata,fast-downward",
     scaling: Annotated[
         str | None,
         typer.Option(
@@ -50,7 +54,9 @@ def bench(
             help="How the search scales instead: some of rooms, medkits, robots, length, modes, discounts.",
         ),
     ] = None,
-    repeat: Annotated[int, typer.Option(min=1, help="Calls per figure, after a warm-up.")] = 5,
+    repeat: Annotated[
+        int, typer.Option(min=1, help="Calls per figure, after a warm-up; passes for in-turn.")
+    ] = 5,
     time_limit: Annotated[float, typer.Option(min=0, help="Seconds for each call.")] = 20.0,
     output_file: output.Output = None,
     plot: Annotated[
@@ -87,8 +93,11 @@ def bench(
         Line(f"{len(tasks)} tasks; {benchmark.machine()}"),
         Line(f"Processor time; at most {time_limit:g} s a call; {most}."),
         Line(),
-        Grid(benchmark.HEADER, benchmark.summary(timings)),
     ]
+    ratios = benchmark.ratios(timings)
+    if ratios:
+        parts += [Grid(benchmark.RATIOS_HEADER, ratios), Line()]
+    parts.append(Grid(benchmark.TIMES_HEADER, benchmark.times(timings)))
     typer.echo(rendered(parts), nl=False)
     _write_csv(timings, output_file)
     if plot is not None:

@@ -14,14 +14,17 @@ from serendipity.cli.app import main
 def test_contenders_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = tmp_path / "timings.csv"
     arguments = ["bench", "--rooms", "8", "--seeds", "2", "--modes", "communication", "--discounts", "0.9"]
-    assert main([*arguments, "--repeat", "1", "--contenders", "search,automata", "-o", str(table)]) == 0
+    assert (
+        main([*arguments, "--repeat", "1", "--contenders", "search,in-turn,automata", "-o", str(table)]) == 0
+    )
     printed = capsys.readouterr().out
     assert "2 tasks" in printed
     rows = list(csv.DictReader(table.read_text().splitlines()))
-    assert [row["contender"] for row in rows] == ["search", "automata"] * 2
-    for search, program in zip(rows[::2], rows[1::2], strict=True):
-        assert search["cost"] == program["cost"]
-        assert search["status"] == program["status"] == "optimal"
+    assert [row["contender"] for row in rows] == ["search", "in-turn", "automata"] * 2
+    assert printed.index(" x ") < printed.index(" ms "), "ratios come first"
+    for search, in_turn, program in zip(rows[::3], rows[1::3], rows[2::3], strict=True):
+        assert search["cost"] == in_turn["cost"] == program["cost"]
+        assert search["status"] == in_turn["status"] == program["status"] == "optimal"
 
 
 def test_an_absent_contender_is_left_out_with_one_line(
@@ -62,7 +65,13 @@ def test_plots_are_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 @pytest.mark.parametrize(
     "wrong",
-    [["--plot", "timings.txt"], ["--scaling", "width"], ["here", "--scaling", "rooms"], ["--modes", "x"]],
+    [
+        ["--plot", "timings.txt"],
+        ["--discounts", "x"],
+        ["--scaling", "width"],
+        ["here", "--scaling", "rooms"],
+        ["--modes", "x"],
+    ],
 )
 def test_wrong_usage_is_one_line(wrong: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "--rooms", "4", "--seeds", "1", *wrong]) == 2
