@@ -36,22 +36,22 @@ SHARE, EXTRA = 0.1, 0.005
 """What may be added to a deadline: of it, and seconds."""
 
 CLASSES: dict[str, tuple[dict[str, int], dict[str, Any]]] = {
-    "communication, 210 rooms, 3 robots": (
-        {"rooms": 210, "medkits": 4, "robots": 3},
+    "communication, 420 rooms": (
+        {"rooms": 420, "medkits": 4, "robots": 3},
         {"mode": "communication"},
     ),
-    "K = 0, 210 rooms, 3 robots": ({"rooms": 210, "medkits": 4, "robots": 3}, {"window_weight": 0}),
-    "composite without horizon, 210 rooms, 2 robots": (
-        {"rooms": 210, "medkits": 4, "robots": 2},
+    "K = 0, 420 rooms": ({"rooms": 420, "medkits": 4, "robots": 3}, {"window_weight": 0}),
+    "composite without horizon, 420 rooms": (
+        {"rooms": 420, "medkits": 4, "robots": 3},
         {"mode": "composite", "horizon": "inf"},
     ),
-    "local human, 210 rooms, 3 robots": (
-        {"rooms": 210, "medkits": 4, "robots": 3},
-        {"human_model": "local"},
+    "composite without horizon, 840 rooms": (
+        {"rooms": 840, "medkits": 2, "robots": 3},
+        {"mode": "composite", "horizon": "inf"},
     ),
-    "communication, 840 rooms, 2 robots": (
-        {"rooms": 840, "medkits": 2, "robots": 2},
-        {"mode": "communication"},
+    "local human, 840 rooms": (
+        {"rooms": 840, "medkits": 2, "robots": 3},
+        {"human_model": "local"},
     ),
 }
 """What tasks are generated from, and what is asked; the discount is 0.9."""
