@@ -35,26 +35,14 @@ DEADLINES = (5.0, 0.5, 0.05)
 SHARE, EXTRA = 0.1, 0.005
 """What may be added to a deadline: of it, and seconds."""
 
-CLASSES: dict[str, tuple[dict[str, int], dict[str, Any]]] = {
-    "communication, 420 rooms": (
-        {"rooms": 420, "medkits": 4, "robots": 3},
-        {"mode": "communication"},
-    ),
-    "K = 0, 420 rooms": ({"rooms": 420, "medkits": 4, "robots": 3}, {"window_weight": 0}),
-    "composite without horizon, 420 rooms": (
-        {"rooms": 420, "medkits": 4, "robots": 3},
-        {"mode": "composite", "horizon": "inf"},
-    ),
-    "composite without horizon, 840 rooms": (
-        {"rooms": 840, "medkits": 2, "robots": 3},
-        {"mode": "composite", "horizon": "inf"},
-    ),
-    "local human, 840 rooms": (
-        {"rooms": 840, "medkits": 2, "robots": 3},
-        {"human_model": "local"},
-    ),
+CLASSES: dict[str, tuple[int, dict[str, Any]]] = {
+    "communication": (420, {"mode": "communication"}),
+    "K = 0": (420, {"window_weight": 0}),
+    "composite without horizon": (420, {"mode": "composite", "horizon": "inf"}),
+    "composite without horizon, 840 rooms": (840, {"mode": "composite", "horizon": "inf"}),
+    "local human": (420, {"human_model": "local"}),
 }
-"""What tasks are generated from, and what is asked; the discount is 0.9."""
+"""Rooms, and what is asked; 2 medkits, 3 robots, discount 0.9."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,10 +108,10 @@ def _candidates(seeds: int) -> Iterator[tuple[str, int]]:
 
 
 def _calls(kind: str, seed: int) -> Iterator[Row]:
-    size, options = CLASSES[kind]
+    rooms, options = CLASSES[kind]
     with tempfile.TemporaryDirectory() as folder:
-        edges = size["rooms"] // 20 if seed % 2 else 0
-        serendipity.generate_usar(folder, seed=seed, extra_edges=edges, **size)
+        edges = rooms // 20 if seed % 2 else 0
+        serendipity.generate_usar(folder, rooms=rooms, medkits=2, robots=3, seed=seed, extra_edges=edges)
         task = serendipity.load(folder)
     packed = replace(task)
     prepare(packed)
