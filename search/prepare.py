@@ -1,15 +1,20 @@
 """What can be done for a task before anybody asks for a plan."""
 
+from math import prod
+
 from search.clock import Clock
-from search.encoding import encoding
+from search.encoding import Encoding, encoding
+from search.projection import own_projection, private_fields
 from search.provision import AllActs
 from serendipity.model.task import Task
 
 
 def prepare(task: Task, *, afresh: bool = False) -> None:
-    """Pack a task, and look up what robots' actions mention: what takes time linear in the files.
+    """Pack a task, and find what every call needs of it and what takes time linear in the files.
 
-    The first planning call does it otherwise, within its time limit.
+    That is what robots' actions mention, and the human's private distances, unless his private
+    states may be more than the task has actions.  The first planning call finds it otherwise,
+    within its time limit.
 
     Args:
         task: the task.
@@ -18,4 +23,12 @@ def prepare(task: Task, *, afresh: bool = False) -> None:
     if afresh:
         task.forget_derived()
     clock = Clock()
-    encoding(task, clock).derived(AllActs, clock)
+    packed = encoding(task, clock)
+    packed.derived(AllActs, clock)
+    if _most_states(packed) <= len(task.actions):
+        packed.derived(own_projection, clock)
+
+
+def _most_states(packed: Encoding) -> int:
+    """At least the number of the human's private states."""
+    return prod(len(packed.values(field)) for field in private_fields(packed))

@@ -92,15 +92,19 @@ def human_steps(encoding: Encoding, clock: Clock) -> Projection:
     return Projection(graph.mask, backward(goals, counted, clock))
 
 
+def private_fields(encoding: Encoding) -> list[int]:
+    """The fields that only he changes, alone or with others."""
+    changed = set_by((*encoding.own_forms, *encoding.joint_forms))
+    return [field for field in encoding.fields if field & changed and not field & encoding.outside]
+
+
 def human_graph(encoding: Encoding, clock: Clock) -> Projected:
     """His graph over all his private fields, or over as many as stay tractable."""
-    forms = (*encoding.own_forms, *encoding.joint_forms)
-    changed, shared = set_by(forms), encoding.outside
-    private = [field for field in encoding.fields if field & changed and not field & shared]
+    private = private_fields(encoding)
     goal_first = sorted(private, key=lambda field: (not field & encoding.goal.mask, field))
     weights = own_weights(encoding)
     # The cheapest last, so that it stays where forms look alike.
-    dearest_first = sorted(forms, key=lambda form: -form.cost)
+    dearest_first = sorted((*encoding.own_forms, *encoding.joint_forms), key=lambda form: -form.cost)
     weighed = [(form, weights[form.cost], encoding.is_touch(form)) for form in dearest_first]
     for count in range(len(private), 0, -1):
         fields = goal_first[:count]

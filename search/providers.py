@@ -85,7 +85,7 @@ class Providers:
                 if field & ~op.keep:
                     self._changes.setdefault(field, epoch)
         self._shared = _shared_fields(encoding, touches, clock)
-        used = {weights[index] for index in encoding.derived(_robots_costs)}
+        used = {weights[form.cost] for form in encoding.other_forms}
         self._uniform = len(used) <= 1
         self._unit = max(used, default=1)
         self._by_cost: dict[tuple[int, bool], Provision] = {}
@@ -173,10 +173,6 @@ class Providers:
             mask = self._touches.needs[need].mask
             field = self._judges[need] = next((f for f in self._shared if mask & f), 0)
         return field
-
-
-def _robots_costs(encoding: Encoding) -> frozenset[int]:
-    return frozenset(op.cost for op in encoding.others)
 
 
 def _shared_fields(encoding: Encoding, touches: Touches, clock: Clock) -> list[int]:
