@@ -102,7 +102,7 @@ def doubtful_encoding(task: Task, extra: frozenset[int], clock: Clock) -> Encodi
     """
     if not extra:
         return task.derived(_doubtful, clock)
-    return Encoding(_doubted(task), extra.union(surroundings(task).located), clock)
+    return Encoding(_doubted(task, clock), extra.union(surroundings(task, clock.tick).located), clock)
 
 
 def complete_encoding(task: Task, clock: Clock) -> Encoding:
@@ -111,22 +111,26 @@ def complete_encoding(task: Task, clock: Clock) -> Encoding:
 
 
 def _doubtful(task: Task, clock: Clock) -> Encoding:
-    return Encoding(_doubted(task), frozenset(surroundings(task).located), clock)
+    return Encoding(_doubted(task, clock), frozenset(surroundings(task, clock.tick).located), clock)
 
 
 def _complete(task: Task, clock: Clock) -> Encoding:
-    return Encoding(_doubted(task), frozenset(range(len(task.facts))), clock)
+    return Encoding(_doubted(task, clock), frozenset(range(len(task.facts))), clock)
 
 
-def _doubted(task: Task) -> Task:
+def _doubted(task: Task, clock: Clock) -> Task:
     """The task for somebody who may be wrong about everything that others change.
 
     His own variables stay; every other fact is one by itself.
     """
-    robots = [a for a in task.actions if task.human not in a.participants]
-    shared = {f for action in robots for f in (*action.add, *action.delete)}
+    shared: set[int] = set()
+    for action in task.actions:
+        clock.tick()
+        if task.human not in action.participants:
+            shared.update(action.add, action.delete)
     found: list[Variable] = []
     for variable in task.variables:  # which take long to find: they are not looked for again
+        clock.tick()
         if shared.isdisjoint(variable.facts):
             found.append(variable)
         else:

@@ -13,7 +13,7 @@ from search.projection import Projection, human_projection
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task import Task
 from serendipity.model.visibility import Visible, surroundings
 
 
@@ -72,7 +72,7 @@ class Human:
             else Priced(self.encoding, self.weights, clock)
         )
         self.intentions = Intentions(self.encoding, self.keys, self.weights.human)
-        self.eyes: Eyes = _eyes(task, self.encoding, visible) if local else Everywhere()
+        self.eyes: Eyes = _eyes(task, self.encoding, visible, clock) if local else Everywhere()
         self.concern = self.encoding.own_mask | self.encoding.goal.mask
         for i in actions:
             if task.actions[i].participants == (task.human,):
@@ -121,11 +121,6 @@ class Human:
         """The least key of a scaled cost."""
         return (cost << self.keys.cost_shift) + (cost << self.keys.objective_shift)
 
-    def plan_alone(self) -> HumanPlan | None:
-        """His canonical optimal plan from ``I``, or None."""
-        graph = self.alone.plans(self.encoding.init)
-        return None if graph is None else graph.canonical()
-
 
 def _encodings(
     task: Task, actions: Collection[int], clock: Clock, *, local: bool, told: bool
@@ -167,8 +162,8 @@ def _asked_by(op: Op) -> int:
     return mask
 
 
-def _eyes(task: Task, packed: Encoding, visible: Visible | None) -> Eyes:
-    return Nearby(packed, surroundings(task)) if visible is None else AsTold(packed, visible)
+def _eyes(task: Task, packed: Encoding, visible: Visible | None, clock: Clock) -> Eyes:
+    return Nearby(packed, surroundings(task, clock.tick)) if visible is None else AsTold(packed, visible)
 
 
 def _translated(bound: Projection, plain: Encoding, packed: Encoding) -> Projection:

@@ -8,6 +8,7 @@ from search.clock import Clock, OutOfTimeError
 from search.followed import Followed
 from search.keys import INFINITE_KEY
 from search.outcome import Outcome, path_steps, plan_steps
+from search.planner import optimal_human_plans
 from search.simulation.human import Human
 from search.simulation.space import Reactive
 from search.successors import Successors, as_option
@@ -44,22 +45,41 @@ def solve_for_human(
     """
     clock = clock or Clock(options.time_limit)
     try:
-        human = Human(
-            task,
-            options,
-            clock,
-            human_model=options.human_model,
-            actions=human_plan or (),
-            visible=visible,
-        )
-        plan = human.plan_alone() if human_plan is None else human_plan
+        predicted = optimal_human_plans(task, clock) if human_plan is None else None
     except OutOfTimeError:
         yield Outcome("unknown", reason="time-limit")
         return
+    plan = human_plan if predicted is None else predicted.canonical()
     if plan is None:
         yield Outcome("infeasible", reason="no-human-plan")
-    else:
-        yield from _Call(task, options, human, plan, clock).answers()
+        return
+    epochs = _epochs(task, options, plan)
+    try:
+        if not task.robot_goal:
+            yield _left_alone(task, plan, epochs)
+        actions = human_plan or ()
+        human = Human(task, options, clock, human_model=options.human_model, actions=actions, visible=visible)
+    except OutOfTimeError:
+        if task.robot_goal:
+            yield Outcome("unknown", human_plan=plan, horizon=epochs, reason="time-limit")
+        return
+    yield from _Call(task, options, human, plan, epochs, clock).answers()
+
+
+def _left_alone(task: Task, plan: HumanPlan, epochs: int) -> Outcome:
+    """The first answer: robots do nothing, and the human does what he was going to do."""
+    cost = task.cost_of(plan)
+    return Outcome(
+        "feasible",
+        human_plan=plan,
+        horizon=epochs,
+        steps=plan_steps(plan),
+        cost=cost,
+        objective=cost,
+        lower_bound=Fraction(0),
+        baseline=cost,
+        saving_alone=Fraction(0),
+    )
 
 
 def _epochs(task: Task, options: Options, plan: HumanPlan) -> int:
@@ -84,13 +104,15 @@ class _Call:
     ``idle`` is what he does by himself; ``best`` is the incumbent over everything.
     """
 
-    def __init__(self, task: Task, options: Options, human: Human, plan: HumanPlan, clock: Clock) -> None:
+    def __init__(
+        self, task: Task, options: Options, human: Human, plan: HumanPlan, epochs: int, clock: Clock
+    ) -> None:
         self.task = task
         self.options = options
         self.human = human
         self.plan = plan
         self.clock = clock
-        self.epochs = _epochs(task, options, plan)
+        self.epochs = epochs
         self.progress = Progress()
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)

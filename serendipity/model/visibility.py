@@ -48,18 +48,33 @@ class Surroundings:
         return frozenset(chain(places, (who for who, place in here if place in places)))
 
 
-def surroundings(task: Task) -> Surroundings:
-    """The surroundings of a task; computed once and kept with it."""
-    return task.derived(_find)
+def _untimed() -> None:
+    """No clock."""
 
 
-def _find(task: Task) -> Surroundings:
-    words = [name.split() if " " in name else name.split("_") for name in task.facts]
-    parts = tuple(frozenset(w[1:] if " " in name else w) for name, w in zip(task.facts, words, strict=True))
-    return Surroundings(task.agents, parts, dict(_location_facts(task, words)))
+def surroundings(task: Task, tick: Callable[[], None] = _untimed) -> Surroundings:
+    """The surroundings of a task; computed once and kept with it.
+
+    Args:
+        task: the task.
+        tick: called every so often; what it raises ends the work.
+    """
+    return task.derived(_find, tick)
 
 
-def _location_facts(task: Task, words: list[list[str]]) -> Iterator[tuple[int, tuple[str, str]]]:
+def _find(task: Task, tick: Callable[[], None]) -> Surroundings:
+    words, parts = [], []
+    for name in task.facts:
+        tick()
+        said = name.split() if " " in name else name.split("_")
+        words.append(said)
+        parts.append(frozenset(said[1:] if " " in name else said))
+    return Surroundings(task.agents, tuple(parts), dict(_location_facts(task, words, tick)))
+
+
+def _location_facts(
+    task: Task, words: list[list[str]], tick: Callable[[], None]
+) -> Iterator[tuple[int, tuple[str, str]]]:
     """Location facts: predicates of positions, with a place of the human as the last word."""
     groups = [v.facts for v in task.variables if not v.boolean]
     human = task.agents[task.human]
@@ -69,8 +84,10 @@ def _location_facts(task: Task, words: list[list[str]]) -> Iterator[tuple[int, t
         return
     places = Counter(words[f][-1] for f in position)
     grouped = {f for facts in groups for f in facts}
+    tick()
     facts = [f for f, w in enumerate(words) if len(w) > 2 and w[-1] in places]
     predicates = {tuple(words[f][:-2]) for f in facts if f in grouped}
     for f in facts:
+        tick()
         if tuple(words[f][:-2]) in predicates:
             yield f, (words[f][-2], words[f][-1])
