@@ -3,9 +3,9 @@
     python -m benchmarks.anytime [--count 100] [--csv FILE] [--seeds 200]
 
 Tasks come from the classes below in turn, seed by seed.  One is taken in if its call with 5 s
-ends without a proof; how many were looked at for that is told.  Calls are made on the task as
-it was just loaded (``fresh``: nothing is packed) and, as in a control loop, on one that was
-packed before (``packed``).  All modules are loaded before, and what is in memory is kept from
+ends without a proof; how many were looked at for that is told.  Every call is the first on a
+task: as ``serendipity.load`` gives it (``loaded``), and with nothing packed (``bare``), which
+the call then has to do in its time.  All modules are loaded before, and what is in memory is kept from
 the garbage collector (``gc.freeze``).  A deadline is *kept* if the call returns within 110 %
 of it and 5 ms, by the clock; what the process itself had spent by then is told beside it,
 since on a busy machine the clock also counts what others do.  The gap is
@@ -55,7 +55,7 @@ class Row:
 
     kind: str
     seed: int
-    packed: bool
+    loaded: bool
     deadline: float
     status: str
     seconds: float
@@ -113,25 +113,25 @@ def _calls(kind: str, seed: int) -> Iterator[Row]:
         edges = rooms // 20 if seed % 2 else 0
         serendipity.generate_usar(folder, rooms=rooms, medkits=2, robots=3, seed=seed, extra_edges=edges)
         task = serendipity.load(folder)
-    packed = replace(task)
-    prepare(packed)
     for deadline in DEADLINES:
-        for known in (False, True):
-            row = Row(kind, seed, known, deadline, "", 0, 0, None, opportunity=False)
-            row = _call(packed if known else _fresh(task), options, row)
+        for loaded in (True, False):
+            asked = _bare(task)
+            if loaded:
+                prepare(asked)
+            row = _call(asked, options, Row(kind, seed, loaded, deadline, "", 0, 0, None, opportunity=False))
             yield row
             if _proves(row):
                 return
 
 
-def _fresh(task: Task) -> Task:
+def _bare(task: Task) -> Task:
     """The task without what calls keep with it; its variables were found when it was loaded."""
     return task.at(task.init)
 
 
 def _proves(row: Row) -> bool:
     """Whether it shows that a task does not take long enough."""
-    return not row.packed and row.deadline == DEADLINES[0] and row.status in ("optimal", "infeasible")
+    return row.loaded and row.deadline == DEADLINES[0] and row.status in ("optimal", "infeasible")
 
 
 def _call(task: Task, options: dict[str, Any], row: Row) -> Row:
@@ -165,7 +165,7 @@ def _proved(rows: list[Row]) -> set[tuple[str, int]]:
 
 def _taken(rows: list[Row]) -> set[tuple[str, int]]:
     """Candidates of which all calls were made."""
-    return {(row.kind, row.seed) for row in rows if row.packed and row.deadline == DEADLINES[-1]}
+    return {(row.kind, row.seed) for row in rows if not row.loaded and row.deadline == DEADLINES[-1]}
 
 
 def _table(rows: list[Row]) -> None:
@@ -178,15 +178,15 @@ def _table(rows: list[Row]) -> None:
         end="",
     )
     print(f"{'answered':>10}{'help':>6}{'gap 50 %':>10}{'95 %':>8}")
-    for packed in (False, True):
+    for loaded in (True, False):
         for deadline in sorted(DEADLINES):
             members = [
                 row
                 for row in rows
-                if (row.packed, row.deadline) == (packed, deadline) and (row.kind, row.seed) in taken
+                if (row.loaded, row.deadline) == (loaded, deadline) and (row.kind, row.seed) in taken
             ]
             if members:
-                _line("packed" if packed else "fresh", deadline, members)
+                _line("loaded" if loaded else "bare", deadline, members)
 
 
 def _line(name: str, deadline: float, rows: list[Row]) -> None:
@@ -212,7 +212,7 @@ def _read(file: Path | None) -> list[Row]:
             Row(
                 kind=row["kind"],
                 seed=int(row["seed"]),
-                packed=row["packed"] == "True",
+                loaded=row["loaded"] == "True",
                 deadline=float(row["deadline"]),
                 status=row["status"],
                 seconds=float(row["seconds"]),
