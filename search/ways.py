@@ -13,6 +13,9 @@ from search.touches import Seen, Touches
 NEVER = 1 << 40
 """An epoch after every horizon."""
 
+_MOST_KEPT = 200_000
+"""Distances that are kept with a task, some tens of megabytes."""
+
 
 class Corridor:
     """What the human can do from some states before a first touch, within a limit.
@@ -143,6 +146,7 @@ class OwnWays:
         for at in self._distances:
             self._by_value.setdefault(at & self._field, []).append(at)
         self._to_goal: dict[int, int] | None = None
+        self._through: dict[int, dict[int, int]] = {}
 
     def to_goal(self, clock: Clock) -> dict[int, int]:
         """Least cost to the goal without a touch, by projected state."""
@@ -153,7 +157,12 @@ class OwnWays:
 
     def through(self, need: int, clock: Clock) -> dict[int, int]:
         """Least cost to the goal with a first touch of a need, by projected state."""
-        return backward(self._entries(need), [self._moves], clock)
+        found = self._through.get(need)
+        if found is None:
+            if len(self._through) * len(self._distances) > _MOST_KEPT:
+                self._through.clear()
+            found = self._through[need] = backward(self._entries(need), [self._moves], clock)
+        return found
 
     def _entries(self, need: int) -> Iterator[tuple[int, int]]:
         """What a touch of a need costs to the goal, it included, and where it is possible."""
