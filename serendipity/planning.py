@@ -87,8 +87,14 @@ def plan_anytime(
 
     Args and errors are those of :func:`plan`.
     """
-    for answer in _answers(task, human_plan, visible, options, cancelled):
-        yield answer()
+    answers = _answers(task, human_plan, visible, options, cancelled)
+    while True:
+        with no_collection():  # only while it plans: what the caller does with an answer is his
+            answer = next(answers, None)
+            result = None if answer is None else answer()
+        if result is None:
+            return
+        yield result
 
 
 @dataclass(frozen=True, slots=True)
