@@ -128,23 +128,19 @@ class Weights:
     def __init__(self, packed: Encoding, options: Options, plan: HumanPlan | None) -> None:
         announces = options.mode == "communication" and plan is not None
         announced = options.communication_weight if announces else Fraction(0)
-        costs = packed.costs
-        factors = (Fraction(1), 1 - options.discount, announced)
-        window = options.window_weight
-        scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
-        dearest = int(max(costs, default=Fraction(0)) * scale)
-        announced_bits = int(dearest * announced).bit_length() + _ACTIONS_BITS if announced else 0
-        layout = Keys(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
-        epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
-        self.keys = replace(layout, epoch_weight=epoch)
+        known = packed.derived(_scales)
+        factors = options.discount, options.window_weight, announced
+        scaled = known.get(factors)
+        if scaled is None:
+            scaled = known[factors] = _scaled(packed, *factors)
+        self.keys = scaled.keys
         self.announces = bool(announced)
+        self.human = scaled.human
+        self.robots = scaled.robots
+        self._announced = scaled.announced
+        self._per_cost = scaled.per_cost
         self._human_bit = packed.human_bit
         self._planned = frozenset(plan or ())
-        self.human = [self.keys.of_action(cost) for cost in costs]
-        self.robots = [self.keys.of_action(cost * (1 - options.discount)) for cost in costs]
-        per_cost = scale // _own_scale(packed)
-        self._per_cost = (per_cost << layout.cost_shift) + (per_cost << layout.objective_shift)
-        self._announced = [int(cost * announced * scale) for cost in costs]
 
     def team(self, op: Op) -> int:
         """Increment of an op inside a composite plan, communication included."""
@@ -173,6 +169,46 @@ class Weights:
         if self.announces and op.action not in self._planned:
             weight += self._announced[op.cost]
         return weight
+
+
+@dataclass(frozen=True, slots=True)
+class _Scaled:
+    """Costs of a task as integers; see :class:`Weights`.
+
+    Attributes:
+        announced: communication cost of an action by the index of its cost.
+        per_cost: key increment of one unit of cost.
+    """
+
+    keys: Keys
+    human: list[int]
+    robots: list[int]
+    announced: list[int]
+    per_cost: int
+
+
+def _scales(_: Encoding) -> dict[tuple[Fraction, Fraction, Fraction], _Scaled]:
+    """By discount, window weight and communication weight; filled by calls, kept with the packed task."""
+    return {}
+
+
+def _scaled(packed: Encoding, discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
+    costs = packed.costs
+    factors = (Fraction(1), 1 - discount, announced)
+    scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
+    dearest = int(max(costs, default=Fraction(0)) * scale)
+    announced_bits = int(dearest * announced).bit_length() + _ACTIONS_BITS if announced else 0
+    layout = Keys(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
+    epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
+    keys = replace(layout, epoch_weight=epoch)
+    per_cost = scale // _own_scale(packed)
+    return _Scaled(
+        keys,
+        human=[keys.of_action(cost) for cost in costs],
+        robots=[keys.of_action(cost * (1 - discount)) for cost in costs],
+        announced=[int(cost * announced * scale) for cost in costs],
+        per_cost=(per_cost << layout.cost_shift) + (per_cost << layout.objective_shift),
+    )
 
 
 def own_weights(packed: Encoding) -> list[int]:

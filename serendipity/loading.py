@@ -1,15 +1,21 @@
 """Tasks from PDDL files, ready to be planned for.
 
 What the search makes of a task before the first call takes time that grows with the files, as
-reading them does.  Done here, it is in no call's time limit, and every call has an answer at once.
+reading them does.  On a large task it would take longer than a short time limit, and leave a first
+call without any answer; so it is done here.  On a small one it takes a millisecond or two, and is
+left to the first call: who checks, shows or verifies plans does without.
 """
 
 from collections.abc import Mapping, Sequence
+from typing import Final
 
 from search import prepare
 from serendipity import pddl
 from serendipity.model.task import Task
 from serendipity.pddl.layouts import Pair, PathArgument
+
+_LARGE: Final = 1_000
+"""Ground actions: that many take some 5 ms to prepare, the shortest time limit that is kept."""
 
 
 def load(path: PathArgument, human: str | None = None) -> Task:
@@ -41,5 +47,6 @@ def load_pddl(
 
 
 def _ready(task: Task) -> Task:
-    prepare(task)
+    if len(task.actions) > _LARGE:
+        prepare(task)
     return task

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from search import Clock, Outcome, OutOfTimeError, least_over_ties, optimal_human_plans, solve
 from search.simulation import solve_for_human
 from serendipity.gap import Gap, news
+from serendipity.model.actions import GroundAction
 from serendipity.model.collection import no_collection
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import Number
@@ -206,7 +207,8 @@ def _over_ties(call: _Call) -> Result:
 def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | None]] = ()) -> Result:
     """An outcome of the search in the form that callers see, with the gap over time."""
     task, options = call.task, call.options
-    steps = None if outcome.steps is None else tuple(_step(task, options, step) for step in outcome.steps)
+    prices = _Prices(task, options.discount)
+    steps = None if outcome.steps is None else _steps(task, prices, outcome.steps)
     human_plan = outcome.human_plan
     return Result(
         mode=options.mode,
@@ -225,7 +227,7 @@ def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | No
         reason=outcome.reason,
         saving_alone=None if outcome.baseline is None else float(outcome.saving_alone),
         plan=steps,
-        agent_costs={} if outcome.steps is None else _agent_costs(task, options, outcome.steps),
+        agent_costs={} if outcome.steps is None else _agent_costs(task, prices, outcome.steps),
         realised=_realised(call, outcome),
         statistics={
             "elapsed_seconds": call.clock.elapsed(),
@@ -273,18 +275,42 @@ def _float(value: Fraction | None) -> float | None:
     return None if value is None else float(value)
 
 
-def _step(task: Task, options: Options, step: Step) -> PlanStep:
-    action = task.actions[step.action]
-    agents = tuple(task.agents[i] for i in action.participants)
-    return PlanStep(step.epoch, agents, action.name, float(task.team_cost(action, options.discount)))
+class _Prices:
+    """What actions cost the team: a few different prices for many steps, and rationals are slow."""
+
+    def __init__(self, task: Task, discount: Fraction) -> None:
+        self._task = task
+        self._discount = discount
+        self._known: dict[tuple[int, bool], Fraction] = {}
+
+    def of(self, action: GroundAction) -> Fraction:
+        """The undiscounted cost with the human, the discounted one else (SPEC 1)."""
+        kind = id(action.cost), self._task.human in action.participants
+        price = self._known.get(kind)
+        if price is None:
+            price = self._known[kind] = self._task.team_cost(action, self._discount)
+        return price
 
 
-def _agent_costs(task: Task, options: Options, steps: tuple[Step, ...]) -> dict[str, float]:
+def _steps(task: Task, prices: _Prices, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
+    actions = [(step.epoch, task.actions[step.action]) for step in steps]
+    return tuple(
+        PlanStep(
+            epoch, tuple(task.agents[i] for i in action.participants), action.name, float(prices.of(action))
+        )
+        for epoch, action in actions
+    )
+
+
+def _agent_costs(task: Task, prices: _Prices, steps: tuple[Step, ...]) -> dict[str, float]:
     """What each agent contributes; a joint action's cost is shared equally."""
     costs = {agent: Fraction(0) for agent in task.agents}
+    alike: dict[tuple[tuple[int, ...], int], list[GroundAction]] = {}
     for step in steps:
         action = task.actions[step.action]
-        share = task.team_cost(action, options.discount) / len(action.participants)
-        for agent in action.participants:
+        alike.setdefault((action.participants, id(action.cost)), []).append(action)
+    for (participants, _), actions in alike.items():
+        share = prices.of(actions[0]) * len(actions) / len(participants)
+        for agent in participants:
             costs[task.agents[agent]] += share
     return {agent: float(cost) for agent, cost in costs.items()}

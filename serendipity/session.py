@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from search import at_state, prepare
+from search import at_state
 from serendipity.model.actions import Condition, GroundAction, conflicting
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.result import Result
@@ -28,7 +28,6 @@ class Session:
     def __init__(self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> None:
         self._task = task
         _ = task.named  # what every epoch's actions are looked up in
-        prepare(task)
         self._options = options
         self._human_plan = None if human_plan is None else tuple(human_plan)
         self._cancelled = threading.Event()

@@ -1,4 +1,4 @@
-"""What takes time linear in the files is done when a task is loaded, not in the first call."""
+"""What takes long on a large task is done when it is loaded, not in the first call."""
 
 import pytest
 
@@ -13,11 +13,11 @@ def _no_packing(*_: object) -> None:
 
 @pytest.fixture
 def folder(tmp_path):
-    serendipity.generate_usar(tmp_path / "building", rooms=8, medkits=2, seed=1)
+    serendipity.generate_usar(tmp_path / "building", rooms=60, medkits=4, seed=1)
     return tmp_path / "building"
 
 
-def test_a_loaded_task_is_packed(folder, monkeypatch):
+def test_a_large_task_is_packed_when_it_is_loaded(folder, monkeypatch):
     task = serendipity.load(folder)
     monkeypatch.setattr(Encoding, "__init__", _no_packing)
     assert serendipity.plan(task, discount=0.6).status == "optimal"

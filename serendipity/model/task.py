@@ -1,5 +1,6 @@
 """The task: agents, facts, ground actions, initial state, goals."""
 
+from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -110,19 +111,25 @@ class Task:
         """
         states = [self.init]
         for step, action_id in enumerate(plan, start=1):
-            action = self.actions[action_id]
-            where = f"human plan, step {step}: '{action.name}'"
-            if action.participants != (self.human,):
-                reason = f"is not an action that {self.agents[self.human]} can do alone"
-                raise PlanError(f"{where} {reason}", step=step)
-            if not action.applicable(states[-1]):
-                reason = f"is not applicable: {self._first_unmet(action, states[-1])}"
-                raise PlanError(f"{where} {reason}", step=step)
-            states.append(states[-1].difference(action.delete).union(action.add))
-        if not self.goal.holds(states[-1]):
+            states.append(self._after(states[-1], action_id, step))
+        self._require_goal(states[-1], plan)
+        return states
+
+    def _after(self, state: frozenset[int], action_id: int, step: int) -> frozenset[int]:
+        """The state after a step of the human's plan."""
+        action = self.actions[action_id]
+        if action.participants == (self.human,):
+            if action.applicable(state):
+                return state.difference(action.delete).union(action.add)
+            reason = f"is not applicable: {self._first_unmet(action, state)}"
+        else:
+            reason = f"is not an action that {self.agents[self.human]} can do alone"
+        raise PlanError(f"human plan, step {step}: '{action.name}' {reason}", step=step)
+
+    def _require_goal(self, state: frozenset[int], plan: HumanPlan) -> None:
+        if not self.goal.holds(state):
             last = f"after its last step '{self.actions[plan[-1]].name}'" if plan else "with no step"
             raise PlanError(f"human plan: the goal does not hold {last}")
-        return states
 
     def plan_from_names(self, names: Iterable[str]) -> HumanPlan:
         """The human plan that a list of action names writes down; noops are skipped.
@@ -145,14 +152,16 @@ class Task:
                 raise PlanError(message, step=step)
             chosen = next((i for i in ids if self.actions[i].applicable(state)), ids[0])
             plan.append(chosen)
-            action = self.actions[chosen]
-            state = state.difference(action.delete).union(action.add)
-        self.replay_alone(tuple(plan))
+            state = self._after(state, chosen, len(plan))
+        self._require_goal(state, tuple(plan))
         return tuple(plan)
 
     def cost_of(self, plan: HumanPlan) -> Fraction:
         """Sum of the undiscounted costs of a human plan."""
-        return sum((self.actions[i].cost for i in plan), Fraction(0))
+        costs = [self.actions[i].cost for i in plan]
+        by_identity = {id(cost): cost for cost in costs}  # few different ones: sums of rationals are slow
+        times = Counter(map(id, costs))
+        return sum((by_identity[key] * times[key] for key in times), Fraction(0))
 
     def at(self, state: frozenset[int]) -> "Task":
         """The same task from another state; variables stay where they still fit it."""
