@@ -7,7 +7,9 @@ produces a member must consume another.  The idea is the mutex groups of SAS+
 (Baeckstroem and Nebel 1995), found on ground actions.
 """
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from itertools import chain
 
@@ -77,26 +79,28 @@ class _GroupFinder:
     def __init__(self, n_facts: int, init: frozenset[int], actions: Sequence[GroundAction]) -> None:
         self.init = init
         self.actions = actions
+        self.adds = [action.add for action in actions]
         self.blocked = set(init)
         self.adders: list[list[int]] = [[] for _ in range(n_facts)]
         self.consumers: list[list[int]] = [[] for _ in range(n_facts)]
-        self.strayers: list[list[int]] = [[] for _ in range(n_facts)]  # delete it without need
+        self.strayers: dict[int, list[int]] = {}  # delete it without need
         self.sources: dict[int, list[set[int]]] = {}
         for i, action in enumerate(actions):
-            pre = action.pre
-            consumed = [fact for fact in action.delete if fact in pre]
-            for fact in action.add:
+            pre, add = action.pre, action.add
+            for fact in add:
                 self.adders[fact].append(i)
-            for fact in consumed:
-                self.consumers[fact].append(i)
-            if len(consumed) < len(action.delete):
-                for fact in action.delete:
+            at_first = True
+            for fact in action.delete:
+                if fact in pre:
+                    self.consumers[fact].append(i)
+                    at_first = at_first and fact in init
+                else:
+                    self.strayers.setdefault(fact, []).append(i)
+            if at_first:
+                consumed = set(pre).intersection(action.delete)
+                for fact in add:
                     if fact not in pre:
-                        self.strayers[fact].append(i)
-            if init.issuperset(consumed):
-                for fact in action.add:
-                    if fact not in pre:
-                        self.sources.setdefault(fact, []).append(set(consumed))
+                        self.sources.setdefault(fact, []).append(consumed)
 
     def groups(self) -> list[tuple[int, ...]]:
         found = []
@@ -110,79 +114,87 @@ class _GroupFinder:
 
     def _grow(self, seed: int) -> set[int]:
         """The group of a seed; empty if there is none."""
-        excluded: set[int] = set()
         if self._appears_otherwise(seed, seed):
             return set()
+        barred = set(self.blocked)
         for _ in range(_MAX_ATTEMPTS):
-            group = self._closure(seed, excluded)
-            misfits = self._unbalanced(group) or self._uneven(group)
+            group = self._closure(seed, barred)
+            misfits = self._misfits(group)
             if not misfits:
                 return group
             if seed in misfits:
                 return set()
-            excluded |= misfits
+            barred |= misfits
         return set()
 
-    def _closure(self, seed: int, excluded: set[int]) -> set[int]:
-        actions, barred = self.actions, self.blocked | excluded
-        group, pending = {seed}, [seed]
-        while pending:
-            for i in self.consumers[pending.pop()]:
-                for fact in actions[i].add:
-                    if fact not in group and fact not in barred:
-                        if self._appears_otherwise(fact, seed):
-                            barred.add(fact)
-                        else:
-                            group.add(fact)
-                            pending.append(fact)
+    def _closure(self, seed: int, barred: set[int]) -> set[int]:
+        group = {seed}
+        wave = group
+        while wave:
+            wave = {*_joined(self.adds, _joined(self.consumers, wave))} - group - barred
+            wave -= {fact for fact in wave & self.sources.keys() if self._appears_otherwise(fact, seed)}
+            group |= wave
         return group
 
     def _appears_otherwise(self, fact: int, seed: int) -> bool:
         """Whether an action adds a fact and consumes nothing, or only other initial facts."""
         return any(seed not in consumed for consumed in self.sources.get(fact, ()))
 
-    def _unbalanced(self, group: set[int]) -> set[int]:
+    def _misfits(self, group: set[int]) -> set[int]:
+        """Members that break the group; none where it is exactly-one."""
+        consuming = {*_joined(self.consumers, group)}
+        adding = Counter(_joined(self.adders, group))
+        return (
+            self._unbalanced(group, adding.keys() - consuming)
+            or self._beside(group, [i for i, n in adding.items() if n > 1 and i in consuming])
+            or self._dropped(group, consuming - adding.keys())
+        )
+
+    def _unbalanced(self, group: set[int], creators: AbstractSet[int]) -> set[int]:
         """Members that an action adds without consuming a member, directly or in the end."""
-        consumed: dict[int, int] = {}
-        for member in group:
-            for i in self.consumers[member]:
-                consumed[i] = consumed.get(i, 0) + 1
-        actions = self.actions
+        pending = self._created(group, creators)
+        if not pending:
+            return set()
+        consumed = Counter(_joined(self.consumers, group))
         misfits: set[int] = set()
-        pending = [
-            member
-            for member in group
-            for i in self.adders[member]
-            if i not in consumed and member not in actions[i].pre
-        ]
         while pending:
-            member = pending.pop()
-            if member in misfits:
-                continue
-            misfits.add(member)
-            for i in self.consumers[member]:
-                consumed[i] -= 1
-                if not consumed[i]:
-                    pending += [f for f in actions[i].add if f in group and f not in actions[i].pre]
+            misfits |= pending
+            touched = Counter(_joined(self.consumers, pending))
+            consumed.subtract(touched)
+            pending = self._created(group, {i for i in touched if not consumed[i]}) - misfits
         return misfits
 
-    def _uneven(self, group: set[int]) -> set[int]:
-        """Members that are added beside another one, or else deleted without a successor."""
-        actions = self.actions
+    def _created(self, group: set[int], creators: AbstractSet[int]) -> set[int]:
+        """Members that one of some actions makes true."""
+        return {
+            fact
+            for fact in group.intersection(_joined(self.adds, creators))
+            if any(i in creators and fact not in self.actions[i].pre for i in self.adders[fact])
+        }
+
+    def _beside(self, group: set[int], adding_more: Iterable[int]) -> set[int]:
+        """Members that are added beside another one."""
         beside: set[int] = set()
+        for i in adding_more:
+            beside.update(sorted(group.intersection(self.adds[i]), key=self._standing)[:-1])
+        return beside
+
+    def _dropped(self, group: set[int], adding_none: Iterable[int]) -> set[int]:
+        """Members that are deleted without a successor."""
         dropped: set[int] = set()
-        for member in group:
-            for i in self.consumers[member]:
-                added = [fact for fact in actions[i].add if fact in group]
-                if len(added) > 1:
-                    beside.update(sorted(added, key=self._standing)[:-1])
-                elif not added:
-                    dropped.add(member)
-            for i in self.strayers[member]:
-                if group.isdisjoint(actions[i].pre):
-                    dropped.add(member)
-        return beside or dropped
+        for i in adding_none:
+            action = self.actions[i]
+            dropped.update(group.intersection(action.delete).intersection(action.pre))
+        for member in group & self.strayers.keys():
+            if any(group.isdisjoint(self.actions[i].pre) for i in self.strayers[member]):
+                dropped.add(member)
+        return dropped
 
     def _standing(self, fact: int) -> tuple[int, int]:
         """Of facts added together, the one that is consumed most makes the best member."""
         return len(self.consumers[fact]), -fact
+
+
+def _joined(table: Sequence[Iterable[int]], keys: Iterable[int]) -> Iterator[int]:
+    """The entries of a table at some keys, one after the other (by C loops)."""
+    return chain.from_iterable(map(table.__getitem__, keys))
