@@ -6,18 +6,17 @@ precondition binds range over the objects of their type.
 """
 
 from collections.abc import Callable, Iterable, Sequence
+from math import prod
 from operator import itemgetter
 from typing import Any, Final
 
 from serendipity.model import InputError
 from serendipity.pddl.lifted import EQUALITY, Key, Literal, Unit
 from serendipity.pddl.normal import Operator
+from serendipity.pddl.product import Product, Row, Table, united
 
 MAX_ROWS: Final = 5_000_000
 """The most ground actions of one operator, some gigabytes of them."""
-
-Row = tuple[str, ...]
-"""Values of variables, in the order in which the join bound them."""
 
 
 def picker(positions: Sequence[int]) -> Callable[[Any], tuple[Any, ...]]:
@@ -72,12 +71,8 @@ class Relations:
         return self.holds(literal, literal.key)
 
 
-def bindings(operator: Operator, unit: Unit, relations: Relations) -> tuple[dict[str, int], list[Row]]:
-    """All bindings under which the preconditions that can't change hold.
-
-    Returns:
-        Where each variable is in a row, and the rows.
-    """
+def bindings(operator: Operator, unit: Unit, relations: Relations) -> Product:
+    """All bindings under which the preconditions that can't change hold."""
     return _Join(operator, unit, relations).run()
 
 
@@ -90,23 +85,38 @@ class _Join:
         self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in operator.parameters}
         self.joins = [lit for lit in operator.precondition if relations.joined(lit)]
         self.filters = [lit for lit in operator.precondition if relations.filtered(lit)]
-        self.position: dict[str, int] = {}
-        self.rows: list[Row] = [()]
+        self.bound: set[str] = set()
+        self.tables: list[Table] = []
 
-    def run(self) -> tuple[dict[str, int], list[Row]]:
+    def run(self) -> Product:
         self._filter()
-        while self.joins and self.rows:
+        while self.joins and self._size():
             self._join(self._next())
             self._filter()
         for parameter in self.parameters:
-            if parameter.name not in self.position:
-                self.position[parameter.name] = len(self.position)
-                values = [(value,) for value in self.domains[parameter.name]]
-                if len(self.rows) * len(values) > MAX_ROWS:
+            if parameter.name not in self.bound:
+                values: list[Row] = [(value,) for value in self.domains[parameter.name]]
+                if self._size() * len(values) > MAX_ROWS:
                     raise self._too_many()
-                self.rows = [row + value for row in self.rows for value in values]
+                self._add(Table((parameter.name,), values))
                 self._filter()
-        return self.position, self.rows
+        return Product(self.tables)
+
+    def _size(self) -> int:
+        return prod(len(table.rows) for table in self.tables)
+
+    def _add(self, table: Table) -> None:
+        self.tables.append(table)
+        self.bound.update(table.variables)
+
+    def _taken(self, terms: Sequence[str]) -> Table:
+        """The tables that some terms are in, taken out and made one."""
+        taken: list[Table] = []
+        kept: list[Table] = []
+        for table in self.tables:
+            (kept if set(terms).isdisjoint(table.variables) else taken).append(table)
+        self.tables = kept
+        return united(taken)
 
     def _too_many(self) -> InputError:
         schema = self.schema
@@ -118,7 +128,7 @@ class _Join:
 
         def growth(literal: Literal) -> tuple[bool, int]:
             terms = literal.key[1:]
-            bound = sum(term in self.position or term[0] != "?" for term in terms)
+            bound = sum(term in self.bound or term[0] != "?" for term in terms)
             size = len(self.relations.table(literal.key[0])) if bound < len(terms) else 0
             return bound == 0 and len(terms) > 0, size
 
@@ -127,6 +137,7 @@ class _Join:
         return chosen.key
 
     def _join(self, pattern: Key) -> None:
+        table = self._taken(pattern[1:])
         old: list[int] = []  # positions in the atom that the row or a constant decides
         source: list[int] = []
         fixed: list[tuple[int, str]] = []
@@ -135,9 +146,9 @@ class _Join:
         for i, term in enumerate(pattern[1:], start=1):
             if term[0] != "?":
                 fixed.append((i, term))
-            elif term in self.position:
+            elif term in table.variables:
                 old.append(i)
-                source.append(self.position[term])
+                source.append(table.variables.index(term))
             elif term in new:
                 same.append((i, new[term]))
             else:
@@ -152,19 +163,19 @@ class _Join:
                 and all(atom[i] == atom[j] for i, j in same)
             ):
                 index.setdefault(before(atom), []).append(after(atom))
-        for term in new:
-            self.position[term] = len(self.position)
         look_up = picker(source)
-        self.rows = [row + more for row in self.rows for more in index.get(look_up(row), ())]
+        rows = [row + more for row in table.rows for more in index.get(look_up(row), ())]
+        self._add(Table((*table.variables, *new), rows))
 
     def _filter(self) -> None:
         """Apply the filters whose variables are all bound by now."""
         for literal in list(self.filters):
             terms = literal.key[1:]
-            if all(term[0] != "?" or term in self.position for term in terms):
+            if all(term[0] != "?" or term in self.bound for term in terms):
                 self.filters.remove(literal)
-                places = [(self.position.get(term, -1), term) for term in terms]
-                self.rows = [row for row in self.rows if self._passes(literal, row, places)]
+                variables, rows = self._taken(terms)
+                places = [(variables.index(term) if term in variables else -1, term) for term in terms]
+                self._add(Table(variables, [row for row in rows if self._passes(literal, row, places)]))
 
     def _passes(self, literal: Literal, row: Row, places: list[tuple[int, str]]) -> bool:
         key = (literal.key[0], *(row[i] if i >= 0 else term for i, term in places))

@@ -115,7 +115,7 @@ def _expand_effects(
             simple.append(effect.literal)
             continue
         for values in assignments(effect.parameters, unit):
-            literal = Literal(_substituted(effect.literal.key, values), effect.literal.positive)
+            literal = Literal(ground_key(effect.literal.key, values), effect.literal.positive)
             if effect.condition is None:
                 simple.append(literal)
             else:
@@ -201,7 +201,7 @@ def substitute(formula: Formula, values: dict[str, str]) -> Formula:
         return formula
     match formula:
         case Literal(key, positive):
-            return Literal(_substituted(key, values), positive)
+            return Literal(ground_key(key, values), positive)
         case And(parts):
             return And(tuple([substitute(part, values) for part in parts]))
         case Or(parts):
@@ -212,5 +212,6 @@ def substitute(formula: Formula, values: dict[str, str]) -> Formula:
             return Quantified(universal, parameters, substitute(body, outer))
 
 
-def _substituted(key: Key, values: dict[str, str]) -> Key:
+def ground_key(key: Key, values: dict[str, str]) -> Key:
+    """The atom with variables replaced."""
     return (key[0], *[values.get(term, term) for term in key[1:]])

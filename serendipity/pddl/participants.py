@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from functools import cache
-from itertools import repeat
+from itertools import chain, repeat
 
 from serendipity.pddl.instantiate import Participants
 from serendipity.pddl.lifted import Key, Unit
@@ -36,8 +36,9 @@ def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
     finder = _NameFinder(agents)
 
     def participants(keys: Sequence[Key]) -> Iterable[tuple[int, ...]]:
+        telling = frozenset(filter(finder.agents_in, {*chain.from_iterable(keys)}))
         for key in keys:
-            found = finder.named(key)
+            found = finder.named(telling.intersection(key))
             if not found:
                 line = next(s.line for s in unit.domain.schemas if s.name == key[0])
                 message = f"no agent's name ({', '.join(agents)}) occurs in its name"
@@ -56,18 +57,18 @@ class _NameFinder:
     def __init__(self, agents: Sequence[str]) -> None:
         patterns = ((_parts(name), agent) for agent, name in enumerate(agents))
         self._patterns = sorted(patterns, key=lambda pattern: -len(pattern[0]))
-        self._words: dict[str, frozenset[int]] = {}
+        self._found: dict[frozenset[str], tuple[int, ...]] = {}
 
     def named(self, words: Iterable[str]) -> tuple[int, ...]:
         """The agents that occur in some words, ascending."""
-        found: frozenset[int] = frozenset()
-        for word in words:
-            if word not in self._words:
-                self._words[word] = self._scan(_parts(word))
-            found |= self._words[word]
-        return tuple(sorted(found))
+        words = frozenset(words)
+        if words not in self._found:
+            self._found[words] = tuple(sorted(frozenset().union(*map(self.agents_in, words))))
+        return self._found[words]
 
-    def _scan(self, parts: list[str]) -> frozenset[int]:
+    def agents_in(self, word: str) -> frozenset[int]:
+        """The agents that occur in one word."""
+        parts = _parts(word)
         found = set()
         start = 0
         while start < len(parts):

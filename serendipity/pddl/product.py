@@ -1,0 +1,92 @@
+"""Bindings as a product of tables: what varies independently is kept apart.
+
+A literal that has only some of the variables stands for few ground atoms, however many
+bindings there are: each is made once and then looked up.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import repeat
+from math import prod
+from typing import NamedTuple
+
+Row = tuple[str, ...]
+"""Values of some variables."""
+
+Part = tuple[int, ...]
+"""Some of the tables of a product, ascending."""
+
+
+class Table(NamedTuple):
+    """Values of some variables that depend on each other: a row for each choice."""
+
+    variables: tuple[str, ...]
+    rows: list[Row]
+
+
+def united(tables: Iterable[Table]) -> Table:
+    """One table of all combinations of the rows of several."""
+    variables: tuple[str, ...] = ()
+    rows: list[Row] = [()]
+    for table in tables:
+        variables += table.variables
+        rows = [row + more for row in rows for more in table.rows]
+    return Table(variables, rows)
+
+
+class Product:
+    """Every binding of some variables: a row of each table, freely combined.
+
+    Bindings are in the order in which the last table varies fastest.  Those of a part
+    of the tables are numbered likewise.
+    """
+
+    def __init__(self, tables: Sequence[Table]) -> None:
+        self.size = prod([len(table.rows) for table in tables])
+        self._columns: list[dict[str, tuple[str, ...]]] = []
+        self._sizes: list[int] = []
+        self._home: dict[str, int] = {}
+        self._fixed: dict[str, str] = {}
+        self._indices: dict[tuple[Part, Part], Sequence[int]] = {}
+        for variables, rows in tables:
+            columns = dict(zip(variables, zip(*rows, strict=True), strict=False))
+            if len(rows) == 1:
+                self._fixed.update({variable: value for variable, (value,) in columns.items()})
+            else:
+                self._home.update(dict.fromkeys(variables, len(self._sizes)))
+                self._columns.append(columns)
+                self._sizes.append(len(rows))
+        self.everything: Part = tuple(range(len(self._sizes)))
+
+    def __iter__(self) -> Iterator[dict[str, str]]:
+        """The values of all variables, binding by binding."""
+        names = [*self._fixed, *self._home]
+        columns = [self.column(name, self.everything) for name in names]
+        for _, *values in zip(range(self.size), *columns, strict=True):
+            yield dict(zip(names, values, strict=True))
+
+    def part(self, terms: Iterable[str]) -> Part:
+        """The tables on which the values of some terms depend."""
+        return tuple(sorted({self._home[term] for term in terms if term in self._home}))
+
+    def column(self, term: str, part: Part) -> Iterable[str]:
+        """The values of a term, for each binding of a part that it depends on."""
+        if term in self._home:
+            home = self._home[term]
+            return map(self._columns[home][term].__getitem__, self.index((home,), part))
+        return repeat(self._fixed.get(term, term), prod([self._sizes[n] for n in part]))
+
+    def index(self, part: Part, whole: Part) -> Sequence[int]:
+        """For each binding of ``whole``, the number of the binding of ``part`` within it."""
+        if part == whole:
+            return range(prod([self._sizes[n] for n in whole]))
+        index = self._indices.get((part, whole))
+        if index is None:
+            index = [0]
+            for n in whole:
+                size = self._sizes[n]
+                if n in part:
+                    index = [i * size + j for i in index for j in range(size)]
+                else:
+                    index = [i for i in index for _ in range(size)]
+            self._indices[part, whole] = index
+        return index
