@@ -68,13 +68,10 @@ def _assemble(blueprint: Blueprint) -> Task:
     units = [source.unit for source in blueprint.sources]
     relations = _relations(blueprint.sources, units)
     instantiator = Instantiator(relations, _values(units))
-    blocks: list[Block] = []
     for source in blueprint.sources:
         for schema in source.schemas:
-            block = instantiator.block(operator(schema, source.unit), source.unit, source.participants)
-            if block is not None:
-                blocks.append(block)
-    blocks = _owned(blocks, blueprint.warnings)
+            instantiator.ground(operator(schema, source.unit), source.unit, source.participants)
+    blocks = _owned(instantiator.blocks(), blueprint.warnings)
     facts = instantiator.facts
     goal = _goal(blueprint.goals, relations)
     robot_goal = [g for unit in blueprint.robot_goals for g in _goal(unit, relations) if g not in goal]

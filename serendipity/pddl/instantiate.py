@@ -10,7 +10,7 @@ from fractions import Fraction
 from itertools import chain, count
 from typing import Final
 
-from serendipity.pddl.blocks import Block, Column, Ids, block_of
+from serendipity.pddl.blocks import Block, Column, Ids, Record, block_of
 from serendipity.pddl.cases import Cases
 from serendipity.pddl.join import Relations, bindings
 from serendipity.pddl.lifted import Expression, FunctionValue, Key, Operation, Unit
@@ -36,9 +36,11 @@ class Instantiator:
         self.relations = relations
         self.values = values
         self.facts: defaultdict[Key, int] = defaultdict(count().__next__)
+        self._blocks: list[Block] = []
+        self._records: list[Record] = []
 
-    def block(self, operator: Operator, unit: Unit, participants: Participants) -> Block | None:
-        """The ground actions of an operator whose static preconditions hold; None if there are none.
+    def ground(self, operator: Operator, unit: Unit, participants: Participants) -> None:
+        """Make the ground actions of an operator whose static preconditions hold.
 
         Args:
             operator: the operator.
@@ -50,23 +52,53 @@ class Instantiator:
         """
         product = bindings(operator, unit, self.relations)
         if not product.size:
-            return None
+            return
+        records: Iterable[Record]
+        if product.everything:
+            block = self._block(operator, unit, participants, product)
+            if not operator.conditional and not operator.choices:
+                self._blocks.append(block)
+                return
+            records = block.records()
+        else:  # in files that are ground already, there is nothing else
+            records = [self._record(operator, unit, participants, product)]
+        if operator.conditional or operator.choices:
+            cases = Cases(operator, unit, self.relations, self.facts)
+            records = cases.expanded(records, product)
+        self._records += records
+
+    def blocks(self) -> list[Block]:
+        """All ground actions so far."""
+        return [*self._blocks, block_of(self._records)]
+
+    def _block(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Block:
         atoms = _Atoms(product, self.facts)
         keys = atoms.of(schema_key(operator), product.everything)
-        fluents = [lit for lit in operator.precondition if lit.key[0] in self.relations.fluent]
-        block = Block(
-            keys,
-            list(participants(keys)),
-            atoms.column([lit.key for lit in fluents if lit.positive]),
-            atoms.column([lit.key for lit in fluents if not lit.positive]),
-            atoms.column([lit.key for lit in operator.effects if lit.positive]),
-            atoms.column([lit.key for lit in operator.effects if not lit.positive]),
-            self._costs(operator, unit, product, keys),
+        pre, neg, add, delete = map(atoms.column, self._conditions(operator))
+        costs = self._costs(operator, unit, product, keys)
+        return Block(keys, [*participants(keys)], pre, neg, add, delete, costs)
+
+    def _record(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Record:
+        (values,) = product
+        key = ground_key(schema_key(operator), values)
+        pre, neg, add, delete = (
+            tuple([self.facts[ground_key(atom, values)] for atom in atoms])
+            for atoms in self._conditions(operator)
         )
-        if not operator.conditional and not operator.choices:
-            return block
-        cases = Cases(operator, unit, self.relations, self.facts)
-        return block_of([*cases.expanded(block.records(), product)])
+        (who,) = participants([key])
+        (cost,) = self._costs(operator, unit, product, [key])
+        return Record(key, who, pre, neg, add, delete, cost)
+
+    def _conditions(self, operator: Operator) -> tuple[list[Key], list[Key], list[Key], list[Key]]:
+        """The lifted atoms that must be true, must be false, become true, become false."""
+        fluent = self.relations.fluent
+        needs = [literal for literal in operator.precondition if literal.key[0] in fluent]
+        return (
+            [literal.key for literal in needs if literal.positive],
+            [literal.key for literal in needs if not literal.positive],
+            [literal.key for literal in operator.effects if literal.positive],
+            [literal.key for literal in operator.effects if not literal.positive],
+        )
 
     def _costs(self, operator: Operator, unit: Unit, product: Product, keys: Sequence[Key]) -> list[Fraction]:
         increases = operator.schema.increases

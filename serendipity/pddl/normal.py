@@ -214,4 +214,6 @@ def substitute(formula: Formula, values: dict[str, str]) -> Formula:
 
 def ground_key(key: Key, values: dict[str, str]) -> Key:
     """The atom with variables replaced."""
+    if not values:
+        return key
     return (key[0], *[values.get(term, term) for term in key[1:]])

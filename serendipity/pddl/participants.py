@@ -57,6 +57,7 @@ class _NameFinder:
     def __init__(self, agents: Sequence[str]) -> None:
         patterns = ((_parts(name), agent) for agent, name in enumerate(agents))
         self._patterns = sorted(patterns, key=lambda pattern: -len(pattern[0]))
+        self.agents_in = cache(self._agents_in)
         self._found: dict[frozenset[str], tuple[int, ...]] = {}
 
     def named(self, words: Iterable[str]) -> tuple[int, ...]:
@@ -66,8 +67,7 @@ class _NameFinder:
             self._found[words] = tuple(sorted(frozenset().union(*map(self.agents_in, words))))
         return self._found[words]
 
-    def agents_in(self, word: str) -> frozenset[int]:
-        """The agents that occur in one word."""
+    def _agents_in(self, word: str) -> frozenset[int]:
         parts = _parts(word)
         found = set()
         start = 0
