@@ -1,7 +1,7 @@
 """Final ids: facts that matter in the order of their names, actions in that of theirs."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from itertools import chain, repeat
 from operator import attrgetter
 
 from serendipity.model import Condition, GroundAction
@@ -80,8 +80,12 @@ class Numbering:
 
 def _renumbered(column: Column, ids: Mapping[int, int]) -> Column:
     """The facts that have new ids, ascending."""
-    table = [tuple(sorted({ids[fact] for fact in row if fact in ids})) for row in column.table]
-    return Column(table, column.places)
+    rows: Iterable[Iterable[int]]
+    if ids.keys() >= {*chain.from_iterable(column.table)}:
+        rows = map(map, repeat(ids.__getitem__), column.table)
+    else:
+        rows = [[ids[fact] for fact in row if fact in ids] for row in column.table]
+    return Column([*map(tuple, map(sorted, map(set, rows)))], column.places)
 
 
 def _without(deleted: Column, added: Column) -> Column:
