@@ -81,6 +81,8 @@ class _GroupFinder:
         self.actions = actions
         self.adds = [action.add for action in actions]
         self.blocked = set(init)
+        self.grouped: set[int] = set()
+        self.unbalanced: set[int] = set()
         self.adders: list[list[int]] = [[] for _ in range(n_facts)]
         self.consumers: list[list[int]] = [[] for _ in range(n_facts)]
         self.strayers: dict[int, list[int]] = {}  # delete it without need
@@ -109,8 +111,23 @@ class _GroupFinder:
                 group = self._grow(seed)
                 if len(group) > 1:
                     found.append(tuple(sorted(group)))
-                    self.blocked |= group
+                    self._set_apart(group)
         return found
+
+    def _set_apart(self, group: set[int]) -> None:
+        """Bar the members of a group that was found from the groups to come.
+
+        What an action adds that consumes such members only would be unbalanced in each of
+        those as well.  Facts that were so before are barred here, once instead of every time.
+        """
+        self.blocked |= group
+        self.grouped |= group
+        for i in {*_joined(self.consumers, group)}:
+            if not self.unbalanced.isdisjoint(self.adds[i]):
+                action = self.actions[i]
+                if self.grouped.issuperset([fact for fact in action.delete if fact in action.pre]):
+                    self.blocked.update([fact for fact in action.add if fact not in action.pre])
+        self.unbalanced -= self.blocked
 
     def _grow(self, seed: int) -> set[int]:
         """The group of a seed; empty if there is none."""
@@ -162,6 +179,7 @@ class _GroupFinder:
             touched = Counter(_joined(self.consumers, pending))
             consumed.subtract(touched)
             pending = self._created(group, {i for i in touched if not consumed[i]}) - misfits
+        self.unbalanced |= misfits
         return misfits
 
     def _created(self, group: set[int], creators: AbstractSet[int]) -> set[int]:
