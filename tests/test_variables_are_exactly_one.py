@@ -85,6 +85,34 @@ def test_a_position_and_a_carried_thing_are_found() -> None:
     }
 
 
+def test_what_two_groups_move_together_stays_in_the_later_one() -> None:
+    """``b1`` is unbalanced for the group of ``a0``, but not for that of ``b0``, which comes later."""
+    task = build(
+        init="a0 b0",
+        actions={
+            "both h": "a0 b0 -> a1 b1 !a0 !b0",
+            "back h": "a1 -> a0 !a1",
+            "on h": "b0 -> b2 !b0",
+            "up h": "b2 -> b1 !b2",
+        },
+    )
+    groups = [[task.facts[f] for f in variable.facts] for variable in task.variables]
+    assert groups == [["a0", "a1"], ["b0", "b1", "b2"]]
+
+
+def test_a_trace_that_all_groups_leave_is_a_boolean() -> None:
+    moves = {f"move-{x} h": f"{x}0 -> {x}1 trace !{x}0" for x in "abc"}
+    moves |= {f"back-{x} h": f"{x}1 -> {x}0 !{x}1 !trace" for x in "abc"}
+    task = build(init="a0 b0 c0", actions=moves)
+    groups = [[task.facts[f] for f in variable.facts] for variable in task.variables]
+    assert groups == [["a0", "a1"], ["b0", "b1"], ["c0", "c1"], ["trace"]]
+
+
+def test_a_thing_that_can_vanish_has_no_group() -> None:
+    task = build(init="a0", actions={"go h": "a0 -> a1 !a0", "back h": "a1 -> a0 !a1", "lose h": "a1 -> !a1"})
+    assert all(variable.boolean for variable in task.variables)
+
+
 def test_a_door_that_opens_for_good_is_a_boolean() -> None:
     task = build(init="shut", actions={"open h": "shut -> !shut"})
     assert all(variable.boolean for variable in task.variables)

@@ -75,8 +75,8 @@ class Instantiator:
         atoms = _Atoms(product, self.facts)
         keys = atoms.of(schema_key(operator), product.everything)
         pre, neg, add, delete = map(atoms.column, self._conditions(operator))
-        costs = self._costs(operator, unit, product, keys)
-        return Block(keys, [*participants(keys)], pre, neg, add, delete, costs)
+        who = [*participants(keys)]
+        return Block(keys, who, pre, neg, add, delete, self._costs(operator, unit, product, keys))
 
     def _record(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Record:
         (values,) = product

@@ -13,7 +13,7 @@ Row = tuple[str, ...]
 """Values of some variables."""
 
 Part = tuple[int, ...]
-"""Some of the tables of a product, ascending."""
+"""Numbers of some tables of a product, ascending."""
 
 
 class Table(NamedTuple):
@@ -38,22 +38,25 @@ class Product:
 
     Bindings are in the order in which the last table varies fastest.  Those of a part
     of the tables are numbered likewise.
+
+    Attributes:
+        size: how many bindings there are.
+        everything: all tables that leave a choice.
     """
 
     def __init__(self, tables: Sequence[Table]) -> None:
         self.size = prod([len(table.rows) for table in tables])
-        self._columns: list[dict[str, tuple[str, ...]]] = []
         self._sizes: list[int] = []
-        self._home: dict[str, int] = {}
-        self._fixed: dict[str, str] = {}
+        self._home: dict[str, int] = {}  # of a variable with a choice: the number of its table
+        self._columns: dict[str, list[str]] = {}
+        self._fixed: dict[str, str] = {}  # values of the others
         self._indices: dict[tuple[Part, Part], Sequence[int]] = {}
         for variables, rows in tables:
-            columns = dict(zip(variables, zip(*rows, strict=True), strict=False))
             if len(rows) == 1:
-                self._fixed.update({variable: value for variable, (value,) in columns.items()})
+                self._fixed.update(zip(variables, rows[0], strict=True))
             else:
                 self._home.update(dict.fromkeys(variables, len(self._sizes)))
-                self._columns.append(columns)
+                self._columns.update({v: [row[i] for row in rows] for i, v in enumerate(variables)})
                 self._sizes.append(len(rows))
         self.everything: Part = tuple(range(len(self._sizes)))
 
@@ -71,8 +74,7 @@ class Product:
     def column(self, term: str, part: Part) -> Iterable[str]:
         """The values of a term, for each binding of a part that it depends on."""
         if term in self._home:
-            home = self._home[term]
-            return map(self._columns[home][term].__getitem__, self.index((home,), part))
+            return map(self._columns[term].__getitem__, self.index((self._home[term],), part))
         return repeat(self._fixed.get(term, term), prod([self._sizes[n] for n in part]))
 
     def index(self, part: Part, whole: Part) -> Sequence[int]:
