@@ -80,9 +80,9 @@ class _GroupFinder:
         self.init = init
         self.actions = actions
         self.adds = [action.add for action in actions]
-        self.blocked = set(init)
-        self.grouped: set[int] = set()
-        self.unbalanced: set[int] = set()
+        self.blocked = set(init)  # never members, unless a seed
+        self.grouped: set[int] = set()  # members of groups that were found
+        self.unbalanced: set[int] = set()  # in some attempt, and not blocked since
         self.adders: list[list[int]] = [[] for _ in range(n_facts)]
         self.consumers: list[list[int]] = [[] for _ in range(n_facts)]
         self.strayers: dict[int, list[int]] = {}  # delete it without need
