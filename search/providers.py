@@ -1,15 +1,17 @@
 """What robots need, at least, to provide what the human's touches ask for."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 
 from search.clock import Clock
 from search.encoding import Encoding
+from search.keys import INFINITE_KEY
 from search.ops import Op
 from search.provision import Distances, Places, Provision
 from search.successors import Idle
 from search.touches import Touches
+from search.ways import NEVER
 
 
 class Provided:
@@ -20,10 +22,16 @@ class Provided:
         by_cost: what robots can do, weighed.
         by_step: the same, counting epochs; None where the weight tells them.
         unit: weight of an epoch, then.
+        slack: if robots pay as much or more from the initial state on, it is too dear.
+        latest: the last epoch by which robots must have provided it.
     """
 
-    def __init__(self, need: int, by_cost: Provision, by_step: Provision | None, unit: int) -> None:
+    def __init__(
+        self, need: int, by_cost: Provision, by_step: Provision | None, unit: int, slack: int, latest: int
+    ) -> None:
         self._need = need
+        self._slack = slack
+        self._latest = latest
         self._by_cost = by_cost
         self._by_step = by_step
         self._unit = unit
@@ -31,11 +39,12 @@ class Provided:
     @cached_property
     def cost(self) -> Distances:
         """Least key increment from a packed state."""
-        return self._by_cost.distances(self._need)
+        in_time = self._slack if self._by_step is not None else (self._latest + 1) * self._unit
+        return self._by_cost.distances(self._need, min(self._slack, in_time))
 
     @cached_property
     def _steps(self) -> Distances:
-        return self.cost if self._by_step is None else self._by_step.distances(self._need)
+        return self.cost if self._by_step is None else self._by_step.distances(self._need, self._latest + 1)
 
     def epochs(self, state: int, idle: Idle) -> int:
         """In how many epochs from now the need can be provided, from a packed state.
@@ -48,7 +57,8 @@ class Provided:
 
     def each(self, state: int) -> tuple[int, ...]:
         """The same without a rest, per robot that may act first."""
-        return tuple(steps // self._unit for steps in self._steps.each(state))
+        each = self._steps.each(state)
+        return tuple(NEVER if steps >= INFINITE_KEY else steps // self._unit for steps in each)
 
 
 class Providers:
@@ -124,12 +134,16 @@ class Providers:
         """At least so many epochs go into what costs robots a key increment."""
         return cost // self._unit if self._uniform else 0
 
-    def provided(self, needs: Sequence[int], horizon: int) -> dict[int, Provided]:
+    def provided(
+        self, needs: Sequence[int], horizon: int, slack: Mapping[int, int], latest: Mapping[int, int]
+    ) -> dict[int, Provided]:
         """Bounds from any packed state, for needs that :meth:`costs` found.
 
         Args:
             needs: their ids.
             horizon: number of epochs; beyond it steps are not told apart.
+            slack: by need the cost from which on it is too dear.
+            latest: by need the last epoch in which it can be provided.
         """
         unit = self._unit
         if not self._uniform:
@@ -138,7 +152,8 @@ class Providers:
         found = {}
         for need in needs:
             group = self._group(need)
-            found[need] = Provided(need, self._by_cost[group], self._by_step.get(group), unit)
+            by_cost, by_step = self._by_cost[group], self._by_step.get(group)
+            found[need] = Provided(need, by_cost, by_step, unit, slack[need], latest[need])
         return found
 
     def _explore(

@@ -13,10 +13,10 @@ for; *label* - value of the field, team of the last op on it (0 at the start).
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
+from functools import cached_property
 from heapq import heappop, heappush
 from typing import TypeVar
 
-from search.backward import backward
 from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY
@@ -29,8 +29,14 @@ Robot 0 stands for "any robot that did not take part in the last op"."""
 
 Item = TypeVar("Item")
 
+Label = tuple[int, int, int]
+"""A spot wherever the robot is."""
+
+Teams = tuple[tuple[int, tuple[int, ...]], ...]
+"""Teams, and the robots in each by their order among all (0 stands for all of them)."""
+
 Edge = tuple[int, Spot]
-"""Weight, and where it leads (or, backward, where it came from)."""
+"""Weight, and where it leads."""
 
 
 class Places:
@@ -141,6 +147,10 @@ class Provision:
         weights: key increment of a robots' op by the index of its cost.
         flips: ops of the human that may change the field on his way, for nothing.
         clock: asked for time.
+
+    Attributes:
+        cost: least cost from the initial state by need id.
+        unchanged: the initial value of the field, or -1 where some walks mention the field.
     """
 
     def __init__(
@@ -166,58 +176,74 @@ class Provision:
         self._detached: dict[int, list[tuple[int, int]]] = {}
         for i, need in needs:
             self._index(i, need)
-        self._entries: dict[Spot, list[Edge]] = {}
-        self._accepted: dict[int, list[Spot]] = {}
-        self._stopped: set[tuple[int, int, int]] = set()
+        # Spots go by the order in which they were met.
+        self._ids: dict[Spot, int] = {}
+        self._spots: list[Spot] = []
+        self._entries: list[list[tuple[int, int]]] = []
+        self._forward: list[int] = []
+        self._accepted: dict[int, list[int]] = {}
+        self._stopped: dict[Label, list[int]] = {}
         self.cost: dict[int, int] = {}
+        self.unchanged = self._initial & field if self._acts.walks is self._places.walks else -1
 
     def explore(self, pays: Callable[[int], bool]) -> None:
         """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
-        levels: dict[int, list[Spot]] = {0: []}
         value = self._initial & self._field
-        for robot, place in self._places.field.items():
-            levels[0].append((value, 0, robot, self._initial & place))
-        queue = [0]
-        settled: set[Spot] = set()
-        open_exits: dict[tuple[int, int, int], set[int]] = {}
-
-        while queue:
-            self._clock.check()
-            cost = heappop(queue)
-            for spot in levels.pop(cost):
-                if spot in settled:
+        robots = self._places.field.items()
+        queue = _Levels(self._meet((value, 0, robot, self._initial & place)) for robot, place in robots)
+        forward = self._forward
+        open_exits: dict[Label, set[int]] = {}
+        while queue.costs:
+            cost = heappop(queue.costs)
+            for i in queue.at[cost]:
+                if forward[i] >= 0:
                     continue
-                settled.add(spot)
-                self._accept(spot, cost)
-                for weight, after in self._changes(spot) + self._elsewhere(spot, open_exits):
-                    self._entries.setdefault(after, []).append((weight, spot))
-                    if after in settled:
-                        continue
-                    level = levels.get(cost + weight)
-                    if level is None:
-                        level = levels[cost + weight] = []
-                        if pays(cost + weight):
-                            heappush(queue, cost + weight)
-                    level.append(after)
+                forward[i] = cost
+                self._clock.tick()
+                spot = self._spots[i]
+                self._accept(spot, i, cost)
+                value, team, robot, place = spot
+                for weight, after in self._changes(spot):
+                    self._relax(queue, i, cost, weight, after, pays)
+                if not robot:
+                    continue
+                label = value, team, robot
+                exits = open_exits.get(label)
+                if exits is None:
+                    exits = open_exits[label] = self._exits(value, robot)
+                exits.discard(place)
+                exits.discard(-1)
+                goes_on = bool(exits)
+                for there, index in self._acts.from_place(robot, place):
+                    after = (value, team, robot, there)
+                    if goes_on or self.settled(after) >= 0:
+                        self._relax(queue, i, cost, self._weights[index], after, pays)
+                    else:
+                        # Where else the walk may lead is left open (see `distances`).
+                        self._stopped.setdefault(label, []).append(i)
 
-    def _elsewhere(self, spot: Spot, open_exits: dict[tuple[int, int, int], set[int]]) -> list[Edge]:
-        """Edges to other places, as long as not all places have been met where something can happen."""
-        value, team, robot, place = spot
-        if not robot:
-            return []
-        exits = open_exits.get((value, team, robot))
-        if exits is None:
-            exits = open_exits[value, team, robot] = self._exits(value, robot)
-        exits.discard(place)
-        exits.discard(-1)
-        if not exits:
-            self._stopped.add((value, team, robot))
-            return []
-        weights = self._weights
-        return [
-            (weights[index], (value, team, robot, there))
-            for there, index in self._acts.from_place(robot, place)
-        ]
+    def settled(self, spot: Spot) -> int:
+        """The id of a spot that was explored, or -1."""
+        i = self._ids.get(spot, -1)
+        return i if i >= 0 and self._forward[i] >= 0 else -1
+
+    def _meet(self, spot: Spot) -> int:
+        """An id for a new spot."""
+        i = self._ids[spot] = len(self._spots)
+        self._spots.append(spot)
+        self._entries.append([])
+        self._forward.append(-1)
+        return i
+
+    def _relax(
+        self, queue: "_Levels", before: int, cost: int, weight: int, after: Spot, pays: Callable[[int], bool]
+    ) -> None:
+        i = self._ids.get(after)
+        if i is None:
+            i = self._meet(after)
+        self._entries[i].append((weight, before))
+        if self._forward[i] < 0 and pays(cost + weight):
+            queue.push(cost + weight, i)
 
     def _changes(self, spot: Spot) -> list[Edge]:
         """Edges that set the field, or hand over tracking."""
@@ -268,7 +294,7 @@ class Provision:
         """Places in which something can happen to the value (-1: anywhere)."""
         return {*self._acts.by_place(value, robot), *self._at_place.get((value, robot), ())}
 
-    def _accept(self, spot: Spot, cost: int) -> None:
+    def _accept(self, spot: Spot, at: int, cost: int) -> None:
         """Note the needs that are provided at a spot."""
         value, team, robot, place = spot
         found = list(self._anyhow.get(value, ()))
@@ -277,66 +303,168 @@ class Provision:
         else:
             found += [i for i, robots in self._detached.get(value, ()) if not robots & team]
         for i in found:
-            self._accepted.setdefault(i, []).append(spot)
+            self._accepted.setdefault(i, []).append(at)
             self.cost.setdefault(i, cost)
 
-    def distances(self, need: int) -> "Distances":
-        """Backward from a need, over what :meth:`explore` has seen."""
-        sources = [(0, spot) for spot in self._accepted.get(need, ())]
-        found = backward(sources, [self._entries], self._clock)
-        return Distances(self._field, self._places.field, found, self._stopped)
+    def distances(self, need: int, slack: int) -> "Distances":
+        """Backward from a need, over what :meth:`explore` has seen.
+
+        Args:
+            need: its id.
+            slack: if robots pay as much or more from the initial state on, it is too dear.
+        """
+        queue = _Levels(self._accepted.get(need, ()))
+        at = queue.at
+        found: dict[int, int] = {}
+        elsewhere: dict[Label, int] = {}
+        forward, spots, entries, stopped = self._forward, self._spots, self._entries, self._stopped
+        while queue.costs:
+            cost = heappop(queue.costs)
+            latest = slack - cost
+            for i in at[cost]:
+                if i in found or forward[i] >= latest:
+                    continue
+                found[i] = cost
+                self._clock.tick()
+                label = spots[i][:3]
+                if label in stopped and label not in elsewhere:
+                    # From where it stopped walking it may be in reach for nothing.
+                    elsewhere[label] = cost
+                    at[cost] += stopped[label]
+                for weight, before in entries[i]:
+                    if before not in found:
+                        if (level := at.get(cost + weight)) is not None:
+                            level.append(before)
+                        else:
+                            queue.push(cost + weight, before)
+        return Distances(self, self._field, self._places.field, found, elsewhere)
+
+    def teams(self, value: int) -> Teams:
+        """The teams that may have been the last to act on the field, by its value.
+
+        Where the field is as it was initially, what a robot can do next does not depend on
+        whether others have changed it meanwhile.
+        """
+        if value == self.unchanged:
+            return ((0, tuple(range(len(self._places.field)))),)
+        return self._changed.get(value, ())
+
+    @cached_property
+    def _changed(self) -> dict[int, Teams]:
+        found: dict[int, set[int]] = {}
+        for (value, team, _, _), cost in zip(self._spots, self._forward, strict=True):
+            if cost >= 0:
+                found.setdefault(value, set()).add(team)
+        robots = list(enumerate(self._places.field))
+        return {
+            value: tuple(
+                (team, tuple(j for j, robot in robots if not team or team & robot)) for team in teams
+            )
+            for value, teams in found.items()
+        }
 
 
 class Distances:
-    """Least robots' weight from a packed state to provide one need; 0 where it is not known.
+    """Least robots' weight from a packed state to provide one need.
 
     What :meth:`Provision.explore` has not reached is too dear for a state in which robots
     have paid for getting there.  Where it stopped walking, since all that can happen to the
     field is within reach, the least of what it knows stands for the rest.
+
+    Args:
+        provision: what was explored.
+        field: the outside field.
+        places: place field by robot's bit.
+        found: distance by spot.
+        elsewhere: the least one by label, where walking stopped.
     """
 
     def __init__(
         self,
+        provision: Provision,
         field: int,
         places: dict[int, int],
-        found: dict[Spot, int],
-        stopped: set[tuple[int, int, int]],
+        found: dict[int, int],
+        elsewhere: dict[Label, int],
     ) -> None:
+        self._provision = provision
         self._field = field
-        self._tables = [(field | place, dict[int, int]()) for place in places.values()]
-        self._fallback: dict[tuple[int, int], int] = {}
-        table_of = dict(zip(places, self._tables, strict=True))
-        open_ended: set[tuple[int, int]] = set()
-        for (value, team, robot, place), weight in found.items():
-            if not robot:
-                continue
-            mask, table = table_of[robot]
-            spot = value | place
-            table[spot] = min(weight, table.get(spot, weight))
-            if (value, team, robot) in stopped:
-                known = self._fallback.get((mask, value), weight)
-                self._fallback[mask, value] = min(weight, known)
-            else:
-                open_ended.add((mask, value))
-        for label in open_ended:
-            self._fallback.pop(label, None)
+        self._found = found
+        self._elsewhere = elsewhere
+        self._robots = [
+            (robot, place, field | place, dict[int, tuple[int, ...]](), dict[int, int]())
+            for robot, place in places.items()
+        ]
 
     def __call__(self, state: int) -> int:
         """The bound from a packed state."""
         best = INFINITE_KEY
-        for mask, table in self._tables:
-            weight = table.get(state & mask)
-            if weight is None:
-                weight = self._fallback.get((mask, state & self._field), 0)
-            if weight < best:
-                best = weight
+        value = state & self._field
+        if len(self._robots) == 1 or value == self._provision.unchanged:
+            for robot, place, mask, _, least in self._robots:
+                weight = least.get(state & mask)
+                if weight is None:
+                    row = self._row(value, robot, state & place)
+                    weight = least[state & mask] = min(row, default=INFINITE_KEY)
+                if weight < best:
+                    best = weight
+            return best
+        rows = self._rows(state)
+        for i, (team, members) in enumerate(self._provision.teams(value)):
+            # Each robot of the team may be tracked; where there is none, one of all acts next.
+            weights = [rows[j][i] for j in members]
+            best = min(best, max(weights) if team else min(weights))
         return best
 
     def each(self, state: int) -> Iterator[int]:
         """The same for each robot, if it is the first to act; in the order of ``task.robots``."""
-        for mask, table in self._tables:
-            weight = table.get(state & mask)
-            yield self._fallback.get((mask, state & self._field), 0) if weight is None else weight
+        for row in self._rows(state):
+            yield min(row, default=INFINITE_KEY)
+
+    def _rows(self, state: int) -> list[tuple[int, ...]]:
+        """By robot, the bounds if it is the first to act, after each team that may have acted."""
+        value = state & self._field
+        rows = []
+        for robot, place, mask, known, _ in self._robots:
+            row = known.get(state & mask)
+            if row is None:
+                row = known[state & mask] = self._row(value, robot, state & place)
+            rows.append(row)
+        return rows
+
+    def _row(self, value: int, robot: int, place: int) -> tuple[int, ...]:
+        teams = self._provision.teams(value)
+        return tuple(self._after(value, team, robot, place) for team, _ in teams)
+
+    def _after(self, value: int, team: int, robot: int, place: int) -> int:
+        if team and not team & robot:
+            return self._found.get(self._provision.settled((value, team, 0, 0)), INFINITE_KEY)
+        spot = self._provision.settled((value, team, robot, place))
+        if spot >= 0:
+            return self._found.get(spot, INFINITE_KEY)
+        return self._elsewhere.get((value, team, robot), INFINITE_KEY)
+
+
+class _Levels:
+    """A queue for Dijkstra's algorithm where few costs differ.
+
+    Attributes:
+        costs: a heap of the costs.
+        at: ids by cost; a level may grow while it is gone through.
+    """
+
+    def __init__(self, sources: Iterable[int]) -> None:
+        self.costs = [0]
+        self.at = {0: list(sources)}
+
+    def push(self, cost: int, i: int) -> None:
+        """Add an id."""
+        level = self.at.get(cost)
+        if level is None:
+            self.at[cost] = [i]
+            heappush(self.costs, cost)
+        else:
+            level.append(i)
 
 
 def _with_anything(by_value: dict[int, list[Item]], value: int) -> list[Item]:

@@ -135,7 +135,8 @@ def bounds_along(
             at = [(base, state & tables.touches.mask) for base, state in sources[first:end]]
             openings.refine(i, first, [base + rest.get(place, INFINITE_KEY) for base, place in at])
     paying = [i for i in paying if openings.total(i, costs[i], providers.epochs(costs[i])) < limit]
-    provided = providers.provided(paying, horizon)
+    slack = {i: limit - least[i] for i in paying}
+    provided = providers.provided(paying, horizon, slack, openings.latest)
     off_plan = [
         (providers.touched(i), provided[i], openings.total(i, costs[i], providers.epochs(costs[i])))
         for i in paying
@@ -173,7 +174,9 @@ def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) 
         costs = providers.costs(sorted(least), pays)
         paying = survivors(costs, limit, total)
         if paying is not None:
-            provided = providers.provided(paying, last)
+            slack = {need: limit - least[need] for need in paying}
+            latest = {need: last - 1 - ways.steps_after[need] for need in paying}
+            provided = providers.provided(paying, last, slack, latest)
             needs = [(need, provided[need], total(need, costs[need])) for need in paying]
             untouched = Helped(tables.bound, ways, needs, last)
     return Bounds(tables.bound, tables.steps, untouched, tables.touches)

@@ -1,0 +1,111 @@
+"""Before the human's first touch, no way on is cheaper than the bound that asks who helps."""
+
+from heapq import heappop, heappush
+
+import pytest
+from hypothesis import given
+
+from search.clock import Clock
+from search.keys import INFINITE_KEY
+from search.tables import Tables
+from search.windows import free_bounds
+from serendipity.model import Options, Task
+from tests.builders import usar
+from tests.strategies import strips_tasks, tasks
+
+_DISCOUNTED = Options(mode="composite", discount="0.9", horizon="inf")  # type: ignore[arg-type]
+
+
+def relays() -> list[Task]:
+    """Buildings in which robots may pass a kit on to each other."""
+    chain, ring = "a-b b-c c-d d-e", "a-b b-c c-d d-a"
+    return [
+        usar(chain, human="e", robots={"rob": "b", "bot": "d"}, kits={"k": "a"}, triage="e"),
+        usar(ring, human="c", robots={"rob": "a", "bot": "a"}, kits={"k": "@rob"}, triage="d"),
+    ]
+
+
+class Graph:
+    """States that one action after another leads to, and the exact keys to and from them."""
+
+    def __init__(self, tables: Tables) -> None:
+        successors = tables.successors()
+        first = tables.encoding.init
+        self.edges: dict[int, list[tuple[int, int, bool]]] = {}
+        pending, seen = [first], {first}
+        while pending:
+            state = pending.pop()
+            self.edges[state] = []
+            for option in (*successors.human(state), *successors.joint(state), *successors.robots(state)):
+                if option.actions:
+                    after = state & option.keep | option.put
+                    his = bool(option.agents & tables.encoding.human_bit)
+                    touch = his and tables.touches.is_touch(option.actions[0])
+                    self.edges[state].append((option.weight, after, touch))
+                    if after not in seen:
+                        seen.add(after)
+                        pending.append(after)
+        moves = {at: [(w, to) for w, to, touch in out if not touch] for at, out in self.edges.items()}
+        self.spent = _distances({first}, moves)
+        before: dict[int, list[tuple[int, int]]] = {at: [] for at in self.edges}
+        for at, out in self.edges.items():
+            for weight, to, _ in out:
+                before[to].append((weight, at))
+        goals = {at for at in self.edges if all(goal.holds(at) for goal in tables.goals)}
+        self.rest = _distances(goals, before)
+
+
+def _distances(sources: set[int], edges: dict[int, list[tuple[int, int]]]) -> dict[int, int]:
+    queue, found = [(0, at) for at in sources], dict[int, int]()
+    while queue:
+        key, at = heappop(queue)
+        if at not in found:
+            found[at] = key
+            for weight, to in edges[at]:
+                heappush(queue, (key + weight, to))
+    return found
+
+
+def assert_admissible(task: Task, options: Options, over: int | None) -> int:
+    """How many states the bound tells something about."""
+    tables = Tables(task, options, Clock())
+    graph = Graph(tables)
+    best = graph.rest.get(tables.encoding.init, INFINITE_KEY)
+    limit = INFINITE_KEY if over is None else best + tables.keys.of_action(tables.encoding.costs[-1]) * over
+    bounds = free_bounds(tables, None, limit, idle=False)
+    told = 0
+    for state, spent in graph.spent.items():
+        rest = graph.rest.get(state, INFINITE_KEY)
+        bound = bounds.untouched(0, state, spent)
+        assert bound <= rest or spent + rest >= limit
+        told += bounds.private(state) < bound < INFINITE_KEY
+    return told
+
+
+@pytest.mark.parametrize("over", [None, 0, 2])
+@pytest.mark.parametrize("number", [0, 1])
+def test_bound_holds_where_kits_are_passed_on(number: int, over: int | None) -> None:
+    assert assert_admissible(relays()[number], _DISCOUNTED, over) >= (10 if over is None else 0)
+
+
+@pytest.mark.parametrize("discount", ["0", "0.9", "1"])
+def test_bound_holds_on_random_tasks(discount: str) -> None:
+    @given(tasks() | strips_tasks())
+    def law(task: Task) -> None:
+        options = _DISCOUNTED.but(discount=discount)
+        for over in (None, 1):
+            assert_admissible(task, options, over)
+
+    law()
+
+
+def test_a_robot_that_holds_nothing_does_not_make_help_free() -> None:
+    task = relays()[0]
+    tables = Tables(task, _DISCOUNTED, Clock())
+    ids = {fact: i for i, fact in enumerate(task.facts)}
+    left, holds = {ids["at k a"], ids["at rob b"]}, {ids["has rob k"], ids["has_medkit rob"], ids["at rob a"]}
+    state = tables.encoding.pack(task.init - left | holds)
+    bounds = free_bounds(tables, None, INFINITE_KEY, idle=False)
+    # From a, where rob has got the kit, to the human in e.
+    walk = 4 * tables.weights.robots[0]
+    assert bounds.untouched(0, state, 0) == bounds.private(state) + walk
