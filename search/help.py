@@ -21,7 +21,7 @@ from search.successors import Idle
 from search.touches import Touches
 from search.ways import NEVER, Ways
 
-_MOST_TOUCHES = 1024
+_MOST_TOUCHES = 4096
 """More surviving needs than this make the bound dearer than what it saves."""
 
 

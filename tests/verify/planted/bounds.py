@@ -45,7 +45,7 @@ def _cheapest_need(original: Any, *arguments: Any) -> list[int] | None:
     return paying[:1] if paying else paying
 
 
-def _unknown_is_never(original: Any, self: Distances, state: int) -> int:
+def _provided_is_never(original: Any, self: Distances, state: int) -> int:
     known = original(self, state)
     return known or INFINITE_KEY
 
@@ -90,6 +90,11 @@ def _dear(original: Any, self: Providers, *arguments: Any) -> dict[int, Provided
     return found
 
 
+def _too_dear_soon(original: Any, self: Provision, need: int, slack: int) -> Distances:
+    found: Distances = original(self, need, slack // 2)
+    return found
+
+
 _SLOWER = "a weaker bound is still a bound: the search only takes longer"
 
 BUGS = (
@@ -122,12 +127,17 @@ BUGS = (
     Bug("windows: _reach", "a window has no time for robots", replaced(windows, "_reach", always(0))),
     Bug(
         "provision: Distances",
-        "what is not known is out of reach",
-        wrapped(Distances, "__call__", _unknown_is_never),
+        "what is provided already is out of reach",
+        wrapped(Distances, "__call__", _provided_is_never),
     ),
     Bug("provision: tracking", "is never handed over", wrapped(Provision, "_changes", _without_handing_over)),
     Bug(
         "provision: flips", "pi_H changes no field on the way", wrapped(Provision, "__init__", _never_flipped)
+    ),
+    Bug(
+        "provision: distances",
+        "half of what robots may pay is too much",
+        wrapped(Provision, "distances", _too_dear_soon),
     ),
     Bug("provision: walks", "robots can't walk", wrapped(Acts, "__init__", _slow_walks)),
 )
