@@ -183,6 +183,7 @@ class Provision:
         self._forward: list[int] = []
         self._accepted: dict[int, list[int]] = {}
         self._stopped: dict[Label, list[int]] = {}
+        self._too_dear = INFINITE_KEY
         self.cost: dict[int, int] = {}
         self.unchanged = self._initial & field if self._acts.walks is self._places.walks else -1
 
@@ -242,8 +243,11 @@ class Provision:
         if i is None:
             i = self._meet(after)
         self._entries[i].append((weight, before))
-        if self._forward[i] < 0 and pays(cost + weight):
-            queue.push(cost + weight, i)
+        if self._forward[i] < 0 and cost + weight < self._too_dear:
+            if pays(cost + weight):
+                queue.push(cost + weight, i)
+            else:
+                self._too_dear = cost + weight  # nor does what costs more
 
     def _changes(self, spot: Spot) -> list[Edge]:
         """Edges that set the field, or hand over tracking."""
