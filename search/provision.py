@@ -11,11 +11,11 @@ Glossary: *place* - the value of the field that most of a robot's own ops ask
 for; *label* - value of the field, team of the last op on it (0 at the start).
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from functools import cached_property
 from heapq import heappop, heappush
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from search.clock import Clock
 from search.encoding import Encoding
@@ -368,6 +368,15 @@ class Provision:
         }
 
 
+class _Robot(NamedTuple):
+    """A robot's part of :class:`Distances`: its bit, its place, the fields it depends on, what is known."""
+
+    bit: int
+    place: int
+    mask: int
+    known: dict[int, tuple[tuple[int, ...], int]]
+
+
 class Distances:
     """Least robots' weight from a packed state to provide one need.
 
@@ -395,50 +404,39 @@ class Distances:
         self._field = field
         self._found = found
         self._elsewhere = elsewhere
-        self._robots = [
-            (robot, place, field | place, dict[int, tuple[int, ...]](), dict[int, int]())
-            for robot, place in places.items()
-        ]
+        self._robots = [_Robot(robot, place, field | place, {}) for robot, place in places.items()]
 
     def __call__(self, state: int) -> int:
         """The bound from a packed state."""
-        best = INFINITE_KEY
         value = state & self._field
         if len(self._robots) == 1 or value == self._provision.unchanged:
-            for robot, place, mask, _, least in self._robots:
-                weight = least.get(state & mask)
-                if weight is None:
-                    row = self._row(value, robot, state & place)
-                    weight = least[state & mask] = min(row, default=INFINITE_KEY)
-                if weight < best:
-                    best = weight
+            best = INFINITE_KEY
+            for robot in self._robots:
+                _, least = self._at(robot, state)
+                if least < best:
+                    best = least
             return best
-        rows = self._rows(state)
+        best, rows = INFINITE_KEY, [self._at(robot, state)[0] for robot in self._robots]
         for i, (team, members) in enumerate(self._provision.teams(value)):
             # Each robot of the team may be tracked; where there is none, one of all acts next.
             weights = [rows[j][i] for j in members]
             best = min(best, max(weights) if team else min(weights))
         return best
 
-    def each(self, state: int) -> Iterator[int]:
+    def each(self, state: int) -> list[int]:
         """The same for each robot, if it is the first to act; in the order of ``task.robots``."""
-        for row in self._rows(state):
-            yield min(row, default=INFINITE_KEY)
+        return [self._at(robot, state)[1] for robot in self._robots]
 
-    def _rows(self, state: int) -> list[tuple[int, ...]]:
-        """By robot, the bounds if it is the first to act, after each team that may have acted."""
-        value = state & self._field
-        rows = []
-        for robot, place, mask, known, _ in self._robots:
-            row = known.get(state & mask)
-            if row is None:
-                row = known[state & mask] = self._row(value, robot, state & place)
-            rows.append(row)
-        return rows
+    def _at(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
+        """The bounds if a robot is the first to act, after each team that may have acted; the least."""
+        return robot.known.get(state & robot.mask) or self._look(robot, state)
 
-    def _row(self, value: int, robot: int, place: int) -> tuple[int, ...]:
+    def _look(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
+        value, place = state & self._field, state & robot.place
         teams = self._provision.teams(value)
-        return tuple(self._after(value, team, robot, place) for team, _ in teams)
+        row = tuple([self._after(value, team, robot.bit, place) for team, _ in teams])
+        found = robot.known[state & robot.mask] = row, min(row, default=INFINITE_KEY)
+        return found
 
     def _after(self, value: int, team: int, robot: int, place: int) -> int:
         if team and not team & robot:
