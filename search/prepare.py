@@ -5,6 +5,7 @@ from math import prod
 from search.clock import Clock
 from search.encoding import Encoding, encoding
 from search.projection import own_projection, private_fields
+from search.providers import shared_fields
 from search.provision import AllActs
 from serendipity.model.task import Task
 
@@ -12,9 +13,9 @@ from serendipity.model.task import Task
 def prepare(task: Task, *, afresh: bool = False) -> None:
     """Pack a task, and find what every call needs of it and what takes time linear in the files.
 
-    That is what robots' actions mention, and the human's private distances, unless his private
-    states may be more than the task has actions.  The first planning call finds it otherwise,
-    within its time limit.
+    That is what robots' actions do to what they share with the human, and the human's private
+    distances, unless his private states may be more than the task has actions.  The first
+    planning call finds it otherwise, within its time limit.
 
     Args:
         task: the task.
@@ -24,7 +25,9 @@ def prepare(task: Task, *, afresh: bool = False) -> None:
         task.forget_derived()
     clock = Clock()
     packed = encoding(task, clock)
-    packed.derived(AllActs, clock)
+    acts = packed.derived(AllActs, clock)
+    for field in shared_fields(packed, clock):
+        acts.on(field)
     if _most_states(packed) <= len(task.actions):
         packed.derived(own_projection, clock)
 

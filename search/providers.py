@@ -94,7 +94,7 @@ class Providers:
             for field in encoding.fields:
                 if field & ~op.keep:
                     self._changes.setdefault(field, epoch)
-        self._shared = _shared_fields(encoding, touches, clock)
+        self._shared = shared_fields(encoding, clock)
         used = {weights[form.cost] for form in encoding.other_forms}
         self._uniform = len(used) <= 1
         self._unit = max(used, default=1)
@@ -190,8 +190,8 @@ class Providers:
         return field
 
 
-def _shared_fields(encoding: Encoding, touches: Touches, clock: Clock) -> list[int]:
+def shared_fields(encoding: Encoding, clock: Clock) -> list[int]:
     """Outside fields that are no robot's place, the largest first."""
     places = set(encoding.derived(Places, clock).field.values())
-    outside = [f for f in encoding.fields if f & touches.outside and f not in places]
+    outside = [f for f in encoding.fields if f & encoding.outside and f not in places]
     return sorted(outside, key=lambda f: (-len(encoding.values(f)), f))

@@ -48,7 +48,8 @@ class Touches:
     def __init__(self, encoding: Encoding, clock: Clock) -> None:
         self.mask = encoding.derived(human_graph, clock).mask
         self.needs: list[Need] = []
-        self._ids: dict[Need, int] = {}
+        self._ids: dict[tuple[int, int], int] = {}
+        self._kinds: dict[tuple[int, int, int, object], tuple[int, int, bool]] = {}
         self._encoding = encoding
         self.outside = encoding.outside
         self._indices = [encoding.own_index, encoding.joint_index]
@@ -88,11 +89,18 @@ class Touches:
         return [self._project(op) for op in (*ops, *index.always)]
 
     def _project(self, op: Op) -> Seen:
-        mask = self.mask
-        touch = -1
-        if op.agents != self._encoding.human_bit or self._encoding.mentioned(op) & self.outside:
-            need = Need(op.need_mask & self.outside, op.need & self.outside)
-            touch = self._ids.setdefault(need, len(self.needs))
-            if touch == len(self.needs):
-                self.needs.append(need)
-        return Seen(op.need_mask & mask, op.need & mask, op.keep, op.put & mask, op.cost, touch)
+        form = op.need_mask, op.keep, op.agents, op.forbidden
+        kind = self._kinds.get(form)
+        if kind is None:
+            touch = op.agents != self._encoding.human_bit or bool(self._encoding.mentioned(op) & self.outside)
+            kind = self._kinds[form] = op.need_mask & self.mask, op.need_mask & self.outside, touch
+        need_mask, asked, touch = kind
+        mask, number = self.mask, -1
+        if touch:
+            need = asked, op.need & self.outside
+            known = self._ids.get(need)
+            if known is None:
+                known = self._ids[need] = len(self.needs)
+                self.needs.append(Need(*need))
+            number = known
+        return Seen(need_mask, op.need & mask, op.keep, op.put & mask, op.cost, number)
