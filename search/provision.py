@@ -184,6 +184,7 @@ class Provision:
         self._accepted: dict[int, list[int]] = {}
         self._stopped: dict[Label, list[int]] = {}
         self._too_dear = INFINITE_KEY
+        self._steps: dict[Label, int] = {}
         self.cost: dict[int, int] = {}
         self.unchanged = self._initial & field if self._acts.walks is self._places.walks else -1
 
@@ -222,6 +223,8 @@ class Provision:
                     else:
                         # Where else the walk may lead is left open (see `distances`).
                         self._stopped.setdefault(label, []).append(i)
+                        if label not in self._steps:
+                            self._steps[label] = self._least_step(label)
 
     def settled(self, spot: Spot) -> int:
         """The id of a spot that was explored, or -1."""
@@ -298,6 +301,14 @@ class Provision:
         """Places in which something can happen to the value (-1: anywhere)."""
         return {*self._acts.by_place(value, robot), *self._at_place.get((value, robot), ())}
 
+    def _least_step(self, label: Label) -> int:
+        """The least that a robot pays from where no exit is; 0 where it need not walk to go on."""
+        value, team, robot = label
+        if team or _with_anything(self._flips, value) or -1 in self._exits(value, robot):
+            return 0
+        walks = self._acts.walks[robot].values()
+        return min((self._weights[index] for ways in walks for _, index in ways), default=0)
+
     def _accept(self, spot: Spot, at: int, cost: int) -> None:
         """Note the needs that are provided at a spot."""
         value, team, robot, place = spot
@@ -332,9 +343,11 @@ class Provision:
                 self._clock.tick()
                 label = spots[i][:3]
                 if label in stopped and label not in elsewhere:
-                    # From where it stopped walking it may be in reach for nothing.
-                    elsewhere[label] = cost
-                    at[cost] += stopped[label]
+                    # From beyond where it stopped walking this is in reach, at the least.
+                    step = 0 if need in self._anyhow.get(label[0], ()) else self._steps[label]
+                    elsewhere[label] = cost + step
+                    for before in stopped[label]:
+                        queue.push(cost + 2 * step, before)
                 for weight, before in entries[i]:
                     if before not in found:
                         if (level := at.get(cost + weight)) is not None:
@@ -401,6 +414,8 @@ class Distances:
         elsewhere: dict[Label, int],
     ) -> None:
         self._provision = provision
+        self._alone = len(places) == 1
+        self._unchanged = provision.unchanged
         self._field = field
         self._found = found
         self._elsewhere = elsewhere
@@ -409,7 +424,7 @@ class Distances:
     def __call__(self, state: int) -> int:
         """The bound from a packed state."""
         value = state & self._field
-        if len(self._robots) == 1 or value == self._provision.unchanged:
+        if self._alone or value == self._unchanged:
             best = INFINITE_KEY
             for robot in self._robots:
                 _, least = self._at(robot, state)
