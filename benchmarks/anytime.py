@@ -35,14 +35,14 @@ DEADLINES = (5.0, 0.5, 0.05)
 SHARE, EXTRA = 0.1, 0.005
 """What may be added to a deadline: of it, and seconds."""
 
-CLASSES: dict[str, tuple[int, dict[str, Any]]] = {
-    "communication": (420, {"mode": "communication"}),
-    "K = 0": (420, {"window_weight": 0}),
-    "composite without horizon": (420, {"mode": "composite", "horizon": "inf"}),
-    "composite without horizon, 840 rooms": (840, {"mode": "composite", "horizon": "inf"}),
-    "local human": (420, {"human_model": "local"}),
+CLASSES: dict[str, tuple[int, int, dict[str, Any]]] = {
+    "communication behind his prefix": (420, 3, {"mode": "communication", "keep_prefix": True}),
+    "K = 0": (840, 3, {"window_weight": 0}),
+    "communication, 5 robots": (840, 5, {"mode": "communication"}),
+    "local human": (420, 3, {"human_model": "local"}),
+    "observant human": (420, 3, {"human_model": "observant"}),
 }
-"""Rooms, and what is asked; 2 medkits, 3 robots, discount 0.9."""
+"""Rooms, robots, and what is asked; 2 medkits, discount 0.9."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,7 @@ def main() -> None:
 def _load_modules() -> None:
     """Modules load when they are first used; that is no part of a call in a control loop."""
     task = serendipity.example("room2")
-    for _, options in CLASSES.values():
+    for *_, options in CLASSES.values():
         serendipity.plan(task, discount="0.9", **options)
 
 
@@ -108,10 +108,10 @@ def _candidates(seeds: int) -> Iterator[tuple[str, int]]:
 
 
 def _calls(kind: str, seed: int) -> Iterator[Row]:
-    rooms, options = CLASSES[kind]
+    rooms, robots, options = CLASSES[kind]
     with tempfile.TemporaryDirectory() as folder:
         edges = rooms // 20 if seed % 2 else 0
-        serendipity.generate_usar(folder, rooms=rooms, medkits=2, robots=3, seed=seed, extra_edges=edges)
+        serendipity.generate_usar(folder, rooms=rooms, medkits=2, robots=robots, seed=seed, extra_edges=edges)
         task = serendipity.load(folder)
     for deadline in DEADLINES:
         for loaded in (True, False):
