@@ -5,10 +5,9 @@
 Tasks come from the classes below in turn, seed by seed.  One is taken in if its call with 5 s
 ends without a proof; how many were looked at for that is told.  Every call is the first on a
 task: as ``serendipity.load`` gives it (``loaded``), and with nothing packed (``bare``), which
-the call then has to do in its time.  All modules are loaded before, and what is in memory is kept from
-the garbage collector (``gc.freeze``).  A deadline is *kept* if the call returns within 110 %
-of it and 5 ms, by the clock; what the process itself had spent by then is told beside it,
-since on a busy machine the clock also counts what others do.  The gap is
+the call then has to do in its time.  All modules are loaded before.  A deadline is *kept* if
+the call returns within 110 % of it and 5 ms, by the clock; what the process itself had spent by
+then is told beside it, since on a busy machine the clock also counts what others do.  The gap is
 ``(objective - lower_bound) / objective`` of the answer.  With ``--csv`` rows are appended, and
 a later run with the same file goes on where the first one stopped.
 """
@@ -136,11 +135,9 @@ def _proves(row: Row) -> bool:
 
 def _call(task: Task, options: dict[str, Any], row: Row) -> Row:
     gc.collect()
-    gc.freeze()  # as docs/howto/control-loop.md says: a collection takes 0.2 s on tasks of this size
     start, spent = time.perf_counter(), time.process_time()
     result = serendipity.plan(task, discount="0.9", time_limit=row.deadline, **options)
     seconds, processor = time.perf_counter() - start, time.process_time() - spent
-    gc.unfreeze()
     return replace(
         row,
         status=result.status,

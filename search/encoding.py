@@ -86,6 +86,7 @@ class Encoding:
         self._values: dict[int, list[int]] = {0: [0]}
         shift = 0
         for variable in task.variables:
+            clock.tick()
             if not any(f in relevant for f in variable.facts):
                 continue
             width = 1 if variable.boolean else max(1, (len(variable.facts) - 1).bit_length())

@@ -170,6 +170,7 @@ class Providers:
         for (field, late), members in groups.items():
             listed = [(i, self._touches.needs[self.touched(i)]) for i in members]
             flips = self._followed if late else ()
+            self._clock.check()
             provision = Provision(self._encoding, field, listed, weights, flips, self._clock)
             provision.explore(pays)
             provisions[field, late] = provision
@@ -185,6 +186,7 @@ class Providers:
         """The first shared field that the need asks for; 0: only places matter."""
         field = self._judges.get(need)
         if field is None:
+            self._clock.tick()
             mask = self._touches.needs[need].mask
             field = self._judges[need] = next((f for f in self._shared if mask & f), 0)
         return field

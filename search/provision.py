@@ -175,6 +175,7 @@ class Provision:
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
         for i, need in needs:
+            clock.tick()
             self._index(i, need)
         # Spots go by the order in which they were met.
         self._ids: dict[Spot, int] = {}

@@ -99,7 +99,7 @@ class Ways:
             if at in seen:
                 continue
             seen.add(at)
-            self._clock.tick()
+            self._clock.check()  # touches of one state may be hundreds
             rest = bound.get(at, INFINITE_KEY)
             if spent + rest >= limit:
                 continue

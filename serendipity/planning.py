@@ -25,6 +25,9 @@ from serendipity.ties import combined, until_settled
 if TYPE_CHECKING:
     from serendipity.goals import GoalsGiven, ObservedGiven
 
+_ANSWER_SHARE: Final = 0.05
+"""What of the time limit is kept for the end: dropping what the search has made takes time, too."""
+
 _VERDICT_SHARE: Final = 0.02
 """What the verdict on humans who replan may add to the time limit: a share of it."""
 
@@ -132,7 +135,8 @@ def _answers(
     chosen = options_from(options)
     if visible is not None and chosen.human_model != "local":
         raise UsageError(f"visible: is for human_model 'local' only, not for '{chosen.human_model}'")
-    clock = Clock(chosen.time_limit, cancelled)
+    limit = chosen.time_limit
+    clock = Clock(None if limit is None else (1 - _ANSWER_SHARE) * limit, cancelled)
     given = None if human_plan is None else task.plan_from_names(human_plan)
     if chosen.mode == "assistance":
         if given is not None:

@@ -5,6 +5,7 @@ import gc
 import pytest
 
 import serendipity
+from serendipity.model.collection import no_collection
 
 
 @pytest.fixture
@@ -33,3 +34,26 @@ def test_between_answers_it_is_on(asked, seen):
     assert seen
     assert not any(seen)
     assert all(between)
+
+
+def test_what_stays_is_not_looked_at_at_the_end():
+    started = []
+    gc.collect()
+    gc.callbacks.append(lambda phase, info: started.append(info["generation"]))
+    try:
+        with no_collection():
+            kept = [[] for _ in range(10_000)]
+        kept.append([])
+    finally:
+        gc.callbacks.pop()
+    assert not started
+
+
+def test_what_the_caller_has_frozen_stays_so():
+    gc.freeze()
+    try:
+        with no_collection():
+            pass
+        assert gc.get_freeze_count()
+    finally:
+        gc.unfreeze()

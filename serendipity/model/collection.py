@@ -9,7 +9,8 @@ from contextlib import contextmanager
 def no_collection() -> Iterator[None]:
     """No garbage collection: for code that makes many objects and no cycles.
 
-    The collector would look through all of them again and again, and find nothing.
+    The collector would look through all of them again and again, and find nothing; nor does
+    it look at them once more at the end, where they join those that have been there for long.
     """
     enabled = gc.isenabled()
     gc.disable()
@@ -17,4 +18,7 @@ def no_collection() -> Iterator[None]:
         yield
     finally:
         if enabled:
+            if not gc.get_freeze_count():  # else it would thaw what the caller has frozen
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()
