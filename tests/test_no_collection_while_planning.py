@@ -42,7 +42,7 @@ def test_what_stays_is_not_looked_at_at_the_end():
     gc.callbacks.append(lambda *event: started.append(event))
     try:
         with no_collection():
-            kept = [[] for _ in range(10_000)]
+            kept = [[] for _ in range(100_000)]
         kept.append([])
     finally:
         gc.callbacks.pop()

@@ -3,6 +3,10 @@
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Final
+
+_MANY: Final = 20_000
+"""Objects that the collector looks through in about a millisecond."""
 
 
 @contextmanager
@@ -10,7 +14,7 @@ def no_collection() -> Iterator[None]:
     """No garbage collection: for code that makes many objects and no cycles.
 
     The collector would look through all of them again and again, and find nothing; nor does
-    it look at them once more at the end, where they join those that have been there for long.
+    it look at them once more at the end: if they are many, they join those that have been there for long.
     """
     enabled = gc.isenabled()
     gc.disable()
@@ -18,7 +22,8 @@ def no_collection() -> Iterator[None]:
         yield
     finally:
         if enabled:
-            if not gc.get_freeze_count():  # else it would thaw what the caller has frozen
+            # Not where a caller has frozen something, which would thaw.
+            if gc.get_count()[0] > _MANY and not gc.get_freeze_count():
                 gc.freeze()
                 gc.unfreeze()
             gc.enable()
