@@ -8,6 +8,7 @@ from typing import Final
 from search import Clock, solve
 from serendipity.benchmark import fast_downward
 from serendipity.benchmark.answer import Answer
+from serendipity.model.collection import no_collection
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.task import Task
 
@@ -34,9 +35,10 @@ class Contender:
 
 def _search(task: Task, options: Options) -> Answer:
     """Every table that the task does not have yet is built inside the time."""
-    start = time.process_time()
-    *_, outcome = solve(task, options, clock=Clock(options.time_limit))
-    seconds = time.process_time() - start
+    with no_collection():  # as `plan` does
+        start = time.process_time()
+        *_, outcome = solve(task, options, clock=Clock(options.time_limit))
+        seconds = time.process_time() - start
     return Answer(seconds, outcome.status, None if outcome.cost is None else float(outcome.cost))
 
 
@@ -44,9 +46,11 @@ def _program(encoding: str) -> Callable[[Task, Options], Answer]:
     def answer(task: Task, options: Options) -> Answer:
         from verify.solve import solve as by_program  # loads a solver
 
-        start = time.process_time()
-        result = by_program(task, options, encoding=encoding)
-        return Answer(time.process_time() - start, result.status, result.cost)
+        with no_collection():
+            start = time.process_time()
+            result = by_program(task, options, encoding=encoding)
+            seconds = time.process_time() - start
+        return Answer(seconds, result.status, result.cost)
 
     return answer
 
