@@ -32,8 +32,9 @@ Item = TypeVar("Item")
 Label = tuple[int, int, int]
 """A spot wherever the robot is."""
 
-Teams = tuple[tuple[int, tuple[int, ...]], ...]
-"""Teams, and the robots in each by their order among all (0 stands for all of them)."""
+Teams = tuple[tuple[int, tuple[int, ...], bool], ...]
+"""Teams, robots that may be tracked after them by their order among all, and whether any one of
+those will do (team 0 stands for no team)."""
 
 Edge = tuple[int, Spot]
 """Weight, and where it leads."""
@@ -364,7 +365,7 @@ class Provision:
         whether others have changed it meanwhile.
         """
         if value == self.unchanged:
-            return ((0, tuple(range(len(self._places.field)))),)
+            return ((0, tuple(range(len(self._places.field))), False),)
         return self._changed.get(value, ())
 
     @cached_property
@@ -373,13 +374,24 @@ class Provision:
         for (value, team, _, _), cost in zip(self._spots, self._forward, strict=True):
             if cost >= 0:
                 found.setdefault(value, set()).add(team)
+        return {value: tuple(self._team(value, team) for team in teams) for value, teams in found.items()}
+
+    def _team(self, value: int, team: int) -> tuple[int, tuple[int, ...], bool]:
+        """An entry of :data:`Teams`.
+
+        What happens next without the whole team is known by any robot.  If every other thing
+        that can happen has the same robot of the team in it, then it is enough to track that
+        one, and what it needs is a bound by itself.
+        """
         robots = list(enumerate(self._places.field))
-        return {
-            value: tuple(
-                (team, tuple(j for j, robot in robots if not team or team & robot)) for team in teams
-            )
-            for value, teams in found.items()
-        }
+        if not team:
+            return 0, tuple(j for j, _ in robots), False
+        needed = [op.agents for op in self._acts.on(value)]
+        needed += [who for _, who in self._detached.get(value, ())]
+        meeting = [who for who in needed if who & team]
+        always = tuple(j for j, robot in robots if robot & team and all(who & robot for who in meeting))
+        members = tuple(j for j, robot in robots if robot & team)
+        return team, always or members, bool(always)
 
 
 class _Robot(NamedTuple):
@@ -433,10 +445,9 @@ class Distances:
                     best = least
             return best
         best, rows = INFINITE_KEY, [self._at(robot, state)[0] for robot in self._robots]
-        for i, (team, members) in enumerate(self._provision.teams(value)):
-            # Each robot of the team may be tracked; where there is none, one of all acts next.
+        for i, (_, members, each) in enumerate(self._provision.teams(value)):
             weights = [rows[j][i] for j in members]
-            best = min(best, max(weights) if team else min(weights))
+            best = min(best, max(weights) if each else min(weights))
         return best
 
     def each(self, state: int) -> list[int]:
@@ -450,7 +461,7 @@ class Distances:
     def _look(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
         value, place = state & self._field, state & robot.place
         teams = self._provision.teams(value)
-        row = tuple([self._after(value, team, robot.bit, place) for team, _ in teams])
+        row = tuple([self._after(value, team, robot.bit, place) for team, *_ in teams])
         found = robot.known[state & robot.mask] = row, min(row, default=INFINITE_KEY)
         return found
 

@@ -10,7 +10,8 @@ from search.keys import INFINITE_KEY
 from search.tables import Tables
 from search.windows import free_bounds
 from serendipity.model import Options, Task
-from tests.builders import usar
+from serendipity.planning import plan
+from tests.builders import task, usar
 from tests.strategies import strips_tasks, tasks
 
 _DISCOUNTED = Options(mode="composite", discount="0.9", horizon="inf")  # type: ignore[arg-type]
@@ -109,3 +110,23 @@ def test_a_robot_that_holds_nothing_does_not_make_help_free() -> None:
     # From a, where rob has got the kit, to the human in e.
     walk = 4 * tables.weights.robots[0]
     assert bounds.untouched(0, state, 0) == bounds.private(state) + walk
+
+
+def test_what_two_robots_have_lifted_one_of_them_may_carry_on():
+    lifted = task(
+        agents="bot hum rob",
+        human="hum",
+        init="rob1",
+        goal="at4",
+        actions={
+            "go01 rob": "rob0 -> rob1 !rob0 @ 0",
+            "go10 rob": "rob1 -> rob0 !rob1 @ 0",
+            "go10 bot": " -> bot0 @ 0",
+            "lift rob bot": "bot0 rob0 -> box @ 0",
+            "carry hum rob": "box rob1 -> at2 @ 1",
+            "walk2 hum": "at2 -> at3 @ 2",
+            "walk3 hum": "at3 -> at4 @ 3",
+        },
+    )
+    answer = plan(lifted, mode="composite", horizon=6)
+    assert (answer.status, answer.cost) == ("optimal", 6)
