@@ -179,7 +179,11 @@ class Encoding:
 
     def is_touch(self, form: Form) -> bool:
         """Whether ops of the human mention what others change, or others take part (``search.touches``)."""
-        return form.agents != self.human_bit or bool(form.mentions & self.outside)
+        return self.involves_others(form.agents, form.mentions)
+
+    def involves_others(self, agents: int, fields: int) -> bool:
+        """Whether others than the human take part, or change some of the fields."""
+        return agents != self.human_bit or bool(fields & self.outside)
 
     def derived(self, build: "Callable[Concatenate[Encoding, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
         """``build(self, ...)``, computed once: tables that depend on nothing but the packed task.

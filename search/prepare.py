@@ -2,11 +2,11 @@
 
 from math import prod
 
+from search.acts import AllActs
 from search.clock import Clock
 from search.encoding import Encoding, encoding
 from search.projection import own_projection, private_fields
 from search.providers import shared_fields
-from search.provision import AllActs
 from serendipity.model.task import Task
 
 

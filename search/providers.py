@@ -4,11 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 
+from search.acts import Places
 from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY
 from search.ops import Op
-from search.provision import Distances, Places, Provision
+from search.provision import Distances, Provision
 from search.successors import Idle
 from search.touches import Touches
 from search.ways import NEVER

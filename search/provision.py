@@ -7,27 +7,25 @@ robot that takes part in both ops, from where the first one left it, or, where
 there is none, to any robot, anywhere, for nothing.  All other conditions are
 dropped, so distances are admissible for any number of robots that relay.
 
-Glossary: *place* - the value of the field that most of a robot's own ops ask
-for; *label* - value of the field, team of the last op on it (0 at the start).
+Glossary: *place* - see :mod:`search.acts`; *label* - value of the field, team of the
+last op on it (0 at the start).
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from collections.abc import Set as AbstractSet
 from functools import cached_property
 from heapq import heappop, heappush
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
+from search.acts import AllActs, Places, by_value, with_anything
 from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY
-from search.ops import Form, Op, forms_of, set_by, split
+from search.ops import Op, forms_of
 from search.touches import Need
 
 Spot = tuple[int, int, int, int]
 """Value of the field, team of the last op on it, tracked robot's bit, its place.
 Robot 0 stands for "any robot that did not take part in the last op"."""
-
-Item = TypeVar("Item")
 
 Label = tuple[int, int, int]
 """A spot wherever the robot is."""
@@ -38,104 +36,6 @@ those will do (team 0 stands for no team)."""
 
 Edge = tuple[int, Spot]
 """Weight, and where it leads."""
-
-
-class Places:
-    """The place field of each robot, and what moves it; kept with the packed task.
-
-    Attributes:
-        field: per robot's bit its place field, 0 where it has none.
-        moves: per robot and place, -1 for anywhere, what sets its place: the place, and the op.
-        walks: the same with the index of the op's cost.
-    """
-
-    def __init__(self, encoding: Encoding, clock: Clock) -> None:
-        self.field: dict[int, int] = {}
-        self.moves: dict[int, dict[int, list[tuple[int, Op]]]] = {}
-        forms = (*encoding.own_forms, *encoding.joint_forms, *encoding.other_forms)
-        for robot in encoding.task.robots:
-            bit = 1 << robot
-            mine = [form for form in encoding.other_forms if form.agents & bit]
-            foreign = set_by(form for form in forms if not form.agents & bit)
-            private = set_by(mine) & ~foreign
-            counts = {
-                field: sum(len(form.ops) for form in mine if form.need_mask & field)
-                for field in encoding.fields
-                if field & private
-            }
-            field = max(counts, key=lambda f: counts[f], default=0)
-            self.field[bit] = field
-            moves: dict[int, list[tuple[int, Op]]] = {}
-            for form in mine:
-                if not field & form.sets:
-                    continue
-                # Without a condition on the place it can be done from anywhere: key -1.
-                anywhere = not form.need_mask & field
-                for op in form.ops:
-                    clock.tick()
-                    moves.setdefault(-1 if anywhere else op.need & field, []).append((op.put & field, op))
-            self.moves[bit] = moves
-        self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
-
-
-class Acts:
-    """Robots' ops as one outside field sees them; kept with the packed task.
-
-    Attributes:
-        walks: per robot and place what leads elsewhere without mentioning the field: the
-            place, and the index of the cost.  Walks that are possible anywhere stand under -1.
-    """
-
-    def __init__(self, field: int, forms: Sequence[Form], places: Places) -> None:
-        self._on = _by_value(field, forms)
-        self._places = places.field
-        self._here: dict[tuple[int, int], dict[int, list[Op]]] = {}
-        self.walks = places.walks
-        if any(
-            form.agents & bit and form.sets & place for form in forms for bit, place in self._places.items()
-        ):
-            mentioning = {op.action for form in forms for op in form.ops}
-            self.walks = {robot: _walks(moves, mentioning) for robot, moves in places.moves.items()}
-
-    def on(self, value: int) -> list[Op]:
-        """What robots can do to a value of the field."""
-        return _with_anything(self._on, value)
-
-    def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
-        """Where a robot can walk from a place, with the index of the cost."""
-        return _with_anything(self.walks[robot], place)
-
-    def by_place(self, value: int, robot: int) -> dict[int, list[Op]]:
-        """What a robot can do to a value of the field, by its place (-1: anywhere)."""
-        found = self._here.get((value, robot))
-        if found is None:
-            found = self._here[value, robot] = {}
-            place = self._places[robot]
-            for op in self.on(value):
-                if op.agents & robot:
-                    found.setdefault(op.need & place if op.need_mask & place else -1, []).append(op)
-        return found
-
-
-class AllActs:
-    """:class:`Acts` by field, made when first asked for; kept with the packed task."""
-
-    def __init__(self, encoding: Encoding, clock: Clock) -> None:
-        self._encoding = encoding
-        self._places = encoding.derived(Places, clock)
-        self._mentioning: dict[int, list[Form]] = {}
-        by_lowest_bit = {field & -field: field for field in encoding.fields}
-        for form in encoding.other_forms:
-            for field in split(form.mentions, by_lowest_bit):
-                self._mentioning.setdefault(field, []).append(form)
-        self._known: dict[int, Acts] = {}
-
-    def on(self, field: int) -> Acts:
-        """What robots' ops are to a field."""
-        if field not in self._known:
-            forms = self._mentioning.get(field, ())
-            self._known[field] = Acts(field, forms, self._places)
-        return self._known[field]
 
 
 class Provision:
@@ -171,7 +71,7 @@ class Provision:
         self._encoding = encoding
         self._acts = encoding.derived(AllActs, clock).on(field)
         changing = (op for op in flips if field & ~op.keep)
-        self._flips = _by_value(field, forms_of(changing, encoding.all_ones, clock))
+        self._flips = by_value(field, forms_of(changing, encoding.all_ones, clock))
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
@@ -259,7 +159,7 @@ class Provision:
         value, team, robot, place = spot
         edges: list[Edge] = []
         if robot:
-            ops = _with_anything(self._acts.by_place(value, robot), place)
+            ops = with_anything(self._acts.by_place(value, robot), place)
         else:
             ops = [op for op in self._acts.on(value) if not op.agents & team]
         for op in ops:
@@ -271,7 +171,7 @@ class Provision:
                     edges += [
                         (weight, (after, op.agents, other, p)) for p in self._after(op, other, field, here)
                     ]
-        for op in _with_anything(self._flips, value):
+        for op in with_anything(self._flips, value):
             edges.append((0, (op.put & self._field, team, robot, place)))
         if robot and team and len(self._places.field) > 1:
             edges.append((0, (value, team, 0, 0)))
@@ -306,7 +206,7 @@ class Provision:
     def _least_step(self, label: Label) -> int:
         """The least that a robot pays from where no exit is; 0 where it need not walk to go on."""
         value, team, robot = label
-        if team or _with_anything(self._flips, value) or -1 in self._exits(value, robot):
+        if team or with_anything(self._flips, value) or -1 in self._exits(value, robot):
             return 0
         walks = self._acts.walks[robot].values()
         return min((self._weights[index] for ways in walks for _, index in ways), default=0)
@@ -494,30 +394,3 @@ class _Levels:
             heappush(self.costs, cost)
         else:
             level.append(i)
-
-
-def _with_anything(by_value: dict[int, list[Item]], value: int) -> list[Item]:
-    """What stands under a value or a place, and what stands under all of them (-1)."""
-    anything = by_value.get(-1)
-    known = by_value.get(value, [])
-    return known + anything if anything else known
-
-
-def _walks(moves: dict[int, list[tuple[int, Op]]], but: AbstractSet[int]) -> dict[int, list[tuple[int, int]]]:
-    """Moves with the index of their cost, some actions left out."""
-    return {
-        origin: [(there, op.cost) for there, op in ops if op.action not in but]
-        for origin, ops in moves.items()
-    }
-
-
-def _by_value(field: int, forms: Iterable[Form]) -> dict[int, list[Op]]:
-    """Ops by the value of a field that they ask for; under -1 where they don't."""
-    found: dict[int, list[Op]] = {}
-    for form in forms:
-        if not form.need_mask & field:
-            found.setdefault(-1, []).extend(form.ops)
-            continue
-        for op in form.ops:
-            found.setdefault(op.need & field, []).append(op)
-    return found

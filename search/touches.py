@@ -77,8 +77,10 @@ class Touches:
 
     def is_touch(self, action: int) -> bool:
         """Whether an action of the human's is a touch."""
-        op = self._encoding.op(action)
-        return op.agents != self._encoding.human_bit or bool(self._encoding.mentioned(op) & self.outside)
+        return self._involves_others(self._encoding.op(action))
+
+    def _involves_others(self, op: Op) -> bool:
+        return self._encoding.involves_others(op.agents, self._encoding.mentioned(op))
 
     def _look(self, index: OpIndex, value: int) -> list[Seen]:
         """The ops under a value of an index; under every value, if the field is not his own."""
@@ -92,7 +94,7 @@ class Touches:
         form = op.need_mask, op.keep, op.agents, op.forbidden
         kind = self._kinds.get(form)
         if kind is None:
-            touch = op.agents != self._encoding.human_bit or bool(self._encoding.mentioned(op) & self.outside)
+            touch = self._involves_others(op)
             kind = self._kinds[form] = op.need_mask & self.mask, op.need_mask & self.outside, touch
         need_mask, asked, touch = kind
         mask, number = self.mask, -1

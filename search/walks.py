@@ -15,11 +15,11 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from search.acts import Places
 from search.best_first import Node
 from search.clock import Clock
 from search.encoding import Encoding
 from search.ops import Form, Op
-from search.provision import Places
 from search.successors import Idle, Option, Successors, in_time, together
 from serendipity.model.plans import Step
 

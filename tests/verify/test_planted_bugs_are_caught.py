@@ -24,7 +24,7 @@ QUICK = (
     "planner: _improve_alone: a given plan is taken for optimal",
     "projection: distances are doubled",
     "help: opening: nobody helps",
-    "provision: walks: robots can't walk",
+    "acts: walks: robots can't walk",
     "touches: is_touch: a joint action is none",
 )
 """Those that the first calls of the corpus bring to light."""

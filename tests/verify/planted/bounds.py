@@ -3,12 +3,13 @@
 from typing import Any
 
 from search import projection, windows
+from search.acts import Acts
 from search.alone import Alone
 from search.help import Helped, _Promise
 from search.keys import INFINITE_KEY
 from search.openings import HelpedOnTheWay
 from search.providers import Provided, Providers
-from search.provision import Acts, Distances, Provision
+from search.provision import Distances, Provision
 from search.successors import Idle
 from search.touches import Touches
 from search.ways import Ways
@@ -139,5 +140,5 @@ BUGS = (
         "half of what robots may pay is too much",
         wrapped(Provision, "distances", _too_dear_soon),
     ),
-    Bug("provision: walks", "robots can't walk", wrapped(Acts, "__init__", _slow_walks)),
+    Bug("acts: walks", "robots can't walk", wrapped(Acts, "__init__", _slow_walks)),
 )
