@@ -6,8 +6,8 @@ Tasks come from the classes below in turn, seed by seed.  One is taken in if its
 ends without a proof; how many were looked at for that is told.  Every call is the first on a
 task: as ``serendipity.load`` gives it (``loaded``), and with nothing packed (``bare``), which
 the call then has to do in its time.  All modules are loaded before.  A deadline is *kept* if
-the call returns within 110 % of it and 5 ms, by the clock; what the process itself had spent by
-then is told beside it, since on a busy machine the clock also counts what others do.  The gap is
+the call returns within 110 % of it and 5 ms, by the deadline; what the process itself had spent by
+then is told beside it, since on a busy machine the deadline also counts what others do.  The gap is
 ``(objective - lower_bound) / objective`` of the answer.  With ``--csv`` rows are appended, and
 a later run with the same file goes on where the first one stopped.
 """
@@ -64,7 +64,7 @@ class Row:
 
     @property
     def over(self) -> float:
-        """Seconds by the clock beyond the deadline."""
+        """Seconds by the deadline beyond the deadline."""
         return self.seconds - self.deadline
 
     @property
@@ -171,7 +171,7 @@ def _table(rows: list[Row]) -> None:
         looked = {row.seed for row in rows if row.kind == kind}
         print(f"{kind}: {sum(k == kind for k, _ in taken)} of {len(looked)} take over {DEADLINES[0]:g} s")
     print(
-        f"\n{'task':6}{'deadline':>9}{'calls':>7}{'kept':>7}{'clock, ms over':>20}{'processor over':>16}",
+        f"\n{'task':6}{'deadline':>9}{'calls':>7}{'kept':>7}{'deadline, ms over':>20}{'processor over':>16}",
         end="",
     )
     print(f"{'answered':>10}{'help':>6}{'gap 50 %':>10}{'95 %':>8}")

@@ -19,9 +19,10 @@ from fractions import Fraction
 from pathlib import Path
 
 import serendipity
-from search import Clock, OutOfTimeError
 from search.assistance import joint_optimum
 from serendipity import Task
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LimitReachedError
 
 TIES = ("optimistic", "fixed", "expected", "robust")
 ORDER = (
@@ -120,8 +121,8 @@ def _pair(texts: list[str]) -> Costs:
 
 def _bound(task: Task, time_limit: float) -> Bounds:
     try:
-        value = joint_optimum(task, Clock(time_limit))
-    except OutOfTimeError:
+        value = joint_optimum(task, Deadline(time_limit))
+    except LimitReachedError:
         value = None
     return (value, value) if value is not None else ((Fraction(0), Fraction(0)), None)
 

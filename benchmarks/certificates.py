@@ -5,7 +5,7 @@
 
 Each task is read, planned, read again and verified; only the second reading and the
 verification are timed.  The table is in seconds of processor time, the solver's included, which
-other work on the machine leaves as it is; the rows have the clock's seconds too, which
+other work on the machine leaves as it is; the rows have the deadline's seconds too, which
 ``--time-limit`` is about.  With ``--csv`` the rows are appended and a later run with the same
 file goes on where the first one stopped.
 """

@@ -7,7 +7,7 @@ warm-up: ``warm`` keeps what was parsed of equal domain texts, ``cold`` forgets 
 each task.  *Preparing* is what ``serendipity.load`` does besides: packed actions and what
 depends on them alone.  *Search* is the planning calls with six discounts, one after another, on a
 prepared task: every table that a call builds is inside its time, the next ones find it.
-All of it is processor time but the whole process, which is by the clock.
+All of it is processor time but the whole process, which is by the deadline.
 There is no garbage collection while something is timed: a caller has one task in memory, not 200.
 """
 

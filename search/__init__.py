@@ -5,15 +5,12 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.
 
 from search.alone import PlanGraph
 from search.carrying import at_state
-from search.clock import Clock, OutOfTimeError
 from search.outcome import Outcome
 from search.planner import optimal_human_plan, optimal_human_plans, solve
 from search.prepare import prepare
 from search.tied import least_over_ties
 
 __all__ = [
-    "Clock",
-    "OutOfTimeError",
     "Outcome",
     "PlanGraph",
     "at_state",

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from typing import TypeVar
 
-from search.clock import Clock
 from search.encoding import Encoding
 from search.ops import Form, Op, set_by, split
+from serendipity.model.deadline import Deadline
 
 Item = TypeVar("Item")
 
@@ -23,7 +23,7 @@ class Places:
         walks: the same with the index of the op's cost.
     """
 
-    def __init__(self, encoding: Encoding, clock: Clock) -> None:
+    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
         self.field: dict[int, int] = {}
         self.moves: dict[int, dict[int, list[tuple[int, Op]]]] = {}
         forms = (*encoding.own_forms, *encoding.joint_forms, *encoding.other_forms)
@@ -46,7 +46,7 @@ class Places:
                 # Without a condition on the place it can be done from anywhere: key -1.
                 anywhere = not form.need_mask & field
                 for op in form.ops:
-                    clock.tick()
+                    deadline.tick()
                     moves.setdefault(-1 if anywhere else op.need & field, []).append((op.put & field, op))
             self.moves[bit] = moves
         self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
@@ -94,9 +94,9 @@ class Acts:
 class AllActs:
     """:class:`Acts` by field, made when first asked for; kept with the packed task."""
 
-    def __init__(self, encoding: Encoding, clock: Clock) -> None:
+    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
         self._encoding = encoding
-        self._places = encoding.derived(Places, clock)
+        self._places = encoding.derived(Places, deadline)
         self._mentioning: dict[int, list[Form]] = {}
         by_lowest_bit = {field & -field: field for field in encoding.fields}
         for form in encoding.other_forms:

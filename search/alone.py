@@ -8,12 +8,12 @@ search per projection, and a search also fills in the states along its result.
 from collections.abc import Callable, Iterator
 from heapq import heappop, heappush
 
-from search.clock import Clock
 from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY, Weights, own_weights
 from search.ops import Op
 from search.projection import Projection, own_projection
 from search.successors import Lookup
+from serendipity.model.deadline import Deadline
 
 Edges = dict[int, list[tuple[int, int]]]
 """Per state the actions that continue an optimal plan, ascending, with their successors."""
@@ -100,7 +100,7 @@ class Alone:
         goal: what has to hold at the end.
         weight: key increment of one of his own ops.
         bound: admissible lower bound to ``goal``.
-        clock: asked for time.
+        deadline: asked for time.
         memory: what earlier calls have found with the same goal and weights.
     """
 
@@ -110,12 +110,12 @@ class Alone:
         goal: Goal,
         weight: Callable[[Op], int],
         bound: Projection,
-        clock: Clock,
+        deadline: Deadline,
         memory: Memory | None = None,
     ) -> None:
         self._goal = goal
         self._bound = bound
-        self._clock = clock
+        self._deadline = deadline
         self._mask = goal.mask | bound.mask | encoding.own_mask
         self._memory = memory or Memory(Lookup(encoding.own_index, weight))
         self._lookup = self._memory.lookup
@@ -147,7 +147,7 @@ class Alone:
             if state in closed:
                 continue
             closed.add(state)
-            self._clock.tick()
+            self._deadline.tick()
             g = -negative
             rest = known.get(state)
             if rest is None and holds(state):
@@ -205,7 +205,7 @@ class Alone:
             _, g, state = heappop(queue)
             if state in expanded:
                 continue
-            self._clock.tick()
+            self._deadline.tick()
             steps: list[tuple[int, int, int]] = []
             expanded[state] = steps
             if self._goal.holds(state):
@@ -234,14 +234,14 @@ class Priced:
     Args:
         encoding: the packed task.
         weights: key increments of the call, which say nothing of communication.
-        clock: asked for time.
+        deadline: asked for time.
     """
 
-    def __init__(self, encoding: Encoding, weights: Weights, clock: Clock) -> None:
+    def __init__(self, encoding: Encoding, weights: Weights, deadline: Deadline) -> None:
         own = own_weights(encoding)
-        bound = encoding.derived(own_projection, clock)
+        bound = encoding.derived(own_projection, deadline)
         memory = encoding.derived(_memory)
-        self._alone = Alone(encoding, encoding.goal, lambda op: own[op.cost], bound, clock, memory)
+        self._alone = Alone(encoding, encoding.goal, lambda op: own[op.cost], bound, deadline, memory)
         self._weights = weights
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:

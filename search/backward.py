@@ -4,7 +4,7 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence
 from heapq import heapify, heappop, heappush
 from typing import TypeVar
 
-from search.clock import Clock
+from serendipity.model.deadline import Deadline
 
 Place = TypeVar("Place", bound=Hashable)
 
@@ -12,14 +12,14 @@ Place = TypeVar("Place", bound=Hashable)
 def backward(
     sources: Iterable[tuple[int, Place]],
     edges: Sequence[Mapping[Place, Sequence[tuple[int, Place]]]],
-    clock: Clock,
+    deadline: Deadline,
 ) -> dict[Place, int]:
     """Dijkstra's algorithm, a whole level of equal distance at a time: most distances recur.
 
     Args:
         sources: where it starts, each with a distance to begin with.
         edges: of each kind, per place what leads to it: the weight, and from where.
-        clock: asked for time.
+        deadline: asked for time.
 
     Returns:
         The least distance from each place from which a source can be reached.
@@ -31,7 +31,7 @@ def backward(
     heapify(queue)
     found: dict[Place, int] = {}
     while queue:
-        clock.check()
+        deadline.check()
         distance = heappop(queue)
         for at in levels.pop(distance):
             if at in found:

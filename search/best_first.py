@@ -10,7 +10,7 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import NamedTuple, Protocol
 
-from search.clock import Clock
+from serendipity.model.deadline import Deadline
 
 _PATIENCE = 1.25
 """Reports of the bound are this factor apart in time: a few dozen in all."""
@@ -65,11 +65,11 @@ class Progress:
     told: int = 0
     """The bound when it was last reported."""
     told_at: float = 0.01
-    """Seconds by the clock when it was; short searches don't report theirs."""
+    """Seconds by the deadline when it was; short searches don't report theirs."""
 
-    def due(self, clock: Clock) -> bool:
+    def due(self, deadline: Deadline) -> bool:
         """Whether the bound has risen, and long enough after it was last reported."""
-        if self.bound <= self.told or (now := clock.elapsed()) < _PATIENCE * self.told_at:
+        if self.bound <= self.told or (now := deadline.elapsed()) < _PATIENCE * self.told_at:
             return False
         self.told, self.told_at = self.bound, now
         return True
@@ -88,13 +88,13 @@ class Space(Protocol):
         """Bounded successors; complete plans met on the way are offered to ``best``."""
 
 
-def best_first(space: Space, best: Incumbent, progress: Progress, clock: Clock) -> Iterator[Incumbent]:
+def best_first(space: Space, best: Incumbent, progress: Progress, deadline: Deadline) -> Iterator[Incumbent]:
     """Yield each better incumbent, and now and then the same one where the bound has risen.
 
     On return ``best`` is optimal and the bound is its key.
 
     Raises:
-        OutOfTimeError: the clock ran out; ``best`` and ``progress.bound`` hold what is known.
+        LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
     """
     tie = count()
     queue: list[tuple[int, int, Node]] = []
@@ -106,14 +106,14 @@ def best_first(space: Space, best: Incumbent, progress: Progress, clock: Clock) 
         progress.bound = max(progress.bound, bound)
         if not space.alive(node):
             continue
-        clock.check()
+        deadline.check()
         progress.expanded += 1
         for child_bound, child in space.expand(node, best):
-            clock.tick()
+            deadline.tick()
             progress.generated += 1
             if child_bound < best.key:
                 heappush(queue, (child_bound, -next(tie), child))
-        if best.key < known or progress.due(clock):
+        if best.key < known or progress.due(deadline):
             known = best.key
             yield best
     progress.bound = best.key

@@ -1,8 +1,8 @@
 """Replanning calls: what was packed for a task serves it in another state."""
 
-from search.clock import Clock
 from search.encoding import encoding, plain_encoding
 from search.projection import human_graph
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
 
@@ -15,8 +15,8 @@ def at_state(task: Task, state: frozenset[int]) -> Task:
     """
     moved = task.at(state)
     if moved.variables is task.variables:
-        packed = encoding(task, Clock())
-        graph = packed.derived(human_graph, Clock())
+        packed = encoding(task, Deadline())
+        graph = packed.derived(human_graph, Deadline())
         # What can be reached from a state that was reached has been reached.
         known = packed.pack(state) & graph.mask in graph.moves
         moved.keep_derived(plain_encoding, packed.moved_to(moved, derived=known))

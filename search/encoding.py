@@ -14,11 +14,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from search.clock import Clock
 from search.ops import Form, Op, OpIndex, forms_of, set_by
 from search.relevance import relevant_to_goals
 from serendipity.model.actions import Condition, conflicting
 from serendipity.model.collection import no_collection
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
 T = TypeVar("T")
@@ -54,7 +54,7 @@ class Encoding:
     Args:
         task: the task.
         extra: ids of facts to pack although no useful action asks for them.
-        clock: asked for time.
+        deadline: asked for time.
 
     Attributes:
         useful: ids of the actions that can contribute to a goal or an ``extra`` fact.
@@ -71,22 +71,22 @@ class Encoding:
         robot_indices: ``others`` by theirs, an index for each first participant.
     """
 
-    def __init__(self, task: Task, extra: frozenset[int], clock: Clock) -> None:
+    def __init__(self, task: Task, extra: frozenset[int], deadline: Deadline) -> None:
         self.task = task
         self.human_bit = 1 << task.human
         self._agents: dict[tuple[int, ...], int] = {}
         with no_collection():
-            self._build(task, extra, clock)
+            self._build(task, extra, deadline)
 
-    def _build(self, task: Task, extra: frozenset[int], clock: Clock) -> None:
-        relevant, useful = relevant_to_goals(task, extra, clock)
+    def _build(self, task: Task, extra: frozenset[int], deadline: Deadline) -> None:
+        relevant, useful = relevant_to_goals(task, extra, deadline)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
         self._values: dict[int, list[int]] = {0: [0]}
         shift = 0
         for variable in task.variables:
-            clock.tick()
+            deadline.tick()
             if not any(f in relevant for f in variable.facts):
                 continue
             width = 1 if variable.boolean else max(1, (len(variable.facts) - 1).bit_length())
@@ -114,7 +114,7 @@ class Encoding:
         self._ops: dict[int, Op] = {}
         self._compatible: dict[tuple[int, int, bool], bool] = {}
         self._derived: dict[Any, Any] = {}
-        self._sort_by_actor(clock)
+        self._sort_by_actor(deadline)
 
     def moved_to(self, task: Task, *, derived: bool) -> "Encoding":
         """The same packing for a task that differs in its initial state only.
@@ -138,13 +138,13 @@ class Encoding:
         other._derived = {}
         return other
 
-    def _sort_by_actor(self, clock: Clock) -> None:
+    def _sort_by_actor(self, deadline: Deadline) -> None:
         own: list[Op] = []
         joint: list[Op] = []
         others: list[Op] = []
         human = self.human_bit
         for op in map(self.op, self.useful):
-            clock.tick()
+            deadline.tick()
             if op.need < 0:
                 continue  # no state passes its test
             if op.agents == human:
@@ -154,9 +154,9 @@ class Encoding:
             else:
                 others.append(op)
         self.own, self.joint, self.others = tuple(own), tuple(joint), tuple(others)
-        self.own_forms = forms_of(own, self.all_ones, clock)
-        self.joint_forms = forms_of(joint, self.all_ones, clock)
-        self.other_forms = forms_of(others, self.all_ones, clock)
+        self.own_forms = forms_of(own, self.all_ones, deadline)
+        self.joint_forms = forms_of(joint, self.all_ones, deadline)
+        self.other_forms = forms_of(others, self.all_ones, deadline)
         led: dict[int, list[Form]] = {}
         for form in self.other_forms:
             led.setdefault(form.agents & -form.agents, []).append(form)
@@ -188,7 +188,7 @@ class Encoding:
     def derived(self, build: "Callable[Concatenate[Encoding, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
         """``build(self, ...)``, computed once: tables that depend on nothing but the packed task.
 
-        What else is given may only say how it is built (a clock to ask for time, say), not what.
+        What else is given may only say how it is built (a deadline to ask for time, say), not what.
         """
         if build not in self._derived:
             self._derived[build] = build(self, *args, **kwargs)
@@ -289,19 +289,19 @@ class Encoding:
         return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
 
 
-def encoding(task: Task, clock: Clock) -> Encoding:
+def encoding(task: Task, deadline: Deadline) -> Encoding:
     """The encoding of the facts that matter to the goals, kept with the task."""
-    return task.derived(plain_encoding, clock)
+    return task.derived(plain_encoding, deadline)
 
 
-def plain_encoding(task: Task, clock: Clock) -> Encoding:
+def plain_encoding(task: Task, deadline: Deadline) -> Encoding:
     """An encoding of the facts that matter to the goals."""
-    return Encoding(task, frozenset(), clock)
+    return Encoding(task, frozenset(), deadline)
 
 
-def full_encoding(task: Task, clock: Clock) -> Encoding:
+def full_encoding(task: Task, deadline: Deadline) -> Encoding:
     """The encoding that also holds every fact of the human's own domain (SPEC 3.3)."""
-    return task.derived(_with_human_facts, clock)
+    return task.derived(_with_human_facts, deadline)
 
 
 def human_facts(task: Task) -> frozenset[int]:
@@ -313,8 +313,8 @@ def human_facts(task: Task) -> frozenset[int]:
     return frozenset(mentioned)
 
 
-def _with_human_facts(task: Task, clock: Clock) -> Encoding:
-    return Encoding(task, human_facts(task), clock)
+def _with_human_facts(task: Task, deadline: Deadline) -> Encoding:
+    return Encoding(task, human_facts(task), deadline)
 
 
 def _distinct_costs(task: Task) -> tuple[Fraction, ...]:

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from search.best_first import Incumbent, Progress, best_first
-from search.clock import Clock
 from search.fixed_window import FixedWindow, Weighed
 from search.keys import INFINITE_KEY
 from search.ops import Op
 from search.outcome import path_steps, plan_steps
 from search.planner import solve
 from search.tables import Tables
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window
 from serendipity.model.task import HumanPlan, Task
@@ -63,7 +63,7 @@ def interruptions(
     options: Options,
     *,
     human_plan: HumanPlan | None = None,
-    clock: Clock | None = None,
+    deadline: Deadline | None = None,
     on_progress: Callable[[int, int], None] | None = None,
 ) -> Interruptions | None:
     """The report of SPEC 3.2, or None where the human has no plan alone.
@@ -72,23 +72,23 @@ def interruptions(
         task: the task.
         options: discount, horizon, suffix, preservation and interference count.
         human_plan: ``pi_H``, already replayed, or None to predict it.
-        clock: deadline and cancellation.
+        deadline: deadline and cancellation.
         on_progress: called with the number of searches done, and of all.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``.
-        OutOfTimeError: the clock ran out.
+        LimitReachedError: the deadline ran out.
     """
-    clock = clock or Clock()
+    deadline = deadline or Deadline()
     asked = options.but(
         mode="serendipity", max_cost=None, max_window=None, keep_prefix=False, window_weight=0
     )
-    *_, idle = solve(task, asked.but(max_window=1), human_plan=human_plan, clock=clock)
+    *_, idle = solve(task, asked.but(max_window=1), human_plan=human_plan, deadline=deadline)
     plan = idle.human_plan
     if plan is None:
         return None
     horizon = int(idle.horizon or 0)
-    tables = Tables(task, asked, clock).for_plan(plan)
+    tables = Tables(task, asked, deadline).for_plan(plan)
     starts = range(1, len(plan) + 1)
     windows = [Window(start, end) for start in starts for end in range(start + 1, horizon + 2)]
     count = _Count(2 * len(windows), on_progress)
@@ -158,7 +158,7 @@ class _Objective:
     """
 
     def __init__(self, tables: Tables, weighed: Weighed, idle: int, count: _Count) -> None:
-        self._clock = tables.clock
+        self._deadline = tables.deadline
         self._count = count
         self._weighed = weighed
         self._idle = idle
@@ -183,7 +183,7 @@ class _Objective:
             return known
         best = Incumbent(known.key, known.node, known.end, known.tail)
         space = FixedWindow(self._weighed, window)
-        for _ in best_first(space, best, Progress(), self._clock):
+        for _ in best_first(space, best, Progress(), self._deadline):
             if best.key <= least:
                 break
         return best

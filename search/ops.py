@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from search.clock import Clock
+from serendipity.model.deadline import Deadline
 
 
 class Op(NamedTuple):
@@ -57,17 +57,17 @@ class Form(NamedTuple):
         return self.need_mask | self.forbids | self.sets
 
 
-def forms_of(ops: Iterable[Op], all_ones: int, clock: Clock) -> tuple[Form, ...]:
+def forms_of(ops: Iterable[Op], all_ones: int, deadline: Deadline) -> tuple[Form, ...]:
     """Ops by their forms.
 
     Args:
         ops: the ops.
         all_ones: all fields.
-        clock: asked for time.
+        deadline: asked for time.
     """
     members: dict[tuple[int, int, int, int, int], list[Op]] = {}
     for op in ops:
-        clock.tick()
+        deadline.tick()
         need_mask, _, keep, _, forbidden, _, agents, cost = op
         forbids = 0
         for mask, _ in forbidden:

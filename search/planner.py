@@ -6,7 +6,6 @@ from fractions import Fraction
 
 from search.alone import PlanGraph
 from search.best_first import Incumbent, Progress, Space, best_first
-from search.clock import Clock, OutOfTimeError
 from search.followed import Followed
 from search.free import Free
 from search.keys import INFINITE_KEY
@@ -14,14 +13,15 @@ from search.outcome import Outcome, path_sets, path_steps, plan_steps
 from search.schedule import schedule
 from search.tables import Tables
 from search.windows import free_bounds, window_space
-from serendipity.model.errors import UsageError
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.plans import Step, Window
 from serendipity.model.task import HumanPlan, Task
 
 
 def solve(
-    task: Task, options: Options, *, human_plan: HumanPlan | None = None, clock: Clock | None = None
+    task: Task, options: Options, *, human_plan: HumanPlan | None = None, deadline: Deadline | None = None
 ) -> Iterator[Outcome]:
     """Answers with falling objective and rising lower bound; the last one is the best known.
 
@@ -29,14 +29,14 @@ def solve(
         task: the task.
         options: options in force; ``mode`` is not ``assistance``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
-        clock: deadline and cancellation.
+        deadline: deadline and cancellation.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
-    clock = clock or Clock(options.time_limit)
+    deadline = deadline or Deadline(options.time_limit)
     try:
-        tables = Tables(task, options, clock)
+        tables = Tables(task, options, deadline)
         predicted = tables.optimal_plans() if human_plan is None else None
         plan = human_plan if predicted is None else predicted.canonical()
         if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
@@ -45,8 +45,8 @@ def solve(
             answers = iter((_individual(tables, plan),))
         else:
             answers = _Call(tables, plan, given=human_plan is not None).answers()
-    except OutOfTimeError:
-        answers = iter((Outcome("unknown", reason="time-limit"),))
+    except LIMITS as limit:
+        answers = iter((Outcome("unknown", reason=limit_reason(limit)),))
     yield from answers
 
 
@@ -56,13 +56,13 @@ def optimal_human_plan(task: Task) -> HumanPlan | None:
     return None if graph is None else graph.canonical()
 
 
-def optimal_human_plans(task: Task, clock: Clock | None = None) -> PlanGraph | None:
+def optimal_human_plans(task: Task, deadline: Deadline | None = None) -> PlanGraph | None:
     """All optimal plans of the human alone, or None where he has none.
 
     Raises:
-        OutOfTimeError: the clock ran out.
+        LimitReachedError: the deadline ran out.
     """
-    return Tables(task, Options(), clock or Clock()).optimal_plans()
+    return Tables(task, Options(), deadline or Deadline()).optimal_plans()
 
 
 def _individual(tables: Tables, plan: HumanPlan) -> Outcome:
@@ -114,7 +114,7 @@ class _Call:
     def __init__(self, tables: Tables, plan: HumanPlan | None, *, given: bool) -> None:
         self.task = tables.task
         self.options = tables.options
-        self.clock = tables.clock
+        self.deadline = tables.deadline
         self.plan = plan
         self.given = given
         self.horizon = _horizon(self.options, self.task, plan)
@@ -125,6 +125,7 @@ class _Call:
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)
         self.best = Incumbent(INFINITE_KEY)
+        self.limit: str | None = None
 
     def answers(self) -> Iterator[Outcome]:
         """Each better answer, then the last one with what is proved of it."""
@@ -135,11 +136,12 @@ class _Call:
             if self._answer().key < INFINITE_KEY:
                 yield self._outcome("feasible")
             if self.epochs != 0 or self._answer().key == INFINITE_KEY:
-                for _ in best_first(self._space(), self.best, self.progress, self.clock):
+                for _ in best_first(self._space(), self.best, self.progress, self.deadline):
                     yield self._outcome("feasible")
             self.progress.bound = self.best.key
             status = "optimal" if self._answer().key < INFINITE_KEY else "infeasible"
-        except OutOfTimeError:
+        except LIMITS as limit:
+            self.limit = limit_reason(limit)
             status = "feasible" if self._answer().key < INFINITE_KEY else "unknown"
         yield self._outcome(status)
 
@@ -165,7 +167,7 @@ class _Call:
             goals=self.tables.goals,
             successors=self.tables.successors(),
         )
-        for _ in best_first(space, self.baseline, Progress(), self.clock):
+        for _ in best_first(space, self.baseline, Progress(), self.deadline):
             pass
 
     def _window_of_nothing(self) -> int:
@@ -187,7 +189,7 @@ class _Call:
             return
         optimum = self.tables.alone.key(self.tables.encoding.init)
         if self.task.cost_of(self.plan) > self.keys.cost(optimum):
-            for _ in best_first(self._space(idle=True), self.best, Progress(), self.clock):
+            for _ in best_first(self._space(idle=True), self.best, Progress(), self.deadline):
                 pass
             self.idle = replace(self.best)
 
@@ -253,7 +255,7 @@ class _Call:
     def _reason(self, status: str) -> str | None:
         if status == "infeasible":
             return "no-plan" if self.epochs is None else "no-plan-within-horizon"
-        return "time-limit" if status == "unknown" else None
+        return self.limit if status == "unknown" else None
 
     def _lower_bound(self, status: str, answer: Incumbent) -> Fraction | None:
         """On the answer's objective; net of one epoch of window where it has none."""

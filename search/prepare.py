@@ -3,10 +3,10 @@
 from math import prod
 
 from search.acts import AllActs
-from search.clock import Clock
 from search.encoding import Encoding, encoding
 from search.projection import own_projection, private_fields
 from search.providers import shared_fields
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
 
@@ -23,13 +23,13 @@ def prepare(task: Task, *, afresh: bool = False) -> None:
     """
     if afresh:
         task.forget_derived()
-    clock = Clock()
-    packed = encoding(task, clock)
-    acts = packed.derived(AllActs, clock)
-    for field in shared_fields(packed, clock):
+    deadline = Deadline()
+    packed = encoding(task, deadline)
+    acts = packed.derived(AllActs, deadline)
+    for field in shared_fields(packed, deadline):
         acts.on(field)
     if _most_states(packed) <= len(task.actions):
-        packed.derived(own_projection, clock)
+        packed.derived(own_projection, deadline)
 
 
 def _most_states(packed: Encoding) -> int:

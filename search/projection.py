@@ -13,10 +13,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from search.backward import backward
-from search.clock import Clock
 from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY, Weights, own_actions, own_weights
 from search.ops import Form, set_by
+from serendipity.model.deadline import Deadline
 
 _MAX_STATES = 50_000
 
@@ -59,37 +59,37 @@ class Projected:
     touches: Predecessors
 
 
-def human_projection(encoding: Encoding, weights: Weights, clock: Clock) -> Projection:
+def human_projection(encoding: Encoding, weights: Weights, deadline: Deadline) -> Projection:
     """Key increments to his goal in his private variables, or in as many as stay tractable.
 
     Args:
         encoding: the packed task.
         weights: key increments of the call.
-        clock: asked for time while the table is built.
+        deadline: asked for time while the table is built.
     """
-    own = encoding.derived(own_projection, clock)
+    own = encoding.derived(own_projection, deadline)
     return Projection(own.mask, weights.of_own(own.distances))
 
 
-def own_projection(encoding: Encoding, clock: Clock) -> Projection:
+def own_projection(encoding: Encoding, deadline: Deadline) -> Projection:
     """The same in the unit of :func:`search.keys.own_weights`."""
-    graph = encoding.derived(human_graph, clock)
+    graph = encoding.derived(human_graph, deadline)
     goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
-    return Projection(graph.mask, backward(goals, (graph.moves, graph.touches), clock))
+    return Projection(graph.mask, backward(goals, (graph.moves, graph.touches), deadline))
 
 
-def human_steps(encoding: Encoding, clock: Clock) -> Projection:
+def human_steps(encoding: Encoding, deadline: Deadline) -> Projection:
     """The least number of his actions to his goal, in the same variables."""
     if len(encoding.costs) == 1:  # every action costs the same, so the cheapest way is the shortest
-        own = encoding.derived(own_projection, clock)
+        own = encoding.derived(own_projection, deadline)
         return Projection(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
-    graph = encoding.derived(human_graph, clock)
+    graph = encoding.derived(human_graph, deadline)
     goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
     counted = [
         {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}
         for kind in (graph.moves, graph.touches)
     ]
-    return Projection(graph.mask, backward(goals, counted, clock))
+    return Projection(graph.mask, backward(goals, counted, deadline))
 
 
 def private_fields(encoding: Encoding) -> list[int]:
@@ -98,7 +98,7 @@ def private_fields(encoding: Encoding) -> list[int]:
     return [field for field in encoding.fields if field & changed and not field & encoding.outside]
 
 
-def human_graph(encoding: Encoding, clock: Clock) -> Projected:
+def human_graph(encoding: Encoding, deadline: Deadline) -> Projected:
     """His graph over all his private fields, or over as many as stay tractable."""
     private = private_fields(encoding)
     goal_first = sorted(private, key=lambda field: (not field & encoding.goal.mask, field))
@@ -109,8 +109,8 @@ def human_graph(encoding: Encoding, clock: Clock) -> Projected:
     for count in range(len(private), 0, -1):
         fields = goal_first[:count]
         mask = sum(fields)
-        steps = _Steps(fields, weighed, clock)
-        graph = _explore(mask, encoding.init & mask, steps, clock)
+        steps = _Steps(fields, weighed, deadline)
+        graph = _explore(mask, encoding.init & mask, steps, deadline)
         if graph is not None:
             return graph
     return Projected(0, {0: []}, {0: []})
@@ -126,7 +126,7 @@ def _satisfying(graph: Projected, goal: Goal) -> list[int]:
     return [s for s in found if all(s & m != v for m, v in forbidden)] if forbidden else found
 
 
-def _explore(mask: int, start: int, steps: "_Steps", clock: Clock) -> Projected | None:
+def _explore(mask: int, start: int, steps: "_Steps", deadline: Deadline) -> Projected | None:
     """What leads from ``start`` to each projected state; None if they are too many."""
     moves: Predecessors = {start: []}
     touches: Predecessors = {start: []}
@@ -134,7 +134,7 @@ def _explore(mask: int, start: int, steps: "_Steps", clock: Clock) -> Projected 
     pending = [start]
     while pending:
         state = pending.pop()
-        clock.tick()
+        deadline.tick()
         for entries in (by_value.get(state & index, ()), always):
             for need_mask, need, keep, put, forbidden, weight, touch in entries:
                 if state & need_mask != need:
@@ -168,11 +168,13 @@ class _Steps:
         always: the others.
     """
 
-    def __init__(self, fields: Sequence[int], forms: Iterable[tuple[Form, int, bool]], clock: Clock) -> None:
+    def __init__(
+        self, fields: Sequence[int], forms: Iterable[tuple[Form, int, bool]], deadline: Deadline
+    ) -> None:
         mask = sum(fields)
         merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
         for form, weight, touch in forms:
-            clock.check()
+            deadline.check()
             if form.sets & mask:
                 shape = form.need_mask & mask, mask & ~form.sets, touch
                 merged.setdefault(shape, {}).update(_seen(form, mask, weight))
@@ -182,7 +184,7 @@ class _Steps:
         for (need_mask, keep, touch), values in merged.items():
             indexed = need_mask & self.index
             for (need, put, forbidden), weight in values.items():
-                clock.tick()
+                deadline.tick()
                 entry = (need_mask, need, keep, put, forbidden, weight, touch)
                 if indexed:
                     self.by_value.setdefault(need & self.index, []).append(entry)

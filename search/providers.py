@@ -5,7 +5,6 @@ from functools import cached_property
 from itertools import pairwise
 
 from search.acts import Places
-from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY
 from search.ops import Op
@@ -13,6 +12,7 @@ from search.provision import Distances, Provision
 from search.successors import Idle
 from search.touches import Touches
 from search.ways import NEVER
+from serendipity.model.deadline import Deadline
 
 
 class Provided:
@@ -70,7 +70,7 @@ class Providers:
         touches: what the human's ops mention.
         weights: key increment of a robots' op by the index of its cost.
         followed: the ops of ``pi_H``, in order, where the human follows it for a while.
-        clock: asked for time.
+        deadline: asked for time.
 
     A need that is judged by a field that ``pi_H`` changes counts twice: before that
     happens, and, under the id ``late(need)``, afterwards.
@@ -82,20 +82,20 @@ class Providers:
         touches: Touches,
         weights: Sequence[int],
         followed: Sequence[Op],
-        clock: Clock,
+        deadline: Deadline,
     ) -> None:
         self._encoding = encoding
         self._touches = touches
         self._weights = weights
         self._followed = followed
-        self._clock = clock
+        self._deadline = deadline
         self._changes: dict[int, int] = {}
         self._judges: dict[int, int] = {}
         for epoch, op in enumerate(followed, start=1):
             for field in encoding.fields:
                 if field & ~op.keep:
                     self._changes.setdefault(field, epoch)
-        self._shared = shared_fields(encoding, clock)
+        self._shared = shared_fields(encoding, deadline)
         used = {weights[form.cost] for form in encoding.other_forms}
         self._uniform = len(used) <= 1
         self._unit = max(used, default=1)
@@ -171,8 +171,8 @@ class Providers:
         for (field, late), members in groups.items():
             listed = [(i, self._touches.needs[self.touched(i)]) for i in members]
             flips = self._followed if late else ()
-            self._clock.check()
-            provision = Provision(self._encoding, field, listed, weights, flips, self._clock)
+            self._deadline.check()
+            provision = Provision(self._encoding, field, listed, weights, flips, self._deadline)
             provision.explore(pays)
             provisions[field, late] = provision
             costs.update(provision.cost)
@@ -187,14 +187,14 @@ class Providers:
         """The first shared field that the need asks for; 0: only places matter."""
         field = self._judges.get(need)
         if field is None:
-            self._clock.tick()
+            self._deadline.tick()
             mask = self._touches.needs[need].mask
             field = self._judges[need] = next((f for f in self._shared if mask & f), 0)
         return field
 
 
-def shared_fields(encoding: Encoding, clock: Clock) -> list[int]:
+def shared_fields(encoding: Encoding, deadline: Deadline) -> list[int]:
     """Outside fields that are no robot's place, the largest first."""
-    places = set(encoding.derived(Places, clock).field.values())
+    places = set(encoding.derived(Places, deadline).field.values())
     outside = [f for f in encoding.fields if f & encoding.outside and f not in places]
     return sorted(outside, key=lambda f: (-len(encoding.values(f)), f))

@@ -17,11 +17,11 @@ from heapq import heappop, heappush
 from typing import NamedTuple
 
 from search.acts import AllActs, Places, by_value, with_anything
-from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY
 from search.ops import Op, forms_of
 from search.touches import Need
+from serendipity.model.deadline import Deadline
 
 Spot = tuple[int, int, int, int]
 """Value of the field, team of the last op on it, tracked robot's bit, its place.
@@ -47,7 +47,7 @@ class Provision:
         needs: ids of the needs that are judged by this field, with the needs.
         weights: key increment of a robots' op by the index of its cost.
         flips: ops of the human that may change the field on his way, for nothing.
-        clock: asked for time.
+        deadline: asked for time.
 
     Attributes:
         cost: least cost from the initial state by need id.
@@ -61,22 +61,22 @@ class Provision:
         needs: Sequence[tuple[int, Need]],
         weights: Sequence[int],
         flips: Iterable[Op],
-        clock: Clock,
+        deadline: Deadline,
     ) -> None:
-        self._places = encoding.derived(Places, clock)
+        self._places = encoding.derived(Places, deadline)
         self._field = field
         self._weights = weights
-        self._clock = clock
+        self._deadline = deadline
         self._initial = encoding.init
         self._encoding = encoding
-        self._acts = encoding.derived(AllActs, clock).on(field)
+        self._acts = encoding.derived(AllActs, deadline).on(field)
         changing = (op for op in flips if field & ~op.keep)
-        self._flips = by_value(field, forms_of(changing, encoding.all_ones, clock))
+        self._flips = by_value(field, forms_of(changing, encoding.all_ones, deadline))
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
         for i, need in needs:
-            clock.tick()
+            deadline.tick()
             self._index(i, need)
         # Spots go by the order in which they were met.
         self._ids: dict[Spot, int] = {}
@@ -103,7 +103,7 @@ class Provision:
                 if forward[i] >= 0:
                     continue
                 forward[i] = cost
-                self._clock.tick()
+                self._deadline.tick()
                 spot = self._spots[i]
                 self._accept(spot, i, cost)
                 value, team, robot, place = spot
@@ -242,7 +242,7 @@ class Provision:
                 if i in found or forward[i] >= latest:
                     continue
                 found[i] = cost
-                self._clock.tick()
+                self._deadline.tick()
                 label = spots[i][:3]
                 if label in stopped and label not in elsewhere:
                     # From beyond where it stopped walking this is in reach, at the least.

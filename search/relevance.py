@@ -2,18 +2,20 @@
 
 from itertools import compress
 
-from search.clock import Clock
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
 
-def relevant_to_goals(task: Task, extra: frozenset[int], clock: Clock) -> tuple[set[int], tuple[int, ...]]:
+def relevant_to_goals(
+    task: Task, extra: frozenset[int], deadline: Deadline
+) -> tuple[set[int], tuple[int, ...]]:
     """Facts and actions from which the goals can be influenced (backward closure)."""
     actions = task.actions
     relevant = {*extra, *task.goal.positive, *task.goal.negative}
     relevant.update(task.robot_goal.positive, task.robot_goal.negative)
     changers: list[list[int]] = [[] for _ in task.facts]
     for i, action in enumerate(actions):
-        clock.tick()
+        deadline.tick()
         for fact in action.add:
             changers[fact].append(i)
         for fact in action.delete:
@@ -24,7 +26,7 @@ def relevant_to_goals(task: Task, extra: frozenset[int], clock: Clock) -> tuple[
         for i in changers[pending.pop()]:
             if useful[i]:
                 continue
-            clock.tick()
+            deadline.tick()
             useful[i] = 1
             cause = actions[i]
             for fact in cause.pre + cause.neg:

@@ -3,7 +3,6 @@
 from functools import cached_property
 
 from search.alone import Alone, PlanGraph, Priced
-from search.clock import Clock
 from search.encoding import Encoding, Goal, encoding, full_encoding, human_facts
 from search.keys import Weights
 from search.ops import Op
@@ -13,6 +12,7 @@ from search.touches import Touches
 from search.walks import FoldedSuccessors, Walks
 from search.ways import Ways
 from serendipity.model.actions import Condition
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan, Task
 
@@ -23,20 +23,22 @@ class Tables:
     Args:
         task: the task.
         options: options in force.
-        clock: asked for time while tables are built.
+        deadline: asked for time while tables are built.
         plan: ``pi_H`` where it is known; None while it is being predicted.
     """
 
-    def __init__(self, task: Task, options: Options, clock: Clock, plan: HumanPlan | None = None) -> None:
+    def __init__(
+        self, task: Task, options: Options, deadline: Deadline, plan: HumanPlan | None = None
+    ) -> None:
         self.task = task
         self.options = options
-        self.clock = clock
+        self.deadline = deadline
         packing = full_encoding if options.preservation == "state" else encoding
-        self.encoding = packing(task, clock)
+        self.encoding = packing(task, deadline)
         if plan is not None and not self._covers(plan):
             needed = {f for i in plan for f in (*task.actions[i].pre, *task.actions[i].neg)}
             extra = human_facts(task) if options.preservation == "state" else frozenset()
-            self.encoding = Encoding(task, extra | needed, clock)
+            self.encoding = Encoding(task, extra | needed, deadline)
         self.weights = Weights(self.encoding, options, plan)
         self.keys = self.weights.keys
 
@@ -44,7 +46,7 @@ class Tables:
         """Tables in which ``pi_H`` is known; these ones, where that makes no difference."""
         announces = self.options.mode == "communication" and self.options.communication_weight > 0
         if announces or not self._covers(plan):
-            return Tables(self.task, self.options, self.clock, plan)
+            return Tables(self.task, self.options, self.deadline, plan)
         return self
 
     def _covers(self, plan: HumanPlan) -> bool:
@@ -56,19 +58,19 @@ class Tables:
     @cached_property
     def bound(self) -> Projection:
         """Lower bound on what the human still has to pay for ``G_H``."""
-        return human_projection(self.encoding, self.weights, self.clock)
+        return human_projection(self.encoding, self.weights, self.deadline)
 
     @property
     def steps(self) -> Projection:
         """Lower bound on the number of his actions to ``G_H``."""
-        return self.encoding.derived(human_steps, self.clock)
+        return self.encoding.derived(human_steps, self.deadline)
 
     @cached_property
     def alone(self) -> Alone | Priced:
         """The human by himself, to ``G_H``."""
         if not self.weights.announces:
-            return Priced(self.encoding, self.weights, self.clock)
-        return Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, self.clock)
+            return Priced(self.encoding, self.weights, self.deadline)
+        return Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, self.deadline)
 
     @cached_property
     def alone_to_both(self) -> Alone | None:
@@ -82,17 +84,17 @@ class Tables:
         if not affects:
             return None
         goal = self.encoding.condition(_both(self.task))
-        return Alone(self.encoding, goal, self.weights.alone, self.bound, self.clock)
+        return Alone(self.encoding, goal, self.weights.alone, self.bound, self.deadline)
 
     @property
     def touches(self) -> Touches:
         """What the human's ops mention."""
-        return self.encoding.derived(Touches, self.clock)
+        return self.encoding.derived(Touches, self.deadline)
 
     @cached_property
     def ways(self) -> Ways:
         """The human's ways to his touches."""
-        return Ways(self.encoding, self.touches, self.bound, self.steps, self.weights, self.clock)
+        return Ways(self.encoding, self.touches, self.bound, self.steps, self.weights, self.deadline)
 
     def successors(self, *, idle: bool = False) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing."""
@@ -102,7 +104,7 @@ class Tables:
         """Robots' walks where they can be folded, and it pays: with several robots."""
         if len(self.task.robots) < 2 or self.options.preservation == "state":
             return None
-        walks = self.encoding.derived(Walks, self.clock)
+        walks = self.encoding.derived(Walks, self.deadline)
         if not walks.foldable or walks.touched_by(map(self.encoding.op, plan)):
             return None
         return walks

@@ -10,7 +10,6 @@ from fractions import Fraction
 
 from search.alone import PlanGraph
 from search.best_first import Incumbent, Progress, best_first
-from search.clock import Clock, OutOfTimeError
 from search.help import Bounds, no_bound
 from search.keys import Keys
 from search.labels import Labels
@@ -21,26 +20,28 @@ from search.successors import Option
 from search.tables import Tables
 from search.windowed import Unscheduled, Windowed
 from search.windows import no_worse, suffix_rule
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan, Task
 
 
-def least_over_ties(task: Task, options: Options, graph: PlanGraph, clock: Clock) -> Fraction | None:
+def least_over_ties(task: Task, options: Options, graph: PlanGraph, deadline: Deadline) -> Fraction | None:
     """A lower bound on the cost of the answers to all of his optimal plans; None if time is up.
 
     Args:
         task: the task; robots have no goals of their own.
         options: of the call, in mode ``serendipity`` or ``communication``.
         graph: his optimal plans from the initial state.
-        clock: deadline and cancellation.
+        deadline: deadline and cancellation.
     """
     plan = graph.canonical()
     horizon = options.horizon if isinstance(options.horizon, int) else len(plan)
     replans = options.suffix == "replan" and options.preservation == "kernel"
     try:
         if options.mode == "serendipity" and options.human_model == "omniscient" and replans and plan:
-            return _by_windows(task, options, graph, plan, horizon, clock)
-    except OutOfTimeError:
+            return _by_windows(task, options, graph, plan, horizon, deadline)
+    except LIMITS:
         return None
     told = Options(
         mode="communication",
@@ -48,18 +49,18 @@ def least_over_ties(task: Task, options: Options, graph: PlanGraph, clock: Clock
         horizon=horizon,
         interference=options.interference,
     )
-    *_, outcome = solve(task, told, clock=clock)
+    *_, outcome = solve(task, told, deadline=deadline)
     return outcome.cost if outcome.status == "optimal" else None
 
 
 def _by_windows(
-    task: Task, options: Options, graph: PlanGraph, plan: HumanPlan, horizon: int, clock: Clock
+    task: Task, options: Options, graph: PlanGraph, plan: HumanPlan, horizon: int, deadline: Deadline
 ) -> Fraction:
     most = horizon if options.max_window is None else options.max_window
     if options.window_weight:
         most = min(most, int(task.cost_of(plan) / options.window_weight) + 1)
     free = options.but(window_weight=0, max_window=most, max_cost=None)
-    tables = Tables(task, free, clock)
+    tables = Tables(task, free, deadline)
     steps = [tables.followed(tuple(sorted(layer))) for layer in graph.layers()]
     space = Windowed(
         initial=tables.encoding.init,
@@ -75,7 +76,7 @@ def _by_windows(
         labels=Labels(no_worse(tables.keys, free, None)),
     )
     best = Incumbent(sum(option.weight for _, option in tables.followed(plan)))
-    for _ in best_first(space, best, Progress(), clock):
+    for _ in best_first(space, best, Progress(), deadline):
         pass
     return tables.keys.cost(best.key)
 

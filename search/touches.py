@@ -10,10 +10,10 @@ outside part of the condition of a touch.
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from search.clock import Clock
 from search.encoding import Encoding
 from search.ops import Op, OpIndex
 from search.projection import human_graph
+from serendipity.model.deadline import Deadline
 
 
 class Need(NamedTuple):
@@ -45,8 +45,8 @@ class Touches:
         needs: the needs met so far; a need's id is its index.
     """
 
-    def __init__(self, encoding: Encoding, clock: Clock) -> None:
-        self.mask = encoding.derived(human_graph, clock).mask
+    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
+        self.mask = encoding.derived(human_graph, deadline).mask
         self.needs: list[Need] = []
         self._ids: dict[tuple[int, int], int] = {}
         self._kinds: dict[tuple[int, int, int, object], tuple[int, int, bool]] = {}

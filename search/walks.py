@@ -17,10 +17,10 @@ from typing import NamedTuple
 
 from search.acts import Places
 from search.best_first import Node
-from search.clock import Clock
 from search.encoding import Encoding
 from search.ops import Form, Op
 from search.successors import Idle, Option, Successors, in_time, together
+from serendipity.model.deadline import Deadline
 from serendipity.model.plans import Step
 
 
@@ -43,7 +43,7 @@ class Walks:
 
     Args:
         encoding: the packed task.
-        clock: asked for time.
+        deadline: asked for time.
 
     Attributes:
         fields: per slot the place of a robot.
@@ -53,10 +53,10 @@ class Walks:
         foldable: whether every robot's walks can be folded.
     """
 
-    def __init__(self, encoding: Encoding, clock: Clock) -> None:
+    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
         self._encoding = encoding
-        self._clock = clock
-        places = encoding.derived(Places, clock)
+        self._deadline = deadline
+        places = encoding.derived(Places, deadline)
         self._bits = [1 << robot for robot in encoding.task.robots]
         self.fields = [places.field[bit] for bit in self._bits]
         self.mask = sum(self.fields)
@@ -64,9 +64,9 @@ class Walks:
         self._from: dict[tuple[int, int], dict[int, tuple[int, int, int]]] = {}
         self.joint = DeedIndex((), encoding)
         self.led: list[DeedIndex] = []
-        self.foldable = all(self.fields) and self._fold(clock)
+        self.foldable = all(self.fields) and self._fold(deadline)
 
-    def _fold(self, clock: Clock) -> bool:
+    def _fold(self, deadline: Deadline) -> bool:
         packed = self._encoding
         joint: list[Deed] = []
         led: dict[int, list[Deed]] = {}
@@ -74,7 +74,7 @@ class Walks:
             return False
         own_facts = self._place_facts()
         for form in (*packed.joint_forms, *packed.other_forms):
-            clock.check()
+            deadline.check()
             rest = self._without_walks(form, own_facts)
             if not rest.ops:
                 continue

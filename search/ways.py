@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from heapq import heapify, heappop, heappush
 
 from search.backward import backward
-from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY, Weights, own_weights
 from search.projection import Projection, human_graph, own_projection
 from search.touches import Seen, Touches
+from serendipity.model.deadline import Deadline
 
 NEVER = 1 << 40
 """An epoch after every horizon."""
@@ -25,8 +25,8 @@ class Corridor:
         totals: least total by the need of the first touch.
     """
 
-    def __init__(self, clock: Clock) -> None:
-        self._clock = clock
+    def __init__(self, deadline: Deadline) -> None:
+        self._deadline = deadline
         self.without = INFINITE_KEY
         self.totals: dict[int, int] = {}
         self._before: dict[int, list[tuple[int, int]]] = {}
@@ -44,7 +44,7 @@ class Corridor:
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        return backward(self._entries.get(need, ()), [self._before], self._clock)
+        return backward(self._entries.get(need, ()), [self._before], self._deadline)
 
 
 class Ways:
@@ -56,7 +56,7 @@ class Ways:
         bound: private distances to the goal.
         steps: the same, counting actions.
         weights: key increments of the call.
-        clock: asked for time.
+        deadline: asked for time.
 
     Attributes:
         outside: the fields that others change.
@@ -71,7 +71,7 @@ class Ways:
         bound: Projection,
         steps: Projection,
         weights: Weights,
-        clock: Clock,
+        deadline: Deadline,
     ) -> None:
         self.outside = touches.outside
         self._encoding = encoding
@@ -79,7 +79,7 @@ class Ways:
         self._bound = bound
         self._steps = steps
         self._weights = weights
-        self._clock = clock
+        self._deadline = deadline
         self.steps_after: dict[int, int] = {}
 
     def explore(self, sources: Sequence[tuple[int, int]], limit: int) -> Corridor:
@@ -89,7 +89,7 @@ class Ways:
             sources: what has been spent, and where he is then (a packed state).
             limit: what costs as much or more is left out.
         """
-        found = Corridor(self._clock)
+        found = Corridor(self._deadline)
         bound, weights = self._bound.distances, self._weights.human
         queue = [(spent, state & self._touches.mask) for spent, state in sources]
         heapify(queue)
@@ -99,7 +99,7 @@ class Ways:
             if at in seen:
                 continue
             seen.add(at)
-            self._clock.check()  # touches of one state may be hundreds
+            self._deadline.check()  # touches of one state may be hundreds
             rest = bound.get(at, INFINITE_KEY)
             if spent + rest >= limit:
                 continue
@@ -123,24 +123,24 @@ class Ways:
 
     def to_goal(self) -> dict[int, int]:
         """Least key to the goal without a touch, by projected state."""
-        return self._weights.of_own(self._own().to_goal(self._clock))
+        return self._weights.of_own(self._own().to_goal(self._deadline))
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        return self._weights.of_own(self._own().through(need, self._clock))
+        return self._weights.of_own(self._own().through(need, self._deadline))
 
     def _own(self) -> "OwnWays":
-        return self._encoding.derived(OwnWays, self._touches, self._clock)
+        return self._encoding.derived(OwnWays, self._touches, self._deadline)
 
 
 class OwnWays:
     """His ways backward, in the unit of :func:`search.keys.own_weights`; kept with the packed task."""
 
-    def __init__(self, encoding: Encoding, touches: Touches, clock: Clock) -> None:
+    def __init__(self, encoding: Encoding, touches: Touches, deadline: Deadline) -> None:
         self._weights = own_weights(encoding)
         self._touches = touches
-        self._distances = encoding.derived(own_projection, clock).distances
-        self._moves = encoding.derived(human_graph, clock).moves
+        self._distances = encoding.derived(own_projection, deadline).distances
+        self._moves = encoding.derived(human_graph, deadline).moves
         self._field = encoding.own_index.field & touches.mask
         self._by_value: dict[int, list[int]] = {}
         for at in self._distances:
@@ -148,20 +148,20 @@ class OwnWays:
         self._to_goal: dict[int, int] | None = None
         self._through: dict[int, dict[int, int]] = {}
 
-    def to_goal(self, clock: Clock) -> dict[int, int]:
+    def to_goal(self, deadline: Deadline) -> dict[int, int]:
         """Least cost to the goal without a touch, by projected state."""
         if self._to_goal is None:
             goals = [(0, at) for at, rest in self._distances.items() if rest == 0]
-            self._to_goal = backward(goals, [self._moves], clock)
+            self._to_goal = backward(goals, [self._moves], deadline)
         return self._to_goal
 
-    def through(self, need: int, clock: Clock) -> dict[int, int]:
+    def through(self, need: int, deadline: Deadline) -> dict[int, int]:
         """Least cost to the goal with a first touch of a need, by projected state."""
         found = self._through.get(need)
         if found is None:
             if len(self._through) * len(self._distances) > _MOST_KEPT:
                 self._through.clear()
-            found = self._through[need] = backward(self._entries(need), [self._moves], clock)
+            found = self._through[need] = backward(self._entries(need), [self._moves], deadline)
         return found
 
     def _entries(self, need: int) -> Iterator[tuple[int, int]]:

@@ -101,7 +101,7 @@ def bounds_along(
     ways, outside = tables.ways, tables.touches.outside
     steps = tables.followed(plan)
     followed = [op for op, _ in steps]
-    providers = Providers(tables.encoding, tables.touches, robots, followed, tables.clock)
+    providers = Providers(tables.encoding, tables.touches, robots, followed, tables.deadline)
     state, cost = tables.encoding.init, 0
     sources, spent = [], []
     for epoch, (op, option) in enumerate(steps):
@@ -159,7 +159,7 @@ def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) 
     last = NEVER if horizon is None else horizon
     if not idle:
         ways = tables.ways
-        providers = Providers(tables.encoding, tables.touches, tables.weights.robots, (), tables.clock)
+        providers = Providers(tables.encoding, tables.touches, tables.weights.robots, (), tables.deadline)
         least = ways.explore([(0, tables.encoding.init)], limit).totals
 
         def total(need: int, cost: int) -> int:

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from serendipity.loading import load, load_agents, load_pddl
     from serendipity.model import (
         Certificate,
+        Deadline,
         InputError,
+        LimitReachedError,
         Options,
         PlanError,
         PlanStep,
@@ -43,8 +45,10 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Certificate",
+    "Deadline",
     "Explanation",
     "InputError",
+    "LimitReachedError",
     "Options",
     "PlanError",
     "PlanStep",

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import partial
 
-from search import Clock
 from search.assistance import Assistance, assist
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.policy import Costs
@@ -13,7 +13,7 @@ from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import Task
 
 
-def assistance_answers(task: Task, options: Options, clock: Clock) -> Iterator[Callable[[], Result]]:
+def assistance_answers(task: Task, options: Options, deadline: Deadline) -> Iterator[Callable[[], Result]]:
     """Answers of falling value, put into words when called; the last one is the best known.
 
     ``cost`` and ``objective`` are the sum of both totals, ``lower_bound`` bounds that sum for
@@ -23,11 +23,11 @@ def assistance_answers(task: Task, options: Options, clock: Clock) -> Iterator[C
     Raises:
         UsageError: there is not exactly one robot.
     """
-    for answer in assist(task, options, clock):
-        yield partial(_result, task, options, answer, clock)
+    for answer in assist(task, options, deadline):
+        yield partial(_result, task, options, answer, deadline)
 
 
-def _result(task: Task, options: Options, answer: Assistance, clock: Clock) -> Result:
+def _result(task: Task, options: Options, answer: Assistance, deadline: Deadline) -> Result:
     human_cost = None if answer.human_plan is None else task.cost_of(answer.human_plan)
     names = None if answer.human_plan is None else tuple(task.actions[i].name for i in answer.human_plan)
     upper = answer.upper
@@ -52,7 +52,7 @@ def _result(task: Task, options: Options, answer: Assistance, clock: Clock) -> R
         plan=steps,
         agent_costs={} if upper is None else _totals(task, upper),
         statistics={
-            "elapsed_seconds": clock.elapsed(),
+            "elapsed_seconds": deadline.elapsed(),
             "expanded": answer.expanded,
             "bounds": {"lower": _texts(answer.lower), "upper": None if upper is None else _texts(upper)},
         },

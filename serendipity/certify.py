@@ -5,7 +5,7 @@ from dataclasses import replace
 from time import perf_counter
 from typing import Final
 
-from serendipity.model import Certificate, Claim, InputError, Result, Task
+from serendipity.model import Certificate, Claim, Deadline, InputError, Result, Task
 from verify.rules import RuleReport
 from verify.rules import check as check_rules
 
@@ -54,7 +54,7 @@ def _by_walking(task: Task, result: Result) -> Iterator[Claim]:
     """Claims of a policy (SPEC 7): what a walk through its states shows within a moment."""
     from verify.policy import check_policy
 
-    for claim in check_policy(task, result, time_limit=_A_MOMENT, replay_only=True):
+    for claim in check_policy(task, result, Deadline(_A_MOMENT), replay_only=True):
         late = claim.verdict == "undecided"
         yield (
             replace(claim, verdict="not_in_scope", reason=f"not examined: {claim.reason}") if late else claim

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from search import Clock, Outcome
+from search import Outcome
+from serendipity.model.deadline import Deadline
 
 
 def news(outcomes: Iterator[Outcome]) -> Iterator[Outcome]:
@@ -24,11 +25,11 @@ class Gap:
     """Objective and lower bound over time: an entry for each that is better than before.
 
     Args:
-        clock: of the call.
+        deadline: of the call.
     """
 
-    def __init__(self, clock: Clock) -> None:
-        self._clock = clock
+    def __init__(self, deadline: Deadline) -> None:
+        self._deadline = deadline
         self._entries: list[dict[str, float | None]] = []
 
     def record(self, outcome: Outcome) -> None:
@@ -38,7 +39,7 @@ class Gap:
             "lower_bound": None if outcome.lower_bound is None else float(outcome.lower_bound),
         }
         if not self._entries or any(self._entries[-1][name] != value for name, value in now.items()):
-            self._entries.append({"seconds": self._clock.elapsed(), **now})
+            self._entries.append({"seconds": self._deadline.elapsed(), **now})
 
     def known(self) -> tuple[dict[str, float | None], ...]:
         """The entries so far."""

@@ -7,12 +7,13 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
-from search import Clock, Outcome, OutOfTimeError, least_over_ties, optimal_human_plans, solve
+from search import Outcome, least_over_ties, optimal_human_plans, solve
 from search.simulation import solve_for_human
 from serendipity.gap import Gap, news
 from serendipity.model.actions import GroundAction
 from serendipity.model.collection import no_collection
-from serendipity.model.errors import UsageError
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
@@ -38,6 +39,7 @@ def plan(
     human_plan: Iterable[str] | None = None,
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
+    deadline: Deadline | None = None,
     goals: "GoalsGiven | None" = None,
     observed: "ObservedGiven" = (),
     beta: Number = 1,
@@ -52,6 +54,8 @@ def plan(
         visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
             ``human_model="local"`` sees; None for what is where he is.
         cancelled: set from another thread, it ends the call like a time limit.
+        deadline: one that other work shares, such as loading the task; it holds beside
+            ``time_limit`` and ``memory_limit``, which are of this call alone.
         goals: goals that the human may have, instead of the task's, as :func:`recognise` takes
             them: the least expected cost over their posterior is wanted (SPEC 8).
         observed: what he has done from the initial state on, for the posterior.
@@ -71,11 +75,15 @@ def plan(
         from serendipity.goals.planning import plan_for_goals
 
         def known(about: Task, names: tuple[str, ...] | None) -> Result:
-            return plan(about, human_plan=names, visible=visible, cancelled=cancelled, **options)
+            return plan(
+                about, human_plan=names, visible=visible, cancelled=cancelled, deadline=deadline, **options
+            )
 
-        return plan_for_goals(task, goals, observed, beta, options_from(options), known, cancelled=cancelled)
+        chosen = options_from(options)
+        limits = (deadline or Deadline()).within(chosen.time_limit, chosen.memory_limit, cancelled)
+        return plan_for_goals(task, goals, observed, beta, chosen, known, limits)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
-        *_, last = _answers(task, human_plan, visible, options, cancelled)
+        *_, last = _answers(task, human_plan, visible, options, cancelled, deadline)
         return last()
 
 
@@ -85,13 +93,14 @@ def plan_anytime(
     human_plan: Iterable[str] | None = None,
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
+    deadline: Deadline | None = None,
     **options: Any,
 ) -> Iterator[Result]:
     """Answers with falling objective and rising lower bound; the last is what :func:`plan` returns.
 
     Args and errors are those of :func:`plan`.
     """
-    answers = _answers(task, human_plan, visible, options, cancelled)
+    answers = _answers(task, human_plan, visible, options, cancelled, deadline)
     while True:
         with no_collection():  # only while it plans: what the caller does with an answer is his
             answer = next(answers, None)
@@ -107,18 +116,20 @@ class _Call:
 
     task: Task
     options: Options
-    clock: Clock
+    deadline: Deadline
     visible: Visible | None
+    limits: Deadline
+    """The deadline with the time that is kept for the end."""
 
     def outcomes(self, human_plan: HumanPlan | None) -> Iterator[Outcome]:
         if self.options.human_model == "omniscient":
-            return solve(self.task, self.options, human_plan=human_plan, clock=self.clock)
+            return solve(self.task, self.options, human_plan=human_plan, deadline=self.deadline)
         return solve_for_human(
-            self.task, self.options, human_plan=human_plan, visible=self.visible, clock=self.clock
+            self.task, self.options, human_plan=human_plan, visible=self.visible, deadline=self.deadline
         )
 
     def last(self, human_plan: HumanPlan | None) -> Result:
-        gap = Gap(self.clock)
+        gap = Gap(self.deadline)
         for outcome in news(self.outcomes(human_plan)):
             gap.record(outcome)
         return _to_result(self, outcome, gap.known())
@@ -129,35 +140,36 @@ def _answers(
     human_plan: Iterable[str] | None,
     visible: Visible | None,
     options: dict[str, Any],
-    cancelled: threading.Event | None = None,
+    cancelled: threading.Event | None,
+    outer: Deadline | None,
 ) -> Iterator[Callable[[], Result]]:
     """Answers that are put into words only if somebody asks for them."""
     chosen = options_from(options)
     if visible is not None and chosen.human_model != "local":
         raise UsageError(f"visible: is for human_model 'local' only, not for '{chosen.human_model}'")
-    limit = chosen.time_limit
-    clock = Clock(None if limit is None else (1 - _ANSWER_SHARE) * limit, cancelled)
+    limits = (outer or Deadline()).within(chosen.time_limit, chosen.memory_limit, cancelled)
+    deadline = limits.sooner(_ANSWER_SHARE)
     given = None if human_plan is None else task.plan_from_names(human_plan)
     if chosen.mode == "assistance":
         if given is not None:
             raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")
-        yield from _assistance(task, chosen, clock)
+        yield from _assistance(task, chosen, deadline)
         return
-    call = _Call(task, chosen, clock, visible)
+    call = _Call(task, chosen, deadline, visible, limits)
     if chosen.ties != "fixed" and given is None and _depends_on_ties(chosen):
         yield partial(_over_ties, call)
         return
-    gap = Gap(clock)
+    gap = Gap(deadline)
     for outcome in news(call.outcomes(given)):
         gap.record(outcome)
         yield partial(_to_result, call, outcome, gap.known())
 
 
-def _assistance(task: Task, options: Options, clock: Clock) -> Iterator[Callable[[], Result]]:
+def _assistance(task: Task, options: Options, deadline: Deadline) -> Iterator[Callable[[], Result]]:
     # Loaded only here: the other modes have nothing to do with it.
     from serendipity.assistance import assistance_answers
 
-    return assistance_answers(task, options, clock)
+    return assistance_answers(task, options, deadline)
 
 
 def options_from(given: dict[str, Any]) -> Options:
@@ -186,9 +198,9 @@ def _over_ties(call: _Call) -> Result:
     """The task solved once for each optimal ``pi_H`` (SPEC 1)."""
     options = call.options
     try:
-        graph = optimal_human_plans(call.task, call.clock)
-    except OutOfTimeError:
-        return _to_result(call, Outcome("unknown", reason="time-limit"))
+        graph = optimal_human_plans(call.task, call.deadline)
+    except LIMITS as limit:
+        return _to_result(call, Outcome("unknown", reason=limit_reason(limit)))
     if graph is None:
         return call.last(None)
     count = graph.count()
@@ -201,10 +213,10 @@ def _over_ties(call: _Call) -> Result:
         map(call.last, graph.plans()),
         options.ties,
         bounded=not call.task.robot_goal,
-        least=lambda: _float(least_over_ties(call.task, options, graph, call.clock)),
+        least=lambda: _float(least_over_ties(call.task, options, graph, call.deadline)),
     )
     result = combined(list(answers), options.ties)
-    measured = {"elapsed_seconds": call.clock.elapsed(), "optimal_plans": count}
+    measured = {"elapsed_seconds": call.deadline.elapsed(), "optimal_plans": count}
     return replace(result, statistics={**result.statistics, **measured})
 
 
@@ -234,7 +246,7 @@ def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | No
         agent_costs={} if outcome.steps is None else _agent_costs(task, prices, outcome.steps),
         realised=_realised(call, outcome),
         statistics={
-            "elapsed_seconds": call.clock.elapsed(),
+            "elapsed_seconds": call.deadline.elapsed(),
             "expanded": outcome.expanded,
             "generated": outcome.generated,
             "gap": list(gap),
@@ -249,7 +261,6 @@ def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
     """
     if outcome.steps is None or outcome.cost is None:
         return {}
-    limit = call.options.time_limit
     try:
         return realised(
             call.task,
@@ -259,14 +270,10 @@ def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
             cost=outcome.cost,
             horizon=outcome.horizon,
             visible=call.visible,
-            clock=Clock(None if limit is None else _left_for_verdict(limit, call.clock)),
+            deadline=call.limits.sooner(-_VERDICT_SHARE),
         )
-    except OutOfTimeError:
+    except LIMITS:
         return {}
-
-
-def _left_for_verdict(limit: float, clock: Clock) -> float:
-    return (1 + _VERDICT_SHARE) * limit - clock.elapsed()
 
 
 def _saving(outcome: Outcome) -> Fraction | None:

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Final
 
-from search import Clock
 from search.simulation import Epoch, Simulated
 from search.simulation import simulate as play
+from serendipity.model.deadline import Deadline
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
@@ -59,18 +59,18 @@ def realised(
     cost: Fraction,
     horizon: int | str | None,
     visible: Visible | None = None,
-    clock: Clock,
+    deadline: Deadline,
 ) -> dict[str, bool]:
     """The verdicts that a result carries: always ``observant``, ``local`` if it was planned for.
 
     Raises:
-        OutOfTimeError: the clock ran out.
+        LimitReachedError: the deadline ran out.
     """
     models = ("observant",) if options.human_model != "local" else HUMAN_MODELS
     epochs = horizon if isinstance(horizon, int) else None
     verdicts = {}
     for model in models:
-        clock.check()  # what comes first can't be interrupted, and takes milliseconds on big tasks
+        deadline.check()  # what comes first can't be interrupted, and takes milliseconds on big tasks
         simulated = play(
             task,
             options,
@@ -79,7 +79,7 @@ def realised(
             human_model=model,
             horizon=epochs,
             visible=visible,
-            clock=clock,
+            deadline=deadline,
         )
         verdicts[model] = simulated.realised(cost)
     return verdicts

@@ -1,9 +1,9 @@
 """The human's key from a state, asked within limits: what is not below a limit is not out of reach."""
 
-from search.clock import Clock
 from search.keys import INFINITE_KEY
 from search.tables import Tables
 from serendipity.model import Options, Task
+from serendipity.model.deadline import Deadline
 from tests.builders import task as build
 
 
@@ -20,7 +20,7 @@ def _door() -> Task:
 
 def test_what_is_beyond_a_limit_is_found_under_a_higher_one() -> None:
     task = _door()
-    tables = Tables(task, Options(), Clock())
+    tables = Tables(task, Options(), Deadline())
     alone, keys = tables.alone, tables.keys
     encoding = tables.encoding
     start = encoding.init

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 
 from search import best_first, solve
-from search.clock import Clock
 from serendipity import Result, plan, plan_anytime
 from serendipity.model import Options
+from serendipity.model.deadline import Deadline
 from tests.cases import case_2
 from tests.strategies import Call, calls
 
@@ -53,7 +53,7 @@ def test_reported_bounds_hold(call: Call) -> None:
     options = replace(call.options, time_limit=None)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(best_first.Progress, "due", lambda *_: True)
-        outcomes = list(solve(call.task, options, human_plan=call.human_plan, clock=Clock()))
+        outcomes = list(solve(call.task, options, human_plan=call.human_plan, deadline=Deadline()))
     last = outcomes[-1]
     bounds = [o.lower_bound for o in outcomes if o.lower_bound is not None]
     if last.status == "optimal":

@@ -5,11 +5,11 @@ from heapq import heappop, heappush
 import pytest
 from hypothesis import given
 
-from search.clock import Clock
 from search.keys import INFINITE_KEY
 from search.tables import Tables
 from search.windows import free_bounds
 from serendipity.model import Options, Task
+from serendipity.model.deadline import Deadline
 from serendipity.planning import plan
 from tests.builders import task, usar
 from tests.strategies import strips_tasks, tasks
@@ -69,7 +69,7 @@ def _distances(sources: set[int], edges: dict[int, list[tuple[int, int]]]) -> di
 
 def assert_admissible(task: Task, options: Options, over: int | None) -> int:
     """How many states the bound tells something about."""
-    tables = Tables(task, options, Clock())
+    tables = Tables(task, options, Deadline())
     graph = Graph(tables)
     best = graph.rest.get(tables.encoding.init, INFINITE_KEY)
     limit = INFINITE_KEY if over is None else best + tables.keys.of_action(tables.encoding.costs[-1]) * over
@@ -102,7 +102,7 @@ def test_bound_holds_on_random_tasks(discount: str) -> None:
 
 def test_a_robot_that_holds_nothing_does_not_make_help_free() -> None:
     task = relays()[0]
-    tables = Tables(task, _DISCOUNTED, Clock())
+    tables = Tables(task, _DISCOUNTED, Deadline())
     ids = {fact: i for i, fact in enumerate(task.facts)}
     left, holds = {ids["at k a"], ids["at rob b"]}, {ids["has rob k"], ids["has_medkit rob"], ids["at rob a"]}
     state = tables.encoding.pack(task.init - left | holds)

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given
 
 import serendipity
-from search import Clock, least_over_ties, optimal_human_plans, solve
+from search import least_over_ties, optimal_human_plans, solve
 from serendipity import UsageError
 from serendipity.model import Condition, Options, Result, Task, Window
+from serendipity.model.deadline import Deadline
 from serendipity.ties import combined, until_settled
 from tests.builders import task as build
 from tests.builders import usar
@@ -81,7 +82,7 @@ def test_the_bound_is_one(call: Call) -> None:
     if graph is None or not 1 < graph.count() <= 12:
         return
     options = call.options
-    bound = least_over_ties(task, options, graph, Clock())
+    bound = least_over_ties(task, options, graph, Deadline())
     assert bound is not None
     costs = []
     for plan in graph.plans():

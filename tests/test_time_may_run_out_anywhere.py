@@ -5,9 +5,10 @@ from typing import Any
 
 import pytest
 
-from search.clock import Clock, OutOfTimeError
 from serendipity import Task, plan, planning
 from serendipity.model import Result
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LimitReachedError
 from tests.cases import case_2, case_4
 
 CALLS: list[dict[str, Any]] = [
@@ -26,28 +27,28 @@ CALLS: list[dict[str, Any]] = [
 ]
 
 
-class Countdown(Clock):
-    """A clock that runs out at a given look at it; ticks are looks, too."""
+class Countdown(Deadline):
+    """A deadline that runs out at a given look at it; ticks are looks, too."""
 
-    left = 0
+    looks = 0
 
     def check(self) -> None:
-        type(self).left -= 1
-        if self.left < 0:
-            raise OutOfTimeError
+        type(self).looks -= 1
+        if self.looks < 0:
+            raise LimitReachedError("time-limit")
 
     tick = check
 
 
 def answers(task: Task, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> list[Result]:
-    """What a call says if the first look at the clock is the last, the second one, and so on."""
-    monkeypatch.setattr(planning, "Clock", Countdown)
+    """What a call says if the first look at the deadline is the last, the second one, and so on."""
+    monkeypatch.setattr(planning, "Deadline", Countdown)
     found = []
     looks = 0
     while True:
-        Countdown.left = looks
+        Countdown.looks = looks
         found.append(plan(replace(task), time_limit=1, **options))  # a copy knows nothing yet
-        if Countdown.left >= 0:
+        if Countdown.looks >= 0:
             return found
         looks = max(looks + 1, looks * 9 // 8)  # each of the first ones, then fewer of them
 

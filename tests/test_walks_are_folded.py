@@ -5,10 +5,10 @@ from itertools import product
 import pytest
 
 import serendipity
-from search.clock import Clock
 from search.encoding import encoding
 from search.tables import Tables
 from search.walks import Walks
+from serendipity.model.deadline import Deadline
 from tests import builders
 
 OPTIONS = (
@@ -70,8 +70,8 @@ def test_what_else_a_move_changes_makes_it_a_deed():
     moves = {"go r a b": "at-a -> at-b !at-a", "go r b a": "at-b -> at-a !at-b !open"}
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
-    packed = encoding(task, Clock())
-    walks = Walks(packed, Clock())
+    packed = encoding(task, Deadline())
+    walks = Walks(packed, Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.foldable
     assert walks.distance(0, a, b) == 1
@@ -83,8 +83,8 @@ def test_a_walk_that_asks_for_more_than_a_place_is_a_deed():
     moves = {"go r a b": "at-a lit -> at-b !at-a", "go r b a": "at-b -> at-a !at-b"}
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
-    packed = encoding(task, Clock())
-    walks = Walks(packed, Clock())
+    packed = encoding(task, Deadline())
+    walks = Walks(packed, Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.distance(0, a, b) == -1
     assert walks.distance(0, b, a) == 1
@@ -95,4 +95,4 @@ def _step_by_step(tables, plan):
 
 
 def _foldable(task):
-    return Walks(encoding(task, Clock()), Clock()).foldable
+    return Walks(encoding(task, Deadline()), Deadline()).foldable

@@ -8,9 +8,7 @@ from fractions import Fraction
 
 from serendipity.model import HumanPlan, Task
 from verify.epochs import applicable
-from verify.rules.alone import Alone, TooManyStatesError
-
-__all__ = ["OptimalPlans", "TooManyStatesError"]
+from verify.rules.alone import Alone
 
 State = frozenset[int]
 
@@ -21,7 +19,7 @@ Worth = tuple[Fraction, int]
 class OptimalPlans:
     """His optimal plans, from what the rule checker knows of their cost.
 
-    Every method raises :class:`TooManyStatesError` where his own problem is too large.
+    Every method raises :class:`verify.undecided.TooManyStatesError` where his own problem is too large.
     """
 
     def __init__(self, task: Task, alone: Alone | None = None) -> None:

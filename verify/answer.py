@@ -7,7 +7,7 @@ from itertools import islice
 
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from verify.alone import OptimalPlans
-from verify.call import Call, UndecidedError
+from verify.call import Call
 from verify.joint import cheapest
 from verify.minimise import Effort
 from verify.question import Found
@@ -102,4 +102,4 @@ def calls(
     return [Call(task, options, plan, plans, effort) for plan in tied or [None]]
 
 
-__all__ = ["TIED_MODES", "Answer", "UndecidedError", "answer", "best_plan", "calls", "idle_cost"]
+__all__ = ["TIED_MODES", "Answer", "answer", "best_plan", "calls", "idle_cost"]

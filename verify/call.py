@@ -9,22 +9,10 @@ from verify.alone import OptimalPlans
 from verify.following import cheapest_following
 from verify.minimise import Effort, Minimum, minimise
 from verify.question import EXACT, FREE, WINDOW, Found, Prices, Question, prices
+from verify.undecided import UndecidedError
 
 Score = tuple[int, int]
 """Objective and cost in units: the order of SPEC 3.1 as far as it is proved."""
-
-
-class UndecidedError(Exception):
-    """A minimum that the answer depends on could not be proved; the text says why.
-
-    Attributes:
-        bound: no better plan than the one examined has an objective below so many units;
-            None where nothing is known.
-    """
-
-    def __init__(self, reason: str, bound: int | None = None) -> None:
-        super().__init__(reason)
-        self.bound = bound
 
 
 @dataclass(frozen=True)

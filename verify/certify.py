@@ -7,6 +7,7 @@ from time import perf_counter
 from serendipity.model import (
     Certificate,
     Claim,
+    Deadline,
     HumanPlan,
     InputError,
     PlanError,
@@ -15,9 +16,9 @@ from serendipity.model import (
     Task,
     UsageError,
 )
-from verify.alone import OptimalPlans, TooManyStatesError
+from verify.alone import OptimalPlans
 from verify.answer import TIED_MODES, answer, calls
-from verify.call import Call, UndecidedError
+from verify.call import Call
 from verify.claims import Examiner
 from verify.goals import check_goals
 from verify.humans import HumanExaminer, human_cost
@@ -28,6 +29,7 @@ from verify.rules.alone import Alone
 from verify.rules.replay import replay, replay_human
 from verify.simulator import realised_claim
 from verify.solver import solver_version
+from verify.undecided import UNDECIDED, why
 
 _REPLAYED = {
     "replay": "every step follows the rules and the goals hold at the end",
@@ -66,9 +68,9 @@ def certify(
     started = perf_counter()
     _require_same_task(task, result)
     if result.mode == "assistance":
-        claims = check_policy(task, result, time_limit=time_limit)
+        claims = check_policy(task, result, Deadline(time_limit))
         return Certificate(claims, perf_counter() - started)
-    deadline = None if time_limit is None else started + time_limit
+    deadline = Deadline(time_limit)
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     version = solver_version(solver)
     if "goals" in result.statistics:
@@ -164,7 +166,7 @@ class _Certifier:
         names = self.result.human_plan
         try:
             canonical = self.plans.canonical()
-        except TooManyStatesError:
+        except UNDECIDED:
             return ""
         if names is None or canonical is None:
             return ""
@@ -237,8 +239,8 @@ class _Certifier:
         started = perf_counter()
         try:
             worth = self.plans.worth(self.task.init)
-        except TooManyStatesError:
-            worth, verdict, reason = None, "undecided", "the human's own problem is too large"
+        except UNDECIDED as error:
+            worth, verdict, reason = None, "undecided", why(error)
         else:
             least = None if worth is None else float(worth[0])
             right = least == self.result.cost and (
@@ -268,8 +270,8 @@ class _Certifier:
             tied = calls(self.task, self.result.options, None, self.effort, self.plans)
             replans = self.result.options.human_model != "omniscient"
             costs = [human_cost(call) if replans else answer(call).cost for call in tied]
-        except (UndecidedError, TooManyStatesError) as error:
-            reason = str(error) or "the human's own problem is too large"
+        except UNDECIDED as error:
+            reason = why(error)
         except UsageError as error:
             verdict, reason = "refuted", str(error)
         else:

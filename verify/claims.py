@@ -5,14 +5,14 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import INFINITE, Claim, Result, Step
-from verify.alone import TooManyStatesError
 from verify.answer import Answer, answer, best_plan, idle_cost
-from verify.call import Call, Score, UndecidedError
+from verify.call import Call, Score
 from verify.joint import cheapest
 from verify.minimise import minimise
 from verify.question import Found, Question
 from verify.results import found_result, plan_steps
 from verify.rules import Checker
+from verify.undecided import UNDECIDED, UndecidedError, why
 
 Verdict = tuple[str, str, Found | None]
 """Verdict, reason, counter-example."""
@@ -48,13 +48,11 @@ class Examiner:
             verdict, reason, found = examine()
             if verdict == "proved" and name in _BOUNDED:
                 bound = self.result.lower_bound
-        except UndecidedError as error:
-            verdict, reason, found = "undecided", str(error), None
-            bound = self._known(error.bound)
+        except UNDECIDED as error:
+            verdict, reason, found = "undecided", why(error), None
+            bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
             if bound is not None:
                 reason += f"; no answer has an objective below {bound:.12g}"
-        except TooManyStatesError:
-            verdict, reason, found = "undecided", "the human's own problem is too large", None
         example = None
         if found is not None:
             example = plan_steps(self.call, found.steps)

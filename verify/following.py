@@ -6,6 +6,7 @@ same time or after its end.  A clock that stops at that end is part of the state
 
 from collections.abc import Iterator
 
+from serendipity.model import Deadline
 from verify.encodings.relevance import relevant_part
 from verify.epochs import conflicting
 from verify.joint import Bundle, JointSearch, State
@@ -13,12 +14,12 @@ from verify.minimise import Minimum
 from verify.question import Question
 
 
-def cheapest_following(question: Question, deadline: float | None) -> Minimum:
+def cheapest_following(question: Question, deadline: Deadline) -> Minimum:
     """The least cost of a plan in which he executes ``pi_H`` epoch by epoch and is then idle.
 
     Args:
         question: its horizon is not looked at.
-        deadline: value of ``time.perf_counter`` at which to give up, or None.
+        deadline: when to give up.
     """
     part = relevant_part(question)
     return Minimum("none") if part is None else _Following(question, part).run(deadline)

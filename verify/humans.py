@@ -3,11 +3,12 @@
 from fractions import Fraction
 from functools import cached_property
 
-from verify.call import Call, UndecidedError
+from verify.call import Call
 from verify.claims import Examiner, Verdict
 from verify.question import Found
 from verify.reactions import cheapest_reaction
 from verify.simulator import play
+from verify.undecided import UndecidedError
 
 
 class HumanExaminer(Examiner):

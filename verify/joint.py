@@ -8,10 +8,9 @@ Only sets in which actions disable each other in a circle have to stay together.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from heapq import heappop, heappush
-from time import perf_counter
 from typing import Final
 
-from serendipity.model import GroundAction, Step, Task
+from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, Task
 from verify.encodings.automata.network import FAR, distances, goal_states
 from verify.encodings.automata.product import automata
 from verify.encodings.relevance import Relevant, relevant_part
@@ -36,12 +35,12 @@ class Bundle:
     cost: int
 
 
-def cheapest(question: Question, deadline: float | None) -> Minimum:
+def cheapest(question: Question, deadline: Deadline) -> Minimum:
     """The least cost of a plan with any number of epochs, within the question's limits.
 
     Args:
         question: its horizon is not looked at; its rule is ``free``.
-        deadline: value of ``time.perf_counter`` at which to give up, or None.
+        deadline: when to give up.
     """
     part = relevant_part(question)
     if part is None:
@@ -84,7 +83,7 @@ class JointSearch:
         self.unwanted = part.facts.intersection([f for c in conditions for f in c.negative])
         self.left = LeastLeft(question, part)
 
-    def run(self, deadline: float | None) -> Minimum:
+    def run(self, deadline: Deadline) -> Minimum:
         """The cheapest plan within the question's limits."""
         start = self.start
         best = {start: 0}
@@ -103,8 +102,10 @@ class JointSearch:
                 return self._found(state, best[state], parent)
             if len(closed) > MOST_STATES:
                 return Minimum("undecided", bound=estimate, reason=f"more than {MOST_STATES} joint states")
-            if deadline is not None and len(closed) % 256 == 0 and perf_counter() > deadline:
-                return Minimum("undecided", bound=estimate, reason="time limit")
+            try:
+                deadline.tick()
+            except LimitReachedError as limit:
+                return Minimum("undecided", bound=estimate, reason=str(limit))
             for bundle in self.applicable(state):
                 after = (state - bundle.delete) | bundle.add
                 total = best[state] + bundle.cost

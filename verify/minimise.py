@@ -7,16 +7,16 @@ learns what suffixes from that state cost (or that there is none) and is solved 
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from time import perf_counter
 from typing import Final, Protocol
 
-from serendipity.model import Step, UsageError, Window
-from verify.alone import OptimalPlans, TooManyStatesError
+from serendipity.model import Deadline, Step, UsageError, Window
+from verify.alone import OptimalPlans
 from verify.encodings.automata import AutomataEncoding
 from verify.encodings.paper import PaperEncoding
 from verify.epochs import applicable, conflicting
 from verify.question import WINDOW, Found, Question
 from verify.solver import SOLVERS, Model, optimise
+from verify.undecided import UNDECIDED, why
 
 State = frozenset[int]
 
@@ -49,7 +49,7 @@ class Effort:
     Attributes:
         encoding: one of :data:`ENCODINGS`.
         solver: one of ``verify.solver.SOLVERS``.
-        deadline: value of ``time.perf_counter`` at which to stop, or None.
+        deadline: when to stop.
         size: columns and rows of the largest program so far.
         programs: number of questions that were put to an encoding.
         calls: number of solver calls; fewer where an encoding sees by itself that there is no plan.
@@ -57,7 +57,7 @@ class Effort:
 
     encoding: str = "automata"
     solver: str = "highs"
-    deadline: float | None = None
+    deadline: Deadline = field(default_factory=Deadline)
     size: dict[str, int] = field(default_factory=lambda: {"variables": 0, "constraints": 0})
     programs: int = 0
     calls: int = 0
@@ -67,16 +67,6 @@ class Effort:
             raise UsageError(f"encoding: expected one of {', '.join(ENCODINGS)}, got {self.encoding!r}")
         if self.solver not in SOLVERS:
             raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {self.solver!r}")
-
-    @property
-    def seconds_left(self) -> float | None:
-        """Seconds before the deadline, or None."""
-        return None if self.deadline is None else self.deadline - perf_counter()
-
-    @property
-    def out_of_time(self) -> bool:
-        """Whether the deadline has passed."""
-        return self.deadline is not None and perf_counter() >= self.deadline
 
     def note(self, size: dict[str, int]) -> None:
         """A program that is about to be solved."""
@@ -111,13 +101,12 @@ def minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimum
     """
     try:
         return _minimise(question, effort, plans)
-    except TooManyStatesError:
-        return Minimum("undecided", reason="the human's own problem is too large")
+    except UNDECIDED as error:
+        return Minimum("undecided", reason=why(error))
 
 
 def _minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimum:
-    if effort.out_of_time:
-        return Minimum("undecided", reason="time limit")
+    effort.deadline.check()
     if question.horizon == 0:
         return _nothing_to_do(question)
     effort.programs += 1
@@ -127,7 +116,7 @@ def _minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimu
     cut: set[tuple[int, State]] = set()
     while encoding.model is not None:
         effort.note(encoding.model.size)
-        outcome = optimise(encoding.model, solver=effort.solver, seconds=effort.seconds_left)
+        outcome = optimise(encoding.model, solver=effort.solver, seconds=effort.deadline.left())
         if outcome.status == "infeasible":
             break
         found = None

@@ -8,10 +8,9 @@ worse, since robots can do the same from it, only sooner).
 """
 
 from collections.abc import Iterable, Iterator
-from time import perf_counter
 from typing import Final
 
-from serendipity.model import Step, surroundings
+from serendipity.model import LimitReachedError, Step, surroundings
 from verify.call import Call
 from verify.encodings.relevance import relevant_part
 from verify.epochs import applicable, conflicting
@@ -72,9 +71,10 @@ class _Reactions:
             for now in layer:
                 if len(self.known) > MOST_MOMENTS:
                     return Minimum("undecided", best, reason=f"more than {MOST_MOMENTS} states and minds")
-                deadline = self.call.effort.deadline
-                if deadline is not None and perf_counter() > deadline:
-                    return Minimum("undecided", best, reason="time limit")
+                try:
+                    self.call.effort.deadline.check()
+                except LimitReachedError as limit:
+                    return Minimum("undecided", best, reason=str(limit))
                 for after, total in self._play(epoch, now):
                     if self.game.done(after.state):
                         best, self.most = self._found(epoch, after, total), total - 1

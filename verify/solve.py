@@ -6,13 +6,13 @@ from fractions import Fraction
 from time import perf_counter
 from typing import Any
 
-from serendipity.model import HumanPlan, Options, Result, Task, UsageError
-from verify.alone import OptimalPlans, TooManyStatesError
+from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageError
+from verify.alone import OptimalPlans
 from verify.answer import Answer, answer, calls
-from verify.call import UndecidedError
 from verify.minimise import Effort
 from verify.results import to_result
 from verify.solver import solver_version
+from verify.undecided import UNDECIDED, why
 
 
 def solve(
@@ -43,7 +43,7 @@ def solve(
     if options.mode == "assistance" or options.human_model != "omniscient":
         raise UsageError("solve: expected a mode other than 'assistance' and the omniscient human model")
     started = perf_counter()
-    deadline = None if options.time_limit is None else started + options.time_limit
+    deadline = Deadline(options.time_limit, options.memory_limit)
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     given: HumanPlan | None = None if human_plan is None else task.plan_from_names(human_plan)
     plans = OptimalPlans(task)
@@ -51,10 +51,9 @@ def solve(
         answers = [answer(call) for call in calls(task, options, given, effort, plans)]
         tied = given is None and options.ties != "fixed" and plans.canonical() is not None
         result = over_ties(answers, options.ties) if tied and len(answers) > 1 else to_result(answers[0])
-    except (UndecidedError, TooManyStatesError) as error:
-        reason = str(error) or "the human's own problem is too large"
+    except UNDECIDED as error:
         human = task.agents[task.human]
-        result = Result(options.mode, "unknown", human, options, reason=reason)
+        result = Result(options.mode, "unknown", human, options, reason=why(error))
     statistics = {
         "elapsed_seconds": perf_counter() - started,
         "solver": solver_version(solver),

@@ -8,13 +8,14 @@ from typing import TypeVar
 from search.assistance.bound import Bound
 from search.assistance.branching import Branching
 from search.assistance.game import INFINITE, Game
-from search.assistance.phase import PhaseClock
+from search.assistance.phase import PhaseDeadline
 from search.assistance.relaxed import joint_lower_bound, upper_bound_alone
 from search.assistance.rules import Mean, Worst
 from search.assistance.shortest import Shortest
 from search.assistance.solution import ZERO, Costs, Solution
 from search.assistance.writing import Writer
-from search.clock import Clock, OutOfTimeError
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.policy import Policy
@@ -48,30 +49,30 @@ class Assistance:
     expanded: int = 0
 
 
-def assist(task: Task, options: Options, clock: Clock) -> Iterator[Assistance]:
+def assist(task: Task, options: Options, deadline: Deadline) -> Iterator[Assistance]:
     """Answers of falling value; the last one is the best known.
 
     Args:
         task: one human and one robot.
-        options: ``ties``, ``no_block`` and ``time_limit`` count.
-        clock: deadline and cancellation.
+        options: ``ties`` and ``no_block`` count.
+        deadline: deadline and cancellation.
 
     Raises:
         UsageError: there is not exactly one robot.
     """
-    half = None if options.time_limit is None else options.time_limit / 2
-    own_clock = PhaseClock(clock, half)
+    left = deadline.left()
+    own_deadline = PhaseDeadline(deadline, None if left is None else left / 2)
     try:
-        game = Game(task, clock, own_clock)
-    except OutOfTimeError:
-        yield Assistance("unknown", ZERO, reason="time-limit")
+        game = Game(task, deadline, own_deadline)
+    except LIMITS as limit:
+        yield Assistance("unknown", ZERO, reason=limit_reason(limit))
         return
     try:
         game.alone(game.init)
-    except OutOfTimeError:
-        yield from _without_his_optimum(game)
+    except LIMITS as limit:
+        yield from _without_his_optimum(game, limit_reason(limit))
         return
-    own_clock.lift()
+    own_deadline.lift()
     writer = Writer(game, options.ties)
     search: Shortest | Branching | None = None
     try:
@@ -80,24 +81,24 @@ def assist(task: Task, options: Options, clock: Clock) -> Iterator[Assistance]:
             yield _answer(writer, search, "feasible")
         solved = search.solution(floors=False).upper is not None
         yield _answer(writer, search, "optimal" if solved else "infeasible")
-    except OutOfTimeError:
-        yield _unfinished(game, writer, search)
+    except LIMITS as limit:
+        yield _unfinished(game, writer, search, limit_reason(limit))
 
 
-def _without_his_optimum(game: Game) -> Iterator[Assistance]:
+def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:
     """Bounds where the prime's optimal cost could not be worked out in half of the time."""
     lower = game.pair(min(joint_lower_bound(game), INFINITE - 1))
     try:
         upper = upper_bound_alone(game)
-    except OutOfTimeError:
+    except LIMITS:
         upper = INFINITE
     if upper >= INFINITE:
-        yield Assistance("unknown", lower, reason="time-limit")
+        yield Assistance("unknown", lower, reason=limit)
     else:
         yield Assistance("feasible", lower, upper=game.pair(upper), policy=Policy((), None))
 
 
-def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None) -> Assistance:
+def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None, limit: str) -> Assistance:
     """What is known when the time is up: doing nothing is always an answer, if he has a plan."""
     if search is not None:
         known = search.solution(floors=False)
@@ -112,7 +113,7 @@ def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None)
         lower = max(lower, search.solution(floors=False).lower or ZERO)
     alone = game.alone(game.init)  # known since the first phase
     if alone >= INFINITE:
-        return Assistance("unknown", lower, reason="time-limit")
+        return Assistance("unknown", lower, reason=limit)
     idle = Solution(lower, game.pair(alone))
     return Assistance(
         "feasible",
@@ -142,7 +143,7 @@ def _answer(writer: Writer, search: Shortest | Branching, status: str) -> Assist
         human_plan=_in_time(writer.human_plan),
         policy=writer.policy(solution, with_floors=status == "optimal") if has_policy else None,
         plan=_in_time(partial(writer.plan, solution)) if has_policy else None,
-        reason={"infeasible": "no-plan", "unknown": "time-limit"}.get(status),
+        reason="no-plan" if status == "infeasible" else None,
         expanded=search.expanded,
     )
 
@@ -151,15 +152,15 @@ def _in_time(write: Callable[[], _T]) -> _T | None:
     """What ``write`` returns; None where the time is up before it knows the prime's choices."""
     try:
         return write()
-    except OutOfTimeError:
+    except LIMITS:
         return None
 
 
-def joint_optimum(task: Task, clock: Clock | None = None) -> Costs | None:
+def joint_optimum(task: Task, deadline: Deadline | None = None) -> Costs | None:
     """The bound on every policy from ``I``: both together, without turns, or a relaxation of it.
 
     None where not even both together reach the goal.
     """
-    game = Game(task, clock or Clock())
+    game = Game(task, deadline or Deadline())
     value = Bound(game)(game.init)
     return None if value >= INFINITE else game.pair(value)

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 
-from search.clock import Clock
 from search.encoding import Goal
 from search.keys import INFINITE_KEY
+from serendipity.model.deadline import Deadline
 
 if TYPE_CHECKING:
     from search.assistance.closure import Arc
@@ -189,12 +189,12 @@ class Ball:
         places: where states are.
         arcs: the transitions, each of a minor weight above 0.
         goals: places of distance 0.
-        clock: asked for time.
+        deadline: asked for time.
     """
 
-    def __init__(self, places: Places, arcs: "Sequence[Arc]", goals: Array, clock: Clock) -> None:
+    def __init__(self, places: Places, arcs: "Sequence[Arc]", goals: Array, deadline: Deadline) -> None:
         self._places = places
-        self._clock = clock
+        self._deadline = deadline
         wide = places.bits <= _WIDE_BITS
         self._minor_bits, major_bits = (14, 17) if wide else (8, 8)
         heaviest = max((arc.weight >> MINOR_BITS for arc in arcs), default=0)
@@ -256,7 +256,7 @@ class Ball:
             places = places[(known[places] - 1 >> self._minor_bits) == level]
             if int((known[places] - 1 & minor_mask).max(initial=0)) > self._most_minor:
                 return False
-            self._clock.check()
+            self._deadline.check()
             self._buckets[level] = []
             self._expand(places)
         del self._buckets[heappop(self._queue)]
@@ -302,7 +302,7 @@ def ball_around(
     fields: Sequence[int],
     values: Sequence[Sequence[int]],
     start: int,
-    clock: Clock,
+    deadline: Deadline,
 ) -> Ball | None:
     """A ball that a state can be asked of; None where it would be too large, or a step is free."""
     if not fields or not all(arc.weight for arc in arcs):
@@ -311,7 +311,7 @@ def ball_around(
     if places.bits > MAX_BITS or places.steps(arcs) > _MOST_STEPS:
         return None
     goals = places.holding(goal)
-    return None if goals is None else Ball(places, arcs, goals, clock)
+    return None if goals is None else Ball(places, arcs, goals, deadline)
 
 
 def _distinct(values: Array) -> Array:

@@ -59,4 +59,4 @@ def _joint_closure(game: Game) -> Closure:
             arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << shift))
     fields = game.encoding.fields
     values = [game.encoding.values(field) for field in fields]
-    return Closure(arcs, game.goal, fields, values, MAX_JOINT_STATES, game.clock)
+    return Closure(arcs, game.goal, fields, values, MAX_JOINT_STATES, game.deadline)

@@ -45,7 +45,7 @@ class Branching:
         """Search; yields whenever the best policy known gets better.
 
         Raises:
-            OutOfTimeError: the clock ran out; the solution so far stands.
+            LimitReachedError: the deadline ran out; the solution so far stands.
         """
         graph, game = self._graph, self._game
         if graph.final(game.init):
@@ -59,13 +59,13 @@ class Branching:
         while graph.choice_value(game.init) < self._upper:
             self._raise_bounds()
             policy = self._best_policy()
-            values = evaluate(policy, self._rule, self._outside, game.clock)
+            values = evaluate(policy, self._rule, self._outside, game.deadline)
             value = values.get(game.init, self._rule.infinite)
             if value < self._upper:
                 self._upper, self._policy, self._values = value, policy, values
                 yield
             if graph.choice_value(game.init) < self._upper:
-                solve_all(graph, game.clock)
+                solve_all(graph, game.deadline)
 
     def _raise_bounds(self) -> None:
         """Pass until nothing rises, or nothing new is looked at for a while: then runs return."""
@@ -120,7 +120,7 @@ class Branching:
     def _count(self) -> None:
         self.expanded += 1
         if not self.expanded % _CHECK_EVERY:
-            self._game.clock.check()
+            self._game.deadline.check()
 
     def _outside(self, state: int) -> Value:
         """States without a move are final, or lost."""

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from search.clock import Clock
 from search.encoding import Goal
 from search.keys import INFINITE_KEY
+from serendipity.model.deadline import Deadline
 
 if TYPE_CHECKING:
     from search.assistance.ball import Ball
@@ -58,7 +58,7 @@ class Closure:
         fields: masks of the fields that a state consists of.
         values: all values of each field.
         limit: most states of one closure.
-        clock: asked for time.
+        deadline: asked for time.
     """
 
     def __init__(
@@ -68,14 +68,14 @@ class Closure:
         fields: Sequence[int],
         values: Sequence[Sequence[int]],
         limit: int,
-        clock: Clock,
+        deadline: Deadline,
     ) -> None:
         self._arcs = [arc for arc in arcs if arc.condition.need >= 0]
         self._goal = goal
         self._fields = fields
         self._values = values
         self._limit = limit
-        self._clock = clock
+        self._deadline = deadline
         self._known: dict[int, int] = {}
         self._by_field = _by_field(self._arcs, fields)
         self._layers: list[Layers] = []
@@ -116,7 +116,7 @@ class Closure:
             state = pending.pop()
             count += 1
             if not count % _CHECK_EVERY:
-                self._clock.check()
+                self._deadline.check()
             if state in known:
                 seeds.append((known[state], state))
             elif holds(state):
@@ -173,7 +173,7 @@ class Closure:
         from search.assistance.layers import Layers
 
         try:
-            self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._clock))
+            self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._deadline))
         except TooManyStatesError:
             return False
         return True
@@ -184,7 +184,7 @@ class Closure:
 
         if self._balls:
             return False
-        ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._clock)
+        ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._deadline)
         if ball is not None:
             self._balls.append(ball)
         return ball is not None

@@ -12,18 +12,18 @@ from heapq import heappop, heappush
 from search.assistance.evaluate import Option, evaluate, option_value
 from search.assistance.graph import Graph
 from search.assistance.rules import Mean, Value
-from search.clock import Clock
+from serendipity.model.deadline import Deadline
 
 Model = dict[int, list[Option]]
 
 _CHECK_EVERY = 256
 
 
-def solve_all(graph: Graph, clock: Clock) -> None:
+def solve_all(graph: Graph, deadline: Deadline) -> None:
     """Raise all bounds to the values of what has been looked at, and set ``graph.pick``."""
     model = {state: [graph.option(state, move) for move in moves] for state, moves in graph.choices.items()}
     solve = _mean if isinstance(graph.rule, Mean) else _worst
-    values, policy = solve(graph, model, clock)
+    values, policy = solve(graph, model, deadline)
     for state in model:
         value = values.get(state, graph.rule.infinite)
         if value > graph.low[state]:
@@ -37,8 +37,8 @@ def solve_all(graph: Graph, clock: Clock) -> None:
 Solved = tuple[dict[int, Value], dict[int, Option]]
 
 
-def _worst(graph: Graph, model: Model, clock: Clock) -> Solved:
-    return _Settling(graph, model).run(clock)
+def _worst(graph: Graph, model: Model, deadline: Deadline) -> Solved:
+    return _Settling(graph, model).run(deadline)
 
 
 class _Settling:
@@ -54,7 +54,7 @@ class _Settling:
         self._waiting: dict[int, list[tuple[int, int]]] = {}
         self._missing: dict[tuple[int, int], int] = {}
 
-    def run(self, clock: Clock) -> Solved:
+    def run(self, deadline: Deadline) -> Solved:
         """Values and options of all states from which the end can be forced."""
         for state, options in self._model.items():
             for i, option in enumerate(options):
@@ -64,7 +64,7 @@ class _Settling:
             if state in self._values:
                 continue
             if not len(self._values) % _CHECK_EVERY:
-                clock.check()
+                deadline.check()
             self._values[state] = value
             for before, i in self._waiting.get(state, ()):
                 self._missing[before, i] -= 1
@@ -91,13 +91,13 @@ class _Settling:
         return self._values[state] if state in self._model else self._graph.choice_value(state)
 
 
-def _mean(graph: Graph, model: Model, clock: Clock) -> Solved:
+def _mean(graph: Graph, model: Model, deadline: Deadline) -> Solved:
     rule = graph.rule
-    model = _certain(graph, model, clock)
+    model = _certain(graph, model, deadline)
     policy = _attracted(model)
     while True:
-        clock.check()
-        values = evaluate(policy, rule, graph.choice_value, clock)
+        deadline.check()
+        values = evaluate(policy, rule, graph.choice_value, deadline)
 
         def value_of(state: int, values: dict[int, Value] = values) -> Value:
             return values[state] if state in model else graph.choice_value(state)
@@ -112,10 +112,10 @@ def _mean(graph: Graph, model: Model, clock: Clock) -> Solved:
             return values, policy
 
 
-def _certain(graph: Graph, model: Model, clock: Clock) -> Model:
+def _certain(graph: Graph, model: Model, deadline: Deadline) -> Model:
     """The states from which some policy ends with certainty, with the options that stay among them."""
     while True:
-        clock.check()
+        deadline.check()
         kept = {
             state: [option for option in options if _stays(graph, model, option)]
             for state, options in model.items()

@@ -7,7 +7,7 @@ from search.assistance.components import components
 from search.assistance.game import Move
 from search.assistance.linear import Row, solve_linear
 from search.assistance.rules import Mean, Rule, Value
-from search.clock import Clock
+from serendipity.model.deadline import Deadline
 
 
 class Option(NamedTuple):
@@ -32,14 +32,16 @@ def option_value(option: Option, rule: Rule, value_of: Outside) -> Value:
     return rule.add(option.move.value, rest)
 
 
-def evaluate(policy: Mapping[int, Option], rule: Rule, outside: Outside, clock: Clock) -> dict[int, Value]:
+def evaluate(
+    policy: Mapping[int, Option], rule: Rule, outside: Outside, deadline: Deadline
+) -> dict[int, Value]:
     """Values of all states of a policy; infinite where a run may not end.
 
     Args:
         policy: per state the option chosen.
         rule: how the prime's moves count.
         outside: values of states that are not in the policy.
-        clock: asked for time.
+        deadline: asked for time.
     """
     values: dict[int, Value] = {}
 
@@ -51,7 +53,7 @@ def evaluate(policy: Mapping[int, Option], rule: Rule, outside: Outside, clock: 
         for state, option in policy.items()
     }
     for component in components(policy, onward):
-        clock.check()
+        deadline.check()
         first = component[0]
         if len(component) == 1 and first not in onward[first]:
             values[first] = option_value(policy[first], rule, value_of)

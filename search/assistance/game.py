@@ -13,10 +13,10 @@ from typing import Final, NamedTuple
 
 from search.assistance.own import UNREACHABLE, OwnCosts
 from search.assistance.watched import Watched
-from search.clock import Clock
 from search.encoding import Encoding, encoding
 from search.ops import Op, applicable
 from serendipity.model.actions import Condition
+from serendipity.model.deadline import Deadline
 from serendipity.model.errors import UsageError
 from serendipity.model.task import Task
 
@@ -42,20 +42,20 @@ class Game:
     Args:
         task: one human (the prime) and one robot (the supporter); joint actions are
             nobody's move.
-        clock: asked for time.
-        own_clock: asked for time while the prime's own optimum is worked out; default ``clock``.
+        deadline: asked for time.
+        own_deadline: asked for time while the prime's own optimum is worked out; default ``deadline``.
 
     Raises:
         UsageError: there is not exactly one robot.
     """
 
-    def __init__(self, task: Task, clock: Clock, own_clock: Clock | None = None) -> None:
+    def __init__(self, task: Task, deadline: Deadline, own_deadline: Deadline | None = None) -> None:
         if len(task.robots) != 1:
             raise UsageError(f"mode: 'assistance' is for one robot, the task has {len(task.robots)}")
         self.task = replace(task, robot_goal=Condition()) if task.robot_goal else task
-        self.clock = clock
-        self._own_clock = own_clock or clock
-        self.encoding: Encoding = encoding(self.task, clock)
+        self.deadline = deadline
+        self._own_deadline = own_deadline or deadline
+        self.encoding: Encoding = encoding(self.task, deadline)
         self.init = self.encoding.init
         self.goal = self.encoding.goal
         self.scale = lcm(1, *(cost.denominator for cost in self.encoding.costs))
@@ -68,7 +68,7 @@ class Game:
     @cached_property
     def own(self) -> OwnCosts:
         """The prime by himself."""
-        return OwnCosts(self.encoding, self._scaled, self._own_clock)
+        return OwnCosts(self.encoding, self._scaled, self._own_deadline)
 
     def cost(self, op: Op) -> int:
         """Scaled cost of an op."""

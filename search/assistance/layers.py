@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from search.clock import Clock
 from search.encoding import Goal
 from search.keys import INFINITE_KEY
+from serendipity.model.deadline import Deadline
 
 if TYPE_CHECKING:
     from search.assistance.closure import Arc
@@ -51,19 +51,25 @@ class Layers:
         fields: masks of the fields that a state consists of, ascending.
         start: the state.
         limit: most states.
-        clock: asked for time.
+        deadline: asked for time.
 
     Raises:
         TooManyStatesError: there are more, or a state does not fit a machine word.
     """
 
     def __init__(
-        self, arcs: "Sequence[Arc]", goal: Goal, fields: Sequence[int], start: int, limit: int, clock: Clock
+        self,
+        arcs: "Sequence[Arc]",
+        goal: Goal,
+        fields: Sequence[int],
+        start: int,
+        limit: int,
+        deadline: Deadline,
     ) -> None:
         self._compressed = _Compressed(fields)
         heaviest = max((arc.weight for arc in arcs), default=0)
         self._too_many_unless(self._compressed.bits <= _WORD_BITS and heaviest < _MAX_WEIGHT)
-        self._clock = clock
+        self._deadline = deadline
         self._limit = limit
         self._tests = [self._test(arc.condition) for arc in arcs]
         self._effects = [self._effect(arc) for arc in arcs]
@@ -108,7 +114,7 @@ class Layers:
         """Every state reachable from ``start``, ascending; the goal goes nowhere."""
         known = frontier = start
         while len(frontier):
-            self._clock.check()
+            self._deadline.check()
             frontier = np.delete(frontier, self._where(self._goal, frontier))
             found = [np.empty(0, dtype=np.int64)]
             size = 0
@@ -134,7 +140,7 @@ class Layers:
         buckets: dict[int, list[Array]] = {0: [goals]}
         queue = [0]
         while queue:
-            self._clock.check()
+            self._deadline.check()
             level = heappop(queue)
             nodes = _distinct(np.concatenate(buckets.pop(level)))
             nodes = nodes[distances[nodes] == level]
@@ -170,7 +176,7 @@ class Layers:
         final = np.zeros(len(states), dtype=bool)
         final[self._where(self._goal, states)] = True
         for test, (keep, put), weight in zip(self._tests, self._effects, self._arc_weights, strict=True):
-            self._clock.check()
+            self._deadline.check()
             at = self._where(test, states)
             at = at[~final[at]]
             if len(at):

@@ -9,11 +9,11 @@ from typing import Final
 from search.alone import Alone
 from search.assistance.closure import Arc, Closure, TooManyStatesError
 from search.assistance.watched import Watched
-from search.clock import Clock
 from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY
 from search.ops import Op, applicable
 from search.projection import Projection
+from serendipity.model.deadline import Deadline
 
 LENGTH_BITS: Final = 24
 UNREACHABLE: Final = INFINITE_KEY
@@ -29,12 +29,12 @@ class OwnCosts:
     Args:
         encoding: the packed task.
         scaled: integer cost by the index of an op's cost.
-        clock: asked for time.
+        deadline: asked for time.
     """
 
-    def __init__(self, encoding: Encoding, scaled: list[int], clock: Clock) -> None:
+    def __init__(self, encoding: Encoding, scaled: list[int], deadline: Deadline) -> None:
         self._encoding = encoding
-        self._clock = clock
+        self._deadline = deadline
         self._weights = [(cost << LENGTH_BITS) + 1 for cost in scaled]
         self._changed = encoding.changed_by(encoding.own)
         self._mask = encoding.own_mask | encoding.goal.mask
@@ -90,13 +90,13 @@ class OwnCosts:
                 arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))
         fields = [field for field in self._encoding.fields if field & changed]
         values = [self._encoding.values(field) for field in fields]
-        return Closure(arcs, goal, fields, values, MAX_STATES, self._clock)
+        return Closure(arcs, goal, fields, values, MAX_STATES, self._deadline)
 
     def _search(self, state: int, limit: int) -> int:
         if self._single is None:
             encoding, weights = self._encoding, self._weights
             blind = Projection(0, {0: 0})
-            self._single = Alone(encoding, encoding.goal, lambda op: weights[op.cost], blind, self._clock)
+            self._single = Alone(encoding, encoding.goal, lambda op: weights[op.cost], blind, self._deadline)
         return self._single.key(state, limit)
 
 

@@ -208,7 +208,7 @@ class Provision:
                 continue
             closed.add(at)
             if not len(closed) % _CHECK_EVERY:
-                self._game.clock.check()
+                self._game.deadline.check()
             g = best[at]
             if at in known or self._holds(at):
                 if at not in known:

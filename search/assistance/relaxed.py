@@ -32,7 +32,7 @@ def upper_bound_alone(game: Game) -> int:
     """The value of some plan of the prime's own; ``INFINITE`` if he has none.
 
     Raises:
-        OutOfTimeError: none was found in time.
+        LimitReachedError: none was found in time.
     """
     task, goal = game.task, game.task.goal
     relaxation = _Relaxation(task, _actions(game, prime=True, shift=UNIT_BITS), _sum)
@@ -52,7 +52,7 @@ def upper_bound_alone(game: Game) -> int:
             if after in seen:
                 continue
             seen.add(after)
-            game.clock.check()
+            game.deadline.check()
             facts = relaxation.costs(after)
             estimate = sum(facts.get(fact, INFINITE) for fact in goal.positive)
             if estimate < INFINITE:

@@ -67,7 +67,7 @@ class Shortest:
         """Search; yields whenever ``upper`` falls.  On return it is the optimum.
 
         Raises:
-            OutOfTimeError: the clock ran out; ``lower``, ``upper`` and the solution stand.
+            LimitReachedError: the deadline ran out; ``lower``, ``upper`` and the solution stand.
         """
         game = self._game
         root = _Node(game.init, False, 0, None, NOOP)
@@ -87,7 +87,7 @@ class Shortest:
                     self._push(node, estimate, ready=True)
                     continue
             if not self.expanded % _CHECK_EVERY:
-                game.clock.check()
+                game.deadline.check()
             self.expanded += 1
             known = self._best.value
             self._expand(node, f)

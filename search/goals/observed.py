@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from heapq import heappop, heappush
 
-from search.clock import Clock
 from search.encoding import Encoding
 from search.keys import INFINITE_KEY, Weights
 from search.ops import OpIndex, forms_of
 from search.projection import human_projection
 from search.successors import Lookup
 from serendipity.model.actions import Condition
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan, Task
 
@@ -40,7 +40,7 @@ class Explanation:
 
 
 def explanations(
-    task: Task, goals: Sequence[Condition], observed: Sequence[str], clock: Clock | None = None
+    task: Task, goals: Sequence[Condition], observed: Sequence[str], deadline: Deadline | None = None
 ) -> list[Explanation]:
     """One explanation for each goal.
 
@@ -48,12 +48,12 @@ def explanations(
         task: the task; robots idle, its own goal plays no part.
         goals: the candidate goals.
         observed: names of actions, in the order in which he did them.
-        clock: deadline and cancellation.
+        deadline: deadline and cancellation.
     """
-    clock = clock or Clock()
+    deadline = deadline or Deadline()
     nothing = Condition()
     return [
-        _Search(replace(task, goal=goal, robot_goal=nothing), tuple(observed), clock).explanation()
+        _Search(replace(task, goal=goal, robot_goal=nothing), tuple(observed), deadline).explanation()
         for goal in goals
     ]
 
@@ -61,20 +61,20 @@ def explanations(
 class _Search:
     """A* over what matters to one goal and to the observations."""
 
-    def __init__(self, task: Task, observed: tuple[str, ...], clock: Clock) -> None:
+    def __init__(self, task: Task, observed: tuple[str, ...], deadline: Deadline) -> None:
         seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
         asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
-        packed = Encoding(task, frozenset(asked), clock)
+        packed = Encoding(task, frozenset(asked), deadline)
         weights = Weights(packed, Options(), None)
         own = sorted({op.action for op in packed.own} | seen)
-        forms = forms_of((packed.op(i) for i in own), packed.all_ones, clock)
+        forms = forms_of((packed.op(i) for i in own), packed.all_ones, deadline)
         self._lookup = Lookup(OpIndex(forms, packed.fields), weights.alone)
         self._keys = weights.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal
-        self._bound = human_projection(packed, weights, clock)
+        self._bound = human_projection(packed, weights, deadline)
         self._observed = observed
-        self._clock = clock
+        self._deadline = deadline
         self._start: _At = (packed.init, 0)
 
     def explanation(self) -> Explanation:
@@ -106,7 +106,7 @@ class _Search:
             if at in closed:
                 continue
             closed.add(at)
-            self._clock.tick()
+            self._deadline.tick()
             if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
                 optimum = min(optimum, key)
                 ends.append(at)

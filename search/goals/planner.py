@@ -18,7 +18,6 @@ from heapq import heappop, heappush
 from itertools import count
 from math import lcm
 
-from search.clock import Clock, OutOfTimeError
 from search.goals.outcome import Candidate, Expected, Served
 from search.goals.tables import SharedTables, shared_packing, task_for, timeline
 from search.goals.timeline import Ended, Situation
@@ -26,6 +25,8 @@ from search.keys import INFINITE_KEY
 from search.outcome import Outcome, path_steps, plan_steps
 from search.planner import solve
 from search.successors import NOTHING, Option, Successors, as_option, together
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window
 from serendipity.model.task import Task
@@ -38,7 +39,7 @@ _SAME = 2
 
 
 def solve_expected(
-    task: Task, options: Options, candidates: Sequence[Candidate], clock: Clock | None = None
+    task: Task, options: Options, candidates: Sequence[Candidate], deadline: Deadline | None = None
 ) -> Expected:
     """The robots' plan of least expected objective, or doing nothing if none is cheaper than that.
 
@@ -46,13 +47,13 @@ def solve_expected(
         task: the task; its own goal plays no part, and robots have none.
         options: mode ``serendipity``; ``horizon`` None means the length of the longest plan.
         candidates: at least one; weights add up to 1.
-        clock: deadline and cancellation.
+        deadline: deadline and cancellation.
     """
-    search = _Search(task, options, candidates, clock or Clock(options.time_limit))
+    search = _Search(task, options, candidates, deadline or Deadline(options.time_limit))
     try:
         search.prepare()
         search.run()
-    except OutOfTimeError:
+    except LIMITS:
         return search.answer("feasible")
     return search.answer("optimal")
 
@@ -81,13 +82,15 @@ class _Best:
 class _Search:
     """One call."""
 
-    def __init__(self, task: Task, options: Options, candidates: Sequence[Candidate], clock: Clock) -> None:
+    def __init__(
+        self, task: Task, options: Options, candidates: Sequence[Candidate], deadline: Deadline
+    ) -> None:
         self._task = task
         self._candidates = candidates
         longest = max(len(candidate.plan) for candidate in candidates)
         self._horizon = int(options.horizon) if options.horizon is not None else longest
         self._options = options.but(horizon=self._horizon, time_limit=None)
-        self._clock = clock
+        self._deadline = deadline
         self._scale = lcm(*(candidate.weight.denominator for candidate in candidates))
         self._shares = [int(candidate.weight * self._scale) for candidate in candidates]
         self._floors: list[_Rank] = [(0, 0)] * len(candidates)
@@ -100,9 +103,9 @@ class _Search:
 
     def prepare(self) -> None:
         """Tables, incumbents and floors: what each candidate alone would allow."""
-        packed = shared_packing(self._task, self._options, self._candidates, self._clock)
+        packed = shared_packing(self._task, self._options, self._candidates, self._deadline)
         tables = [
-            SharedTables(packed, task_for(self._task, candidate), self._options, self._clock)
+            SharedTables(packed, task_for(self._task, candidate), self._options, self._deadline)
             for candidate in self._candidates
         ]
         self._keys = tables[0].keys
@@ -124,14 +127,14 @@ class _Search:
     def _alone_known(self, candidate: Candidate) -> Outcome:
         """The answer of section 3, were this the goal for certain."""
         task = task_for(self._task, candidate)
-        *_, last = solve(task, self._options, human_plan=candidate.plan, clock=self._clock)
+        *_, last = solve(task, self._options, human_plan=candidate.plan, deadline=self._deadline)
         self._expanded += last.expanded
         self._generated += last.generated
         return last
 
     def _floor(self, candidate: Candidate, outcome: Outcome) -> _Rank:
         """No timeline of the candidate ranks below this: committed robots can do no better."""
-        self._clock.check()
+        self._deadline.check()
         window = self._options.window_weight
         if outcome.status != "optimal" or outcome.cost is None or outcome.objective is None:
             return (0, 0)
@@ -174,7 +177,7 @@ class _Search:
         seen: dict[object, int] = {}
         while queue and queue[0][0] < self._decisive():
             self._bound, _, _, node = heappop(queue)
-            self._clock.check()
+            self._deadline.check()
             self._expanded += 1
             for robots in self._choices(node):
                 child = self._child(node, robots, self._acting)

@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from search.clock import Clock
 from search.encoding import Encoding, human_facts
 from search.goals.outcome import Candidate
 from search.goals.timeline import Timeline
 from search.keys import Weights
 from search.tables import Tables
 from search.windows import suffix_rule
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.task import Task
 
@@ -21,26 +21,28 @@ class SharedTables(Tables):
         packed: packs what any candidate asks for.
         task: the task with the candidate as its goal.
         options: options in force.
-        clock: asked for time.
+        deadline: asked for time.
     """
 
-    def __init__(self, packed: Encoding, task: Task, options: Options, clock: Clock) -> None:
+    def __init__(self, packed: Encoding, task: Task, options: Options, deadline: Deadline) -> None:
         self.task = task
         self.options = options
-        self.clock = clock
+        self.deadline = deadline
         self.encoding = packed.for_goal(task)
         self.weights = Weights(packed, options, None)
         self.keys = self.weights.keys
 
 
-def shared_packing(task: Task, options: Options, candidates: Sequence[Candidate], clock: Clock) -> Encoding:
+def shared_packing(
+    task: Task, options: Options, candidates: Sequence[Candidate], deadline: Deadline
+) -> Encoding:
     """A packing of every fact that a candidate or its plan asks for."""
     asked: set[int] = set(human_facts(task)) if options.preservation == "state" else set()
     for candidate in candidates:
         asked.update(candidate.goal.positive, candidate.goal.negative)
         for action in (task.actions[i] for i in candidate.plan):
             asked.update(action.pre, action.neg)
-    return Encoding(task, frozenset(asked), clock)
+    return Encoding(task, frozenset(asked), deadline)
 
 
 def timeline(tables: SharedTables, candidate: Candidate, horizon: int) -> Timeline:

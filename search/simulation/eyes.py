@@ -9,8 +9,8 @@ a bit by itself.
 from dataclasses import replace
 from typing import Protocol
 
-from search.clock import Clock
 from search.encoding import Encoding
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 from serendipity.model.variables import Variable
 from serendipity.model.visibility import Surroundings, Visible, surroundings
@@ -92,45 +92,47 @@ class AsTold:
         return seen
 
 
-def doubtful_encoding(task: Task, extra: frozenset[int], clock: Clock) -> Encoding:
+def doubtful_encoding(task: Task, extra: frozenset[int], deadline: Deadline) -> Encoding:
     """The task packed for a human who may be wrong, location facts included.
 
     Args:
         task: the task.
         extra: facts to pack besides; without any the encoding is kept with the task.
-        clock: asked for time.
+        deadline: asked for time.
     """
     if not extra:
-        return task.derived(_doubtful, clock)
-    return Encoding(_doubted(task, clock), extra.union(surroundings(task, clock.tick).located), clock)
+        return task.derived(_doubtful, deadline)
+    return Encoding(
+        _doubted(task, deadline), extra.union(surroundings(task, deadline.tick).located), deadline
+    )
 
 
-def complete_encoding(task: Task, clock: Clock) -> Encoding:
+def complete_encoding(task: Task, deadline: Deadline) -> Encoding:
     """The same with every fact packed, for callers who say what is visible; kept with it."""
-    return task.derived(_complete, clock)
+    return task.derived(_complete, deadline)
 
 
-def _doubtful(task: Task, clock: Clock) -> Encoding:
-    return Encoding(_doubted(task, clock), frozenset(surroundings(task, clock.tick).located), clock)
+def _doubtful(task: Task, deadline: Deadline) -> Encoding:
+    return Encoding(_doubted(task, deadline), frozenset(surroundings(task, deadline.tick).located), deadline)
 
 
-def _complete(task: Task, clock: Clock) -> Encoding:
-    return Encoding(_doubted(task, clock), frozenset(range(len(task.facts))), clock)
+def _complete(task: Task, deadline: Deadline) -> Encoding:
+    return Encoding(_doubted(task, deadline), frozenset(range(len(task.facts))), deadline)
 
 
-def _doubted(task: Task, clock: Clock) -> Task:
+def _doubted(task: Task, deadline: Deadline) -> Task:
     """The task for somebody who may be wrong about everything that others change.
 
     His own variables stay; every other fact is one by itself.
     """
     shared: set[int] = set()
     for action in task.actions:
-        clock.tick()
+        deadline.tick()
         if task.human not in action.participants:
             shared.update(action.add, action.delete)
     found: list[Variable] = []
     for variable in task.variables:  # which take long to find: they are not looked for again
-        clock.tick()
+        deadline.tick()
         if shared.isdisjoint(variable.facts):
             found.append(variable)
         else:

@@ -5,13 +5,13 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from search.alone import Alone, Priced, canonical
-from search.clock import Clock
 from search.encoding import Encoding, encoding
 from search.keys import INFINITE_KEY, Weights
 from search.ops import Op, applicable
 from search.projection import Projection, human_projection
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.task import Task
 from serendipity.model.visibility import Visible, surroundings
@@ -43,7 +43,7 @@ class Human:
     Args:
         task: the task.
         options: discount and weights.
-        clock: asked for time.
+        deadline: asked for time.
         human_model: ``observant`` or ``local``.
         actions: ids of actions that will be asked about, beyond the useful ones.
         visible: what a local human sees; None for the default.
@@ -53,7 +53,7 @@ class Human:
         self,
         task: Task,
         options: Options,
-        clock: Clock,
+        deadline: Deadline,
         *,
         human_model: str,
         actions: Collection[int] = (),
@@ -61,18 +61,18 @@ class Human:
     ) -> None:
         local = human_model == "local"
         told = local and visible is not None
-        plain, self.encoding = _encodings(task, actions, clock, local=local, told=told)
+        plain, self.encoding = _encodings(task, actions, deadline, local=local, told=told)
         self.weights = Weights(self.encoding, options, None)
         self.keys = self.weights.keys
-        bound = human_projection(plain, self.weights, clock)
+        bound = human_projection(plain, self.weights, deadline)
         self.bound = _translated(bound, plain, self.encoding) if local else bound
         self.alone = (
-            Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, clock)
+            Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, deadline)
             if local
-            else Priced(self.encoding, self.weights, clock)
+            else Priced(self.encoding, self.weights, deadline)
         )
         self.intentions = Intentions(self.encoding, self.keys, self.weights.human)
-        self.eyes: Eyes = _eyes(task, self.encoding, visible, clock) if local else Everywhere()
+        self.eyes: Eyes = _eyes(task, self.encoding, visible, deadline) if local else Everywhere()
         self.concern = self.encoding.own_mask | self.encoding.goal.mask
         for i in actions:
             if task.actions[i].participants == (task.human,):
@@ -123,18 +123,18 @@ class Human:
 
 
 def _encodings(
-    task: Task, actions: Collection[int], clock: Clock, *, local: bool, told: bool
+    task: Task, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
 ) -> tuple[Encoding, Encoding]:
     """The task packed as it is, and as he sees it; both hold what the actions ask for."""
-    plain = encoding(task, clock)
+    plain = encoding(task, deadline)
     missing = _missing(plain, actions)
     if missing:
-        plain = Encoding(task, missing, clock)
+        plain = Encoding(task, missing, deadline)
     if not local:
         return plain, plain
     if told:
-        return plain, complete_encoding(task, clock)
-    return plain, doubtful_encoding(task, missing, clock)
+        return plain, complete_encoding(task, deadline)
+    return plain, doubtful_encoding(task, missing, deadline)
 
 
 def _missing(packed: Encoding, actions: Collection[int]) -> frozenset[int]:
@@ -162,8 +162,8 @@ def _asked_by(op: Op) -> int:
     return mask
 
 
-def _eyes(task: Task, packed: Encoding, visible: Visible | None, clock: Clock) -> Eyes:
-    return Nearby(packed, surroundings(task, clock.tick)) if visible is None else AsTold(packed, visible)
+def _eyes(task: Task, packed: Encoding, visible: Visible | None, deadline: Deadline) -> Eyes:
+    return Nearby(packed, surroundings(task, deadline.tick)) if visible is None else AsTold(packed, visible)
 
 
 def _translated(bound: Projection, plain: Encoding, packed: Encoding) -> Projection:

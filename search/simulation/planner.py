@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from search.best_first import Incumbent, Progress, best_first
-from search.clock import Clock, OutOfTimeError
 from search.followed import Followed
 from search.keys import INFINITE_KEY
 from search.outcome import Outcome, path_steps, plan_steps
@@ -12,7 +11,8 @@ from search.planner import optimal_human_plans
 from search.simulation.human import Human
 from search.simulation.space import Reactive
 from search.successors import Successors, as_option
-from serendipity.model.errors import UsageError
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.task import HumanPlan, Task
@@ -25,7 +25,7 @@ def solve_for_human(
     *,
     human_plan: HumanPlan | None = None,
     visible: Visible | None = None,
-    clock: Clock | None = None,
+    deadline: Deadline | None = None,
 ) -> Iterator[Outcome]:
     """Answers with falling cost and rising lower bound; the last one is the best known.
 
@@ -38,16 +38,16 @@ def solve_for_human(
         options: options in force; ``human_model`` is not ``omniscient``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         visible: what a local human sees; None for the default.
-        clock: deadline and cancellation.
+        deadline: deadline and cancellation.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
-    clock = clock or Clock(options.time_limit)
+    deadline = deadline or Deadline(options.time_limit)
     try:
-        predicted = optimal_human_plans(task, clock) if human_plan is None else None
-    except OutOfTimeError:
-        yield Outcome("unknown", reason="time-limit")
+        predicted = optimal_human_plans(task, deadline) if human_plan is None else None
+    except LIMITS as limit:
+        yield Outcome("unknown", reason=limit_reason(limit))
         return
     plan = human_plan if predicted is None else predicted.canonical()
     if plan is None:
@@ -58,12 +58,14 @@ def solve_for_human(
         if not task.robot_goal:
             yield _left_alone(task, plan, epochs)
         actions = human_plan or ()
-        human = Human(task, options, clock, human_model=options.human_model, actions=actions, visible=visible)
-    except OutOfTimeError:
+        human = Human(
+            task, options, deadline, human_model=options.human_model, actions=actions, visible=visible
+        )
+    except LIMITS as limit:
         if task.robot_goal:
-            yield Outcome("unknown", human_plan=plan, horizon=epochs, reason="time-limit")
+            yield Outcome("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
         return
-    yield from _Call(task, options, human, plan, epochs, clock).answers()
+    yield from _Call(task, options, human, plan, epochs, deadline).answers()
 
 
 def _left_alone(task: Task, plan: HumanPlan, epochs: int) -> Outcome:
@@ -105,18 +107,19 @@ class _Call:
     """
 
     def __init__(
-        self, task: Task, options: Options, human: Human, plan: HumanPlan, epochs: int, clock: Clock
+        self, task: Task, options: Options, human: Human, plan: HumanPlan, epochs: int, deadline: Deadline
     ) -> None:
         self.task = task
         self.options = options
         self.human = human
         self.plan = plan
-        self.clock = clock
+        self.deadline = deadline
         self.epochs = epochs
         self.progress = Progress()
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)
         self.best = Incumbent(INFINITE_KEY)
+        self.limit: str | None = None
 
     def answers(self) -> Iterator[Outcome]:
         """Each better answer, then the last one with what is proved of it."""
@@ -126,10 +129,11 @@ class _Call:
                 self._search(self.idle, Progress(), idle=True)
                 self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
                 yield self._outcome("feasible")
-            for _ in best_first(self._space(idle=False), self.best, self.progress, self.clock):
+            for _ in best_first(self._space(idle=False), self.best, self.progress, self.deadline):
                 yield self._outcome("feasible")
             status = "optimal" if self._has_answer() else "infeasible"
-        except OutOfTimeError:
+        except LIMITS as limit:
+            self.limit = limit_reason(limit)
             status = "feasible" if self._has_answer() else "unknown"
         yield self._outcome(status)
 
@@ -147,11 +151,11 @@ class _Call:
             goals=(packed.goal, packed.robot_goal),
             successors=self._successors(idle=False),
         )
-        for _ in best_first(space, self.baseline, Progress(), self.clock):
+        for _ in best_first(space, self.baseline, Progress(), self.deadline):
             pass
 
     def _search(self, best: Incumbent, progress: Progress, *, idle: bool) -> None:
-        for _ in best_first(self._space(idle=idle), best, progress, self.clock):
+        for _ in best_first(self._space(idle=idle), best, progress, self.deadline):
             pass
 
     def _space(self, *, idle: bool) -> Reactive:
@@ -203,7 +207,7 @@ class _Call:
             status,
             human_plan=self.plan,
             horizon=self.epochs,
-            reason=_reason(status),
+            reason={"infeasible": "no-plan-within-horizon", "unknown": self.limit}.get(status),
             steps=self._steps(answer) if known else None,
             cost=cost,
             objective=cost,
@@ -225,7 +229,3 @@ class _Call:
             return plan_steps(self.plan)
         assert answer.node is not None, "an incumbent of the search has a node"
         return tuple(sorted(path_steps(answer.node) + plan_steps(answer.tail, answer.end)))
-
-
-def _reason(status: str) -> str | None:
-    return {"infeasible": "no-plan-within-horizon", "unknown": "time-limit"}.get(status)

@@ -4,10 +4,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.clock import Clock
 from search.ops import Op, applicable
 from search.simulation.human import Human, Look
 from search.simulation.intention import Intention
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.task import HumanPlan, Task
@@ -95,7 +95,7 @@ def simulate(
     human_model: str,
     horizon: int | None,
     visible: Visible | None = None,
-    clock: Clock | None = None,
+    deadline: Deadline | None = None,
 ) -> Simulated:
     """What becomes of the robots' part of a plan with a human who replans.
 
@@ -107,17 +107,19 @@ def simulate(
         human_model: ``observant`` or ``local``.
         horizon: ``T``, or None for any.
         visible: what a local human sees; None for the default.
-        clock: asked for time.
+        deadline: asked for time.
 
     Raises:
-        OutOfTimeError: the clock ran out.
+        LimitReachedError: the deadline ran out.
     """
     planned: dict[int, list[int]] = {}
     for step in steps:
         if task.actions[step.action].participants != (task.human,):
             planned.setdefault(step.epoch, []).append(step.action)
     asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
-    human = Human(task, options, clock or Clock(), human_model=human_model, actions=asked, visible=visible)
+    human = Human(
+        task, options, deadline or Deadline(), human_model=human_model, actions=asked, visible=visible
+    )
     return _Run(task, options, human, planned).play(human_plan, horizon)
 
 

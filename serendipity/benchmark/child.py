@@ -10,9 +10,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from search import Clock, Outcome, prepare, solve
+from search import Outcome, prepare, solve
 from serendipity.benchmark.measure import MODES
 from serendipity.benchmark.usage import peak_memory
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.pddl import load
 
@@ -24,7 +25,7 @@ def answered(folder: Path, mode: str, discount: str, time_limit: float) -> dict[
     options = Options(discount=discount, time_limit=time_limit, **MODES[mode])  # type: ignore[arg-type]
 
     def call() -> Outcome:
-        *_, outcome = solve(task, options, clock=Clock(time_limit))
+        *_, outcome = solve(task, options, deadline=Deadline(time_limit))
         return outcome
 
     read_seconds, task = _timed(lambda: load(folder))

@@ -5,10 +5,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from search import Clock, solve
+from search import solve
 from serendipity.benchmark import fast_downward
 from serendipity.benchmark.answer import Answer
 from serendipity.model.collection import no_collection
+from serendipity.model.deadline import Deadline
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.task import Task
 
@@ -37,7 +38,7 @@ def _search(task: Task, options: Options) -> Answer:
     """Every table that the task does not have yet is built inside the time."""
     with no_collection():  # as `plan` does
         start = time.process_time()
-        *_, outcome = solve(task, options, clock=Clock(options.time_limit))
+        *_, outcome = solve(task, options, deadline=Deadline(options.time_limit))
         seconds = time.process_time() - start
     return Answer(seconds, outcome.status, None if outcome.cost is None else float(outcome.cost))
 

@@ -4,13 +4,11 @@ Epoch 1 is the first epoch of the human's plans, and observations are actions of
 his current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
 """
 
-import threading
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
 
-from search import Clock
 from search.goals import Candidate, Expected, Served, explanations, solve_expected
 from serendipity.goals.candidates import (
     CandidateGoal,
@@ -22,6 +20,7 @@ from serendipity.goals.candidates import (
 from serendipity.goals.recognise import posterior, strictness
 from serendipity.goals.recognition import Recognition
 from serendipity.model import Options, PlanStep, Result, Step, Task, UsageError
+from serendipity.model.deadline import Deadline
 from serendipity.model.numbers import Number
 from serendipity.model.task import HumanPlan
 
@@ -39,8 +38,7 @@ def plan_for_goals(
     beta: Number,
     options: Options,
     solve: Solve,
-    *,
-    cancelled: threading.Event | None = None,
+    deadline: Deadline,
 ) -> Result:
     """The robots' plan of least expected cost over the posterior; with one goal, section 3.
 
@@ -55,7 +53,6 @@ def plan_for_goals(
     """
     if options.mode != "serendipity":
         raise UsageError(f"goals: are for mode 'serendipity' only, not for '{options.mode}'")
-    clock = Clock(options.time_limit, cancelled)
     candidates = candidate_goals(task, goals)
     names = observed_actions(task, observed)
     if len(candidates) > 1:
@@ -69,7 +66,7 @@ def plan_for_goals(
     considered = [i for i, known in enumerate(recognition.goals) if plans[i] is not None and known.weight > 0]
     if not considered:
         result = Result("serendipity", "infeasible", recognition.human, options, reason="no-human-plan")
-        return _with(result, recognition, clock, [])
+        return _with(result, recognition, deadline, [])
     if len(considered) == 1:
         return _certain(task, candidates, considered[0], plans, recognition, solve)
     total = sum(recognition.goals[i].weight for i in considered)
@@ -83,12 +80,12 @@ def plan_for_goals(
         raise UsageError(
             f"horizon: expected at least {longest}, the length of his longest plan, got {options.horizon}"
         )
-    answer = solve_expected(task, options, asked, clock)
+    answer = solve_expected(task, options, asked, deadline)
     entries = [
         _entry(task, options, recognition.goals[i].name, candidate, served)
         for i, candidate, served in zip(considered, asked, answer.served, strict=True)
     ]
-    return _with(_result(task, options, answer, asked), recognition, clock, entries)
+    return _with(_result(task, options, answer, asked), recognition, deadline, entries)
 
 
 def _refuse(task: Task, options: Options) -> None:
@@ -126,11 +123,11 @@ def _certain(
 
 
 def _with(
-    result: Result, recognition: Recognition, clock: Clock | None, entries: list[dict[str, Any]]
+    result: Result, recognition: Recognition, deadline: Deadline | None, entries: list[dict[str, Any]]
 ) -> Result:
     statistics = {**result.statistics, "recognition": recognition.to_dict(), "goals": entries}
-    if clock is not None:
-        statistics["elapsed_seconds"] = clock.elapsed()
+    if deadline is not None:
+        statistics["elapsed_seconds"] = deadline.elapsed()
     return replace(result, statistics=statistics)
 
 

@@ -8,7 +8,8 @@ Serendipity" (Chakraborti et al., IROS 2015), as made precise in
 
 from serendipity.model.actions import Condition, GroundAction
 from serendipity.model.certificate import Certificate, Claim
-from serendipity.model.errors import InputError, PlanError, SerendipityError, UsageError
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import InputError, LimitReachedError, PlanError, SerendipityError, UsageError
 from serendipity.model.numbers import exact
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.plans import Step, Window
@@ -23,11 +24,13 @@ __all__ = [
     "Certificate",
     "Claim",
     "Condition",
+    "Deadline",
     "Decision",
     "Floor",
     "GroundAction",
     "HumanPlan",
     "InputError",
+    "LimitReachedError",
     "Options",
     "PlanError",
     "PlanStep",

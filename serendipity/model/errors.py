@@ -1,5 +1,7 @@
 """The errors a caller can meet.  Each message is one line that says what to do."""
 
+from typing import Final
+
 
 class SerendipityError(Exception):
     """Base of every error of the project; its text is one actionable line."""
@@ -10,6 +12,35 @@ class UsageError(SerendipityError):
 
     Remedy: correct the option that the message names.
     """
+
+
+class LimitReachedError(SerendipityError):
+    """The limit on time or memory came, or the caller cancelled, before there was an answer.
+
+    Code that has an incumbent catches it and answers with that.
+
+    Remedy: raise the limit.
+
+    Args:
+        reason: ``time-limit``, ``memory-limit`` or ``cancelled``, as in ``Result.reason``.
+        doing: what was going on, for people: ``reading the task``.
+    """
+
+    def __init__(self, reason: str, doing: str | None = None) -> None:
+        self.reason = reason
+        self.doing = doing
+        words = {"time-limit": "the time limit came first", "memory-limit": "memory is used up"}
+        what = words.get(reason, reason)
+        super().__init__(what if doing is None else f"{what}, {doing}")
+
+
+LIMITS: Final = (LimitReachedError, MemoryError)
+"""What to catch where an incumbent can be answered; :func:`limit_reason` says which it was."""
+
+
+def limit_reason(error: LimitReachedError | MemoryError) -> str:
+    """``Result.reason`` of an answer that a limit kept from being found."""
+    return error.reason if isinstance(error, LimitReachedError) else "memory-limit"
 
 
 class InputError(SerendipityError):

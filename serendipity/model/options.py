@@ -24,6 +24,8 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
 }
 """The legal values of the options that are names; the first is the default."""
 
+_LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
+
 
 @dataclass(frozen=True, slots=True)
 class Options:
@@ -49,6 +51,7 @@ class Options:
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
 
     Raises:
         UsageError: naming the option, what was expected and what was given.
@@ -70,6 +73,7 @@ class Options:
     max_ties: int = 1000
     no_block: bool | None = None
     time_limit: float | None = None
+    memory_limit: float | None = None
 
     def __post_init__(self) -> None:
         for name, legal in CHOICES.items():
@@ -87,8 +91,9 @@ class Options:
         if self.max_window is not None:
             self._set("max_window", _whole(self.max_window, "max_window", least=1))
         self._set("max_ties", _whole(self.max_ties, "max_ties", least=1))
-        if self.time_limit is not None:
-            self._set("time_limit", _seconds(self.time_limit))
+        for name, unit in _LIMITS.items():
+            if getattr(self, name) is not None:
+                self._set(name, limit_of(name, getattr(self, name), unit))
         if self.keep_prefix and self.mode != "communication":
             raise UsageError("keep_prefix: is for communication mode only")
 
@@ -157,11 +162,16 @@ def _horizon(value: object) -> int | str | None:
     return _whole(value, "horizon", least=0, most=MAX_EPOCH)
 
 
-def _seconds(value: object) -> float:
+def limit_of(name: str, value: object, unit: str) -> float:
+    """A limit as a number.
+
+    Raises:
+        UsageError: it is not a number of at least 0.
+    """
     try:
-        seconds = float(str(value))
+        number = float(str(value))
     except ValueError:
-        raise UsageError(f"time_limit: expected seconds, got {value!r}") from None
-    if not (seconds >= 0):
-        raise UsageError(f"time_limit: expected at least 0 seconds, got {seconds:g}")
-    return seconds
+        raise UsageError(f"{name}: expected {unit}, got {value!r:.50}") from None
+    if not (number >= 0):
+        raise UsageError(f"{name}: expected at least 0 {unit}, got {number:g}")
+    return number

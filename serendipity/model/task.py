@@ -85,7 +85,7 @@ class Task:
     def derived(self, build: "Callable[Concatenate[Task, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
         """``build(self, ...)``, computed once: tables that a layer above keeps with the task.
 
-        What else is given may only say how it is built (a clock to ask for time, say), not what.
+        What else is given may only say how it is built (a deadline to ask for time, say), not what.
         """
         if build not in self._derived:
             self._derived[build] = build(self, *args, **kwargs)

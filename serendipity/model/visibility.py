@@ -49,7 +49,7 @@ class Surroundings:
 
 
 def _untimed() -> None:
-    """No clock."""
+    """No deadline."""
 
 
 def surroundings(task: Task, tick: Callable[[], None] = _untimed) -> Surroundings:

@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search import Clock
 from search.assistance import closure
 from search.assistance.ball import ball_around
 from search.assistance.closure import Arc, Closure
 from search.encoding import Goal
 from search.keys import INFINITE_KEY
 from serendipity.model import Task
+from serendipity.model.deadline import Deadline
 from tests.assistance.oracle import by_rounds, explore, mean_over_all_policies
 from tests.assistance.strategies import games
 from tests.assistance.test_search_equals_brute_force import solve
@@ -74,8 +74,8 @@ def test_ball_knows_the_distance_of_every_state_in_reach(
     system: tuple[list[Arc], Goal], start: int, limit: int
 ) -> None:
     arcs, goal = system
-    known = Closure(arcs, goal, FIELDS, VALUES, 1000, Clock())
-    ball = ball_around(arcs, goal, FIELDS, VALUES, start, Clock())
+    known = Closure(arcs, goal, FIELDS, VALUES, 1000, Deadline())
+    ball = ball_around(arcs, goal, FIELDS, VALUES, start, Deadline())
     assert ball is not None
     pending, seen = [start], {start}
     while pending:

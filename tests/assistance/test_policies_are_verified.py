@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import Result, Task
-from serendipity.model import Decision, Policy
+from serendipity.model import Deadline, Decision, Policy
 from tests.assistance.strategies import games
 from tests.cases import case_5, case_6
 from verify.policy import check_policy
@@ -18,7 +18,7 @@ TIES = ("optimistic", "fixed", "robust", "expected")
 
 
 def verdicts(task: Task, result: Result) -> dict[str, str]:
-    return {claim.claim: claim.verdict for claim in check_policy(task, result)}
+    return {claim.claim: claim.verdict for claim in check_policy(task, result, Deadline())}
 
 
 @given(task=games(), ties=st.sampled_from(TIES), no_block=st.booleans())
@@ -65,7 +65,7 @@ def tampered(policy: Policy, i: int, **changes: object) -> Policy:
 
 def refuted(task: Task, result: Result, policy: Policy) -> str:
     """The text of the claim that is refuted."""
-    claims = check_policy(task, replace(result, policy=policy))
+    claims = check_policy(task, replace(result, policy=policy), Deadline())
     return next(claim.reason for claim in claims if claim.verdict == "refuted")
 
 

@@ -7,11 +7,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from search import Clock, OutOfTimeError
 from search.assistance import assist, ball, bound, branching, closure, provision, shortest
 from search.assistance.game import Game
 from search.assistance.relaxed import joint_lower_bound, upper_bound_alone
 from serendipity.model import Options, Task
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LimitReachedError
 from tests.assistance.oracle import by_rounds, explore
 from tests.assistance.strategies import games
 from tests.builders import task
@@ -33,7 +34,7 @@ def test_no_time_leaves_doing_nothing(case, ties: str) -> None:
     assert (result.lower_bound < result.objective) == (result.status == "feasible")
 
 
-class Hourglass(Clock):
+class Hourglass(Deadline):
     """Has time for so many questions."""
 
     def __init__(self, questions: int) -> None:
@@ -41,13 +42,13 @@ class Hourglass(Clock):
         self._left = questions
 
     def check(self) -> None:
-        """See :class:`Clock`."""
+        """See :class:`Deadline`."""
         self._left -= 1
         if self._left < 0:
-            raise OutOfTimeError
+            raise LimitReachedError("time-limit")
 
     def tick(self) -> None:
-        """See :class:`Clock`; every question counts."""
+        """See :class:`Deadline`; every question counts."""
         self.check()
 
 
@@ -56,7 +57,7 @@ class Hourglass(Clock):
 def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: int, tables: bool) -> None:
     """Also where it is up while the first bound is worked out."""
     options = Options(mode="assistance", ties=ties)
-    *_, full = assist(game, options, Clock())
+    *_, full = assist(game, options, Deadline())
     with pytest.MonkeyPatch.context() as patch:
         for module in (closure, provision, branching, shortest):
             for name in ("_CHECK_EVERY", "SMALL", "MEDIUM"):
@@ -81,7 +82,7 @@ def test_no_time_and_no_plan_alone_is_unknown() -> None:
 
 @pytest.mark.parametrize("case", [case_5, case_6])
 def test_relaxed_bounds_enclose_the_optimum(case) -> None:
-    game = Game(case(), Clock())
+    game = Game(case(), Deadline())
     optimum = by_rounds(explore(case(), fixed=False, no_block=False), min)
     assert game.pair(joint_lower_bound(game)) <= optimum
     assert game.pair(upper_bound_alone(game)) >= (2, 0)

@@ -2,17 +2,17 @@
 
 from hypothesis import given
 
-from search import Clock
 from search.assistance.watched import Watched
 from search.encoding import encoding
 from search.ops import applicable
 from serendipity.model import Task
+from serendipity.model.deadline import Deadline
 from tests.assistance.strategies import games
 
 
 @given(task=games())
 def test_every_applicable_op_is_a_candidate(task: Task) -> None:
-    packed = encoding(task, Clock())
+    packed = encoding(task, Deadline())
     ops = packed.own + packed.others
     watched = Watched(ops, packed.fields)
     pending, seen = [packed.init], {packed.init}

@@ -6,8 +6,8 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, PlanStep, Result, Step, Task
-from verify.alone import OptimalPlans, TooManyStatesError
-from verify.call import Call, UndecidedError
+from verify.alone import OptimalPlans
+from verify.call import Call
 from verify.goals.beliefs import considered_plan, faults
 from verify.goals.reading import Believed, MalformedError, Recognised, Served, read
 from verify.goals.timelines import (
@@ -22,6 +22,7 @@ from verify.goals.timelines import (
 )
 from verify.goals.together import Better, Rank, Together
 from verify.minimise import Effort
+from verify.undecided import UNDECIDED, why
 
 _PROVED = {
     "replay": "the posterior is right, and no considered plan is broken",
@@ -32,7 +33,6 @@ _PROVED = {
 _ROUNDED = 1 - Fraction(1, 10**9)
 """A bound that was summed from rounded probabilities may be too high by its last digits."""
 
-_TOO_LARGE = "the human's own problem is too large"
 
 Certify = Callable[[Task, Result], Sequence[Claim]]
 """Certifies an answer of section 3."""
@@ -56,8 +56,8 @@ def check_goals(task: Task, result: Result, certify: Certify, effort: Effort | N
             fault = _selection_fault(task, result, recognised, chosen, served)
     except MalformedError as error:
         fault = str(error)
-    except TooManyStatesError:
-        yield Claim("replay", "undecided", _TOO_LARGE, seconds=perf_counter() - started)
+    except UNDECIDED as error:
+        yield Claim("replay", "undecided", why(error), seconds=perf_counter() - started)
         return
     if fault is not None:
         yield Claim("replay", "refuted", fault, seconds=perf_counter() - started)
@@ -189,10 +189,8 @@ class _Claims:
                 yield Claim("cost", "refuted", fault, seconds=perf_counter() - started)
                 return
             verdict, reason, better = self._best(together, idle)
-        except UndecidedError as error:
-            verdict, reason = "undecided", str(error)
-        except TooManyStatesError:
-            verdict, reason = "undecided", _TOO_LARGE
+        except UNDECIDED as error:
+            verdict, reason = "undecided", why(error)
         bound = self.result.lower_bound if verdict == "proved" else None
         example = None if better is None else tuple(map(self._step, better.robots))
         yield Claim(wanted[0], verdict, reason, example, perf_counter() - started, bound)

@@ -9,17 +9,17 @@ allows, with distances in his automaton, cuts off what can't be better than the 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from time import perf_counter
 from typing import Final
 
 from serendipity.model import Step
 from verify.answer import best_plan
-from verify.call import Call, Score, UndecidedError
+from verify.call import Call, Score
 from verify.encodings.relevance import relevant_part
 from verify.epochs import applicable, conflicting
 from verify.joint import LeastLeft
 from verify.minimise import replans
 from verify.question import FREE
+from verify.undecided import UndecidedError
 
 MOST_NODES: Final = 20_000
 
@@ -111,9 +111,9 @@ class Together:
             seen: dict[object, int] = {}
             for lines, spent, steps in layer:
                 count += 1
-                late = call.effort.deadline is not None and perf_counter() > call.effort.deadline
-                if count > MOST_NODES or late:
-                    raise UndecidedError("time limit" if late else f"more than {MOST_NODES} robots' plans")
+                call.effort.deadline.check()
+                if count > MOST_NODES:
+                    raise UndecidedError(f"more than {MOST_NODES} robots' plans")
                 for robots in self._choices(lines):
                     after = self._after(lines, epoch, robots, than)
                     paid = spent + sum(self._units.team[i] for i in robots)

@@ -7,9 +7,9 @@ from functools import cached_property
 from math import lcm
 from typing import NamedTuple
 
-from serendipity.model import Condition, GroundAction, StateDelta, Task
-from verify.policy.deadline import Deadline, UndecidedError
+from serendipity.model import Condition, Deadline, GroundAction, StateDelta, Task
 from verify.policy.distances import Distances, Edge, Goal, Moves, reaches_below
+from verify.undecided import UndecidedError
 
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))
@@ -51,7 +51,6 @@ class Board:
     def __init__(self, task: Task, *, fixed: bool, deadline: Deadline) -> None:
         self.task = task
         self._fixed = fixed
-        self._deadline = deadline
         humans = [i for i, a in enumerate(task.actions) if a.participants == (task.human,)]
         robots = [i for i, a in enumerate(task.actions) if a.participants == (task.robots[0],)]
         self._scale = lcm(1, *(task.actions[i].cost.denominator for i in (*humans, *robots)))
@@ -111,7 +110,6 @@ class Board:
             try:
                 return True, self._together(state)
             except UndecidedError:
-                self._deadline.check()
                 self._together = None
         return False, None
 
@@ -129,7 +127,6 @@ class Board:
             try:
                 least = self._private(state & self._his_only)
             except UndecidedError:
-                self._deadline.check()
                 self._private = None
             else:
                 return _UNIT * 10**12 if least is None else least

@@ -2,9 +2,8 @@
 
 from typing import NamedTuple
 
-from serendipity.model import Result, Task
+from serendipity.model import Deadline, Result, Task
 from verify.policy.board import Board
-from verify.policy.deadline import Deadline
 from verify.policy.reading import read_decisions
 
 
@@ -33,7 +32,7 @@ def branches(task: Task, result: Result) -> list[StateBranch]:
         ValueError: the policy is not for this task, or an action of it is not applicable.
     """
     assert result.policy is not None
-    board = Board(task, fixed=result.options.ties == "fixed", deadline=Deadline(None))
+    board = Board(task, fixed=result.options.ties == "fixed", deadline=Deadline())
     listed = read_decisions(board, result.policy)
     numbers = {state: number for number, state in enumerate(listed, start=1)}
     found = []

@@ -6,30 +6,30 @@ from fractions import Fraction
 from time import perf_counter
 from typing import Final
 
-from serendipity.model import Claim, Result, Task
+from serendipity.model import Claim, Deadline, Result, Task
 from verify.policy.board import Board, Costs
 from verify.policy.closed import BrokenError, Walk
-from verify.policy.deadline import Deadline, UndecidedError
 from verify.policy.ending import ends
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
+from verify.undecided import UNDECIDED, why
 
 _NO_WALK: Final = "not examined: it takes more than a walk through the policy; verify looks at it"
 
 
 def check_policy(
-    task: Task, result: Result, *, time_limit: float | None = None, replay_only: bool = False
+    task: Task, result: Result, deadline: Deadline, *, replay_only: bool = False
 ) -> tuple[Claim, ...]:
     """Claims about a policy: ``replay``, ``cost``, ``optimal`` or ``infeasible``.
 
     Args:
         task: one human, one robot.
         result: an answer of mode ``assistance``.
-        time_limit: seconds after which claims stay undecided, or None.
+        deadline: after which claims stay undecided.
         replay_only: leave out what needs more than a walk through the policy's own states.
     """
-    checker = _Checker(task, result, Deadline(time_limit), replay_only=replay_only)
+    checker = _Checker(task, result, deadline, replay_only=replay_only)
     claims = []
     started = perf_counter()
     for claim in checker.claims():
@@ -67,8 +67,8 @@ class _Checker:
         try:
             if ends(board, self._ties, no_block=self._no_block, deadline=self._deadline):
                 return Claim("infeasible", "refuted", "there is a policy that ends")
-        except UndecidedError as error:
-            return Claim("infeasible", "undecided", str(error))
+        except UNDECIDED as error:
+            return Claim("infeasible", "undecided", why(error))
         return Claim("infeasible", "proved", "whatever the supporter does, a run may go on for ever")
 
     def _with_policy(self, board: Board) -> Iterator[Claim]:
@@ -84,8 +84,8 @@ class _Checker:
         except BrokenError as broken:
             yield Claim(broken.claim, "refuted", str(broken))
             return
-        except UndecidedError as error:
-            yield Claim("replay", "undecided", str(error))
+        except UNDECIDED as error:
+            yield Claim("replay", "undecided", why(error))
             return
         yield Claim("replay", "proved", "closed under what the human may do, and every run ends")
         yield self._cost(value)
@@ -119,6 +119,6 @@ class _Checker:
             floors.prove(value)
         except KeyError as error:
             return Claim("optimal", "undecided", f"the task has no fact {error}")
-        except UndecidedError as error:
-            return Claim("optimal", "undecided", str(error))
+        except UNDECIDED as error:
+            return Claim("optimal", "undecided", why(error))
         return Claim("optimal", "proved", "lower bounds that prove each other reach the policy's value")

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from itertools import chain
 
-from verify.policy.deadline import Deadline
+from serendipity.model import Deadline
+from verify.undecided import UndecidedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +119,8 @@ class Distances:
                         before[after] = []
                         pending.append(after)
                     before[after].append((weight, state))
-            self._deadline.require(len(before) <= self._most, f"more than {self._most} states")
+            if len(before) > self._most:
+                raise UndecidedError(f"more than {self._most} states")
         self._settle(ends, before)
 
     def _settle(self, queue: list[tuple[int, int]], before: dict[int, list[tuple[int, int]]]) -> None:

@@ -1,7 +1,8 @@
 """Can the supporter bring the game to an end at all?  By looking at every state."""
 
+from serendipity.model import Deadline
 from verify.policy.board import Board
-from verify.policy.deadline import Deadline
+from verify.undecided import UndecidedError
 
 _MOST_STATES = 50_000
 
@@ -39,7 +40,8 @@ def _explore(board: Board, no_block: bool, deadline: Deadline) -> Choices:
         if state in choices:
             continue
         deadline.check()
-        deadline.require(len(choices) < _MOST_STATES, f"more than {_MOST_STATES} states")
+        if len(choices) >= _MOST_STATES:
+            raise UndecidedError(f"more than {_MOST_STATES} states")
         choices[state] = []
         for _, middle, name in board.moves(state):
             if board.goal.holds(middle):

@@ -8,11 +8,11 @@ are bounded by both agents together, without turns.
 from fractions import Fraction
 from typing import Final
 
-from serendipity.model import Policy
+from serendipity.model import Deadline, Policy
 from verify.policy.board import FAR, NOTHING, Board, Costs, Reply
-from verify.policy.deadline import Deadline, UndecidedError
 from verify.policy.ending import lost_states
 from verify.policy.reading import combine, plus
+from verify.undecided import UNDECIDED, UndecidedError
 
 _NOT_PROVED: Final = "a lower bound does not follow from those after '{}'"
 _A_LOOK: Final = 300
@@ -65,7 +65,7 @@ class Floors:
                 self._lost = lost_states(
                     self._board, self._ties, no_block=self._no_block, deadline=self._deadline
                 )
-            except UndecidedError as error:
+            except UNDECIDED as error:
                 raise UndecidedError(f"{_NOT_PROVED.format(name)}; {error}") from None
 
     def _justified(self, state: int, middle: int, name: str, cost: Fraction, floor: Costs) -> bool:

@@ -9,12 +9,9 @@ from typing import Final
 from serendipity.model import Task
 from verify.rules.operators import OwnActions
 from verify.rules.projection import Projection
+from verify.undecided import TooManyStatesError
 
 _MOST_EXPANSIONS: Final = 200_000
-
-
-class TooManyStatesError(Exception):
-    """The human's own problem is too large to be checked here."""
 
 
 class Alone:

@@ -2,8 +2,8 @@
 
 from fractions import Fraction
 
-from verify.rules.alone import TooManyStatesError
 from verify.rules.case import Case, Found
+from verify.undecided import UNDECIDED
 
 
 def human_cost(case: Case) -> Found | None:
@@ -95,7 +95,7 @@ def saving_alone(case: Case) -> Found | None:
         return Found("a saving alone, though there is nothing to compare it with")
     try:
         optimum = case.alone.optimum(case.task.init)
-    except TooManyStatesError:
+    except UNDECIDED:
         return None  # left to the integer program
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
     if 0 < said <= float(most):

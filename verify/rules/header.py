@@ -1,8 +1,8 @@
 """Rules on what a result says about its call: mode, human, ``pi_H``, horizon, status."""
 
 from serendipity.model import INFINITE, PlanError
-from verify.rules.alone import TooManyStatesError
 from verify.rules.case import Case, Found
+from verify.undecided import UNDECIDED
 
 
 def mode_and_human(case: Case) -> Found | None:
@@ -23,7 +23,7 @@ def human_plan_valid(case: Case) -> Found | None:
         return None
     try:
         optimum = case.alone.optimum(case.task.init)
-    except TooManyStatesError:
+    except UNDECIDED:
         return None  # left to the integer program
     return None if optimum is None else Found("no pi_H is reported, but the human has a plan alone")
 

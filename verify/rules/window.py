@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 
-from verify.rules.alone import TooManyStatesError
 from verify.rules.case import Case, Found
+from verify.undecided import UNDECIDED
 
 
 def window_presence(case: Case) -> Found | None:
@@ -100,7 +100,7 @@ def suffix_replan(case: Case) -> Found | None:
             return Found(f"the human waits in epoch {expected} before he is done", epoch, case.name(i))
     try:
         optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
-    except TooManyStatesError:
+    except UNDECIDED:
         return None  # left to the integer program
     done = (sum(case.task.actions[i].cost for _, i in rest), len(rest))
     if optimum is None or done <= optimum:

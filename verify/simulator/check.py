@@ -5,12 +5,12 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, PlanError, Result, Step, Task
-from verify.alone import OptimalPlans, TooManyStatesError
+from verify.alone import OptimalPlans
 from verify.rules.replay import replay_human
 from verify.simulator.person import Person
 from verify.simulator.run import Played, play
+from verify.undecided import UNDECIDED, why
 
-_TOO_LARGE = "the human's own problem is too large"
 _MODELS = ("observant", "local")
 
 
@@ -32,8 +32,8 @@ def realised_claim(task: Task, result: Result, plans: OptimalPlans | None = None
     started = perf_counter()
     try:
         fault = next(_Examination(task, result, plans or OptimalPlans(task)).faults(), None)
-    except TooManyStatesError:
-        return Claim("realised", "undecided", _TOO_LARGE, seconds=perf_counter() - started)
+    except UNDECIDED as error:
+        return Claim("realised", "undecided", why(error), seconds=perf_counter() - started)
     except PlanError as error:
         fault = str(error)
     seconds = perf_counter() - started

@@ -11,7 +11,7 @@ from verify.epochs import applicable
 class Person:
     """What he would do and pay alone; kept between questions about one task.
 
-    Every method but :meth:`cost_of` raises :class:`verify.alone.TooManyStatesError` where
+    Every method but :meth:`cost_of` raises :class:`verify.undecided.TooManyStatesError` where
     his own problem is too large.
     """
 

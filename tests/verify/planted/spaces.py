@@ -69,8 +69,8 @@ def _own_goal(original: Any, self: Any, **keywords: Any) -> None:
     original(self, **{**keywords, "goals": keywords["goals"][:1]})
 
 
-def _first_is_best(space: Any, best: Incumbent, progress: Any, clock: Any) -> Iterator[Incumbent]:
-    found = best_first(space, best, progress, clock)
+def _first_is_best(space: Any, best: Incumbent, progress: Any, deadline: Any) -> Iterator[Incumbent]:
+    found = best_first(space, best, progress, deadline)
     yield from (answer for answer, _ in zip(found, range(1), strict=False))
 
 

@@ -1,0 +1,124 @@
+"""How long and in how much memory a call may work: polled often, and cheaply.
+
+Reading, searching and verifying share this, and nothing else, with each other.  It is no risk to
+the verifier's independence: all that a deadline can do is to leave a claim undecided.
+"""
+
+import threading
+import time
+from copy import copy
+from typing import Final
+
+from serendipity.model.errors import LimitReachedError, UsageError
+from serendipity.model.memory import available, resident
+
+MIB: Final = 2**20
+
+_EVERY: Final = 31
+"""All ones in binary: ticks between two looks at the time, less one."""
+
+_MEMORY_EVERY: Final = 0.005
+"""Seconds between two looks at the memory, which cost ten times as much as one at the time."""
+
+
+class Deadline:
+    """A time limit, a memory limit and a cancel flag; whoever works for long polls it.
+
+    Args:
+        time_limit: seconds from now, or None for no limit.
+        memory_limit: what the whole process may have in memory, in MiB, or None for no limit.
+        cancelled: set from another thread to end the work.
+
+    Raises:
+        UsageError: a limit on memory, where the system does not say how much is used.
+    """
+
+    def __init__(
+        self,
+        time_limit: float | None = None,
+        memory_limit: float | None = None,
+        cancelled: threading.Event | None = None,
+    ) -> None:
+        self.started = time.perf_counter()
+        self._end = None if time_limit is None else self.started + time_limit
+        self._most = None if memory_limit is None else memory_limit * MIB
+        self._cancelled = cancelled
+        self._ticks = 0
+        self._measure_at = self.started
+        if memory_limit is not None and resident() is None:
+            raise UsageError("memory_limit: this system does not say how much memory a process uses")
+
+    def elapsed(self) -> float:
+        """Seconds since the deadline was set."""
+        return time.perf_counter() - self.started
+
+    def left(self) -> float | None:
+        """Seconds that are left, at least 0; None without a time limit."""
+        return None if self._end is None else max(self._end - time.perf_counter(), 0.0)
+
+    def within(
+        self,
+        time_limit: float | None = None,
+        memory_limit: float | None = None,
+        cancelled: threading.Event | None = None,
+    ) -> "Deadline":
+        """A deadline for a part of the work, starting now: its own limits, and never beyond this one's."""
+        own = Deadline(time_limit, memory_limit, cancelled)
+        part = copy(self)
+        part.started = own.started
+        part._end = _least(own._end, self._end)
+        part._most = _least(own._most, self._most)
+        part._cancelled = self._cancelled if cancelled is None else cancelled
+        return part
+
+    def sooner(self, share: float) -> "Deadline":
+        """The same deadline without the last ``share`` of its time, kept for what comes at the end."""
+        part = copy(self)
+        if self._end is not None:
+            part._end = self._end - share * (self._end - self.started)
+        return part
+
+    def tick(self) -> None:
+        """:meth:`check`, every so many calls: for loops whose rounds take microseconds."""
+        self._ticks += 1
+        if not self._ticks & _EVERY:
+            self.check()
+
+    def check(self) -> None:
+        """Return while there is time and memory.
+
+        Raises:
+            LimitReachedError: there is none, or the work is cancelled.
+        """
+        if self._end is not None and time.perf_counter() >= self._end:
+            raise LimitReachedError("time-limit")
+        if self._cancelled is not None and self._cancelled.is_set():
+            raise LimitReachedError("cancelled")
+        if self._most is not None:
+            self._check_memory(self._most)
+
+    def require(self, size: float) -> None:
+        """Return if ``size`` bytes more fit, into the limit or, without one, into what the machine has left.
+
+        To be asked before much is allocated at once, with an estimate of it.
+
+        Raises:
+            LimitReachedError: they don't.
+        """
+        used = resident() if self._most is not None else None
+        room = available() if used is None or self._most is None else self._most - used
+        if room is not None and size > room:
+            raise LimitReachedError("memory-limit")
+
+    def _check_memory(self, most: float) -> None:
+        now = time.perf_counter()
+        if now < self._measure_at:
+            return
+        self._measure_at = now + _MEMORY_EVERY
+        used = resident()
+        if used is not None and used > most:
+            raise LimitReachedError("memory-limit")
+
+
+def _least(a: float | None, b: float | None) -> float | None:
+    return b if a is None else a if b is None else min(a, b)
