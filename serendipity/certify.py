@@ -1,11 +1,12 @@
 """The facade over the verifier: a result in, a certificate out."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from time import perf_counter
 from typing import Final
 
 from serendipity.model import Certificate, Claim, Deadline, InputError, Result, Task
+from verify.obligations import complete
 from verify.rules import RuleReport
 from verify.rules import check as check_rules
 
@@ -40,14 +41,17 @@ def check(task: Task, result: Result) -> Certificate:
         InputError: the result is for another task.
     """
     start = perf_counter()
+    result = result.checked()
     _require_same_task(task, result)
-    if "goals" in result.statistics:
+    if result.mode == "assistance":
+        claims: Iterable[Claim] = _by_walking(task, result)
+    elif "goals" in result.statistics:
         from verify.goals import check_goals  # with what proves single goals
 
-        return Certificate(tuple(check_goals(task, result, _by_rules, None)), perf_counter() - start)
-    if result.mode == "assistance":
-        return Certificate(tuple(_by_walking(task, result)), perf_counter() - start)
-    return Certificate(_by_rules(task, result), perf_counter() - start)
+        claims = check_goals(task, result, _by_rules, None)
+    else:
+        claims = _by_rules(task, result)
+    return Certificate(complete(result, claims, by_rules=True), perf_counter() - start)
 
 
 def _by_walking(task: Task, result: Result) -> Iterator[Claim]:

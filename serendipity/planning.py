@@ -155,8 +155,10 @@ def _answers(
             raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")
         yield from _assistance(task, chosen, deadline)
         return
+    if given is not None:
+        chosen = chosen.but(ties="fixed")  # there is but one plan
     call = _Call(task, chosen, deadline, visible, limits)
-    if chosen.ties != "fixed" and given is None and _depends_on_ties(chosen):
+    if chosen.ties != "fixed" and _depends_on_ties(chosen):
         yield partial(_over_ties, call)
         return
     gap = Gap(deadline)
@@ -182,12 +184,7 @@ def options_from(given: dict[str, Any]) -> Options:
     for name in given:
         if name not in known:
             raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
-    chosen = Options(**given)
-    if chosen.human_model != "omniscient" and chosen.mode != "serendipity":
-        raise UsageError(
-            f"human_model: '{chosen.human_model}' is for serendipity mode only, not for {chosen.mode}"
-        )
-    return chosen
+    return Options(**given)
 
 
 def _depends_on_ties(options: Options) -> bool:
@@ -241,7 +238,7 @@ def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | No
         horizon=outcome.horizon,
         window=outcome.window,
         reason=outcome.reason,
-        saving_alone=None if outcome.baseline is None else float(outcome.saving_alone),
+        saving_alone=None if outcome.baseline is None or steps is None else float(outcome.saving_alone),
         plan=steps,
         agent_costs={} if outcome.steps is None else _agent_costs(task, prices, outcome.steps),
         realised=_realised(call, outcome),

@@ -10,7 +10,8 @@ from serendipity.model import Certificate, Claim, PlanStep, UsageError
 @pytest.mark.parametrize(
     ("verdicts", "whole"),
     [
-        ((), "proved"),
+        ((), "undecided"),
+        (("not_in_scope",), "undecided"),
         (("proved", "not_in_scope"), "proved"),
         (("proved", "undecided"), "undecided"),
         (("undecided", "refuted", "proved"), "refuted"),

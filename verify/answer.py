@@ -10,10 +10,8 @@ from verify.alone import OptimalPlans
 from verify.call import Call
 from verify.joint import cheapest
 from verify.minimise import Effort
+from verify.obligations import TIED_MODES
 from verify.question import Found
-
-TIED_MODES = ("serendipity", "communication")
-"""Modes whose answer depends on which optimal ``pi_H`` the human follows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +41,7 @@ class Answer:
             return None
         if self.call.human_plan is None and self.call.needs_pi_h:
             return "no-human-plan"
-        return "no-plan"
+        return "no-plan" if self.call.horizon == INFINITE else "no-plan-within-horizon"
 
 
 def answer(call: Call) -> Answer:
@@ -102,4 +100,4 @@ def calls(
     return [Call(task, options, plan, plans, effort) for plan in tied or [None]]
 
 
-__all__ = ["TIED_MODES", "Answer", "answer", "best_plan", "calls", "idle_cost"]
+__all__ = ["Answer", "answer", "best_plan", "calls", "idle_cost"]

@@ -1,6 +1,6 @@
 """Certificates: every claim of a result, proved, refuted, undecided or out of scope."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from time import perf_counter
 
@@ -17,18 +17,19 @@ from serendipity.model import (
     UsageError,
 )
 from verify.alone import OptimalPlans
-from verify.answer import TIED_MODES, answer, calls
 from verify.call import Call
 from verify.claims import Examiner
 from verify.goals import check_goals
-from verify.humans import HumanExaminer, human_cost
+from verify.humans import HumanExaminer
 from verify.minimise import Effort
+from verify.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.policy import check_policy
 from verify.rules import Checker, RuleReport
 from verify.rules.alone import Alone
 from verify.rules.replay import replay, replay_human
 from verify.simulator import realised_claim
 from verify.solver import solver_version
+from verify.tied import examine
 from verify.undecided import UNDECIDED, why
 
 _REPLAYED = {
@@ -66,9 +67,10 @@ def certify(
         UsageError: there is no such encoding or solver.
     """
     started = perf_counter()
+    result = result.checked()
     _require_same_task(task, result)
     if result.mode == "assistance":
-        claims = check_policy(task, result, Deadline(time_limit))
+        claims = complete(result, check_policy(task, result, Deadline(time_limit)))
         return Certificate(claims, perf_counter() - started)
     deadline = Deadline(time_limit)
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
@@ -81,7 +83,7 @@ def certify(
         claims = tuple(check_goals(task, result, one_goal, effort))
     else:
         claims = tuple(_Certifier(task, result, effort).claims(human_plan))
-    return Certificate(claims, perf_counter() - started, version, encoding, effort.size)
+    return Certificate(complete(result, claims), perf_counter() - started, version, encoding, effort.size)
 
 
 def _require_same_task(task: Task, result: Result) -> None:
@@ -110,7 +112,7 @@ class _Certifier:
         report = self.checker.check(result)
         yield from self._rule_claims(report, given)
         yield from self._realised(report)
-        wanted = self._wanted()
+        wanted = [name for name in needed(result) if name not in (*BY_RULES, "realised")]
         if report.ok:
             yield from self._solved_claims(wanted)
         else:
@@ -127,21 +129,6 @@ class _Certifier:
         claim = realised_claim(self.task, self.result, self.plans)
         if claim is not None:
             yield claim
-
-    def _wanted(self) -> list[str]:
-        """The claims of the result that need an optimiser; the bound comes last."""
-        result = self.result
-        if result.status == "infeasible":
-            return ["infeasible"]
-        if result.status == "unknown" or result.cost is None:
-            return []
-        wanted = []
-        if result.status == "optimal":
-            if result.opportunity or not result.options.windowed:
-                wanted.append("optimal")
-            if not result.opportunity and result.human_plan is not None:
-                wanted.append("no_opportunity")
-        return wanted if result.lower_bound is None else [*wanted, "lower_bound"]
 
     def _rule_claims(self, report: RuleReport, given: Iterable[str] | None) -> Iterator[Claim]:
         for name in ("replay", "cost", "window"):
@@ -184,8 +171,8 @@ class _Certifier:
         except (UsageError, PlanError) as error:
             yield Claim("replay", "refuted", str(error))
             return
-        if self._tied():
-            yield self._ties(wanted)
+        if is_tied(self.result) and self.result.status in ("optimal", "feasible"):
+            yield from self._ties(wanted)
             return
         if self.result.mode == "individual":
             yield from self._individual(wanted)
@@ -246,60 +233,37 @@ class _Certifier:
             right = least == self.result.cost and (
                 self.result.lower_bound is None or least is None or self.result.lower_bound <= least
             )
-            verdict = "proved" if right else "refuted"
+            verdict = "proved" if right and self._gains_alone(least) else "refuted"
             reason = (
                 "he can't reach his goal alone" if least is None else f"his least cost alone is {least:.12g}"
             )
         for name in wanted:
-            if name != "no_opportunity":
-                yield Claim(name, verdict, reason, seconds=perf_counter() - started)
+            yield Claim(name, verdict, reason, seconds=perf_counter() - started)
 
-    # -- ties over pi_H
+    def _gains_alone(self, least: float | None) -> bool:
+        """Whether ``saving_alone`` is what the given plan costs more than the least."""
+        names = self.result.human_plan
+        if least is None or names is None:
+            return True
+        gain = self.task.cost_of(replay_human(self.task, names)) - self.alone_cost()
+        return self.result.saving_alone == float(gain)
 
-    def _tied(self) -> bool:
-        """Whether the result answers for all optimal ``pi_H`` at once."""
-        options = self.result.options
-        return options.ties != "fixed" and options.mode in TIED_MODES and "ties" in self.result.statistics
+    def alone_cost(self) -> Fraction:
+        """The human's least cost alone."""
+        worth = self.plans.worth(self.task.init)
+        assert worth is not None, "there is a plan"
+        return worth[0]
 
-    def _ties(self, wanted: list[str]) -> Claim:
-        """Each optimal ``pi_H`` is solved; the answers have to give the result's cost."""
+    def _ties(self, wanted: list[str]) -> Iterator[Claim]:
+        """Each optimal ``pi_H`` is solved; the answers have to give the result's figures."""
         started = perf_counter()
-        name = "optimal" if "optimal" in wanted or "no_opportunity" in wanted else (wanted or ["optimal"])[0]
-        verdict, reason = "undecided", ""
         try:
-            tied = calls(self.task, self.result.options, None, self.effort, self.plans)
-            replans = self.result.options.human_model != "omniscient"
-            costs = [human_cost(call) if replans else answer(call).cost for call in tied]
+            verdict, reason = examine(self.task, self.result, self.effort, self.plans)
         except UNDECIDED as error:
-            reason = why(error)
+            verdict, reason = "undecided", why(error)
         except UsageError as error:
             verdict, reason = "refuted", str(error)
-        else:
-            verdict, reason = _compare(tied, costs, self.result)
-        return Claim(name, verdict, reason, seconds=perf_counter() - started)
-
-
-def _compare(tied: Sequence[Call], costs: Sequence[Fraction | None], result: Result) -> tuple[str, str]:
-    known = [cost for cost in costs if cost is not None]
-    if len(known) < len(costs):
-        right = result.cost is None
-        return ("proved" if right else "refuted"), "with some optimal pi_H there is no plan"
-    ties = result.options.ties
-    if ties == "expected":
-        expected = sum(known, Fraction(0)) / len(known)
-    else:
-        expected = min(known) if ties == "optimistic" else max(known)
-    words = f"the {ties} cost over {len(known)} optimal plans of the human is {float(expected):.12g}"
-    if result.cost != float(expected):
-        return "refuted", words
-    by_plan = {
-        tuple(call.task.actions[i].name for i in call.human_plan or ()): float(cost)
-        for call, cost in zip(tied, known, strict=True)
-    }
-    listed = result.statistics["ties"]
-    said = (
-        [(tuple(entry["human_plan"]), entry["cost"]) for entry in listed] if isinstance(listed, list) else []
-    )
-    if not said or any(by_plan.get(plan) != cost for plan, cost in said):
-        return "refuted", f"{words}, but the answers listed are others"
-    return "proved", words
+        if is_mean(self.result):
+            wanted = ["cost", *wanted]
+        for name in wanted:
+            yield Claim(name, verdict, reason, seconds=perf_counter() - started)

@@ -110,13 +110,15 @@ class Examiner:
     def savings(self) -> Verdict | None:
         """Refutes figures that need an optimiser: ``saving`` with ``G_R``, ``saving_alone``."""
         call, result = self.call, self.result
-        if call.baseline is None or self._usual() or result.plan is None:
+        if call.baseline is None:
+            return self._nothing_to_compare()
+        if self._usual() or result.plan is None:
             return None
         idle = idle_cost(call)
         assert idle is not None
         alone = float(call.prices.cost(call.baseline - idle))
-        if result.saving_alone is not None and result.saving_alone != alone:
-            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone:g}", None
+        if result.saving_alone != alone:
+            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
         cost = self._score()[1]
         saving = float(call.prices.cost(call.baseline - cost)) if result.opportunity else 0.0
         if result.saving != saving:
@@ -124,6 +126,12 @@ class Examiner:
         if not result.opportunity and call.options.windowed and cost != call.baseline:
             return "refuted", f"doing nothing costs {self._amount(call.baseline)}", None
         return None
+
+    def _nothing_to_compare(self) -> Verdict | None:
+        """Without a way to do nothing there is no saving."""
+        if self.result.saving is None and self.result.saving_alone is None:
+            return None
+        return "refuted", "a saving, though doing nothing is no answer", None
 
     def lower_bound(self) -> Verdict:
         """No answer has an objective below the bound."""

@@ -45,7 +45,9 @@ class HumanExaminer(Examiner):
     def savings(self) -> Verdict | None:
         """Refutes ``saving`` and ``saving_alone``."""
         call, result = self.call, self.result
-        if call.baseline is None or result.plan is None:
+        if call.baseline is None:
+            return self._nothing_to_compare()
+        if result.plan is None:
             return None
         idle = call.baseline if self._idle is None else min(self._idle, call.baseline)
         alone = float(call.prices.cost(call.baseline - idle))

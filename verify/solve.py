@@ -10,6 +10,7 @@ from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageE
 from verify.alone import OptimalPlans
 from verify.answer import Answer, answer, calls
 from verify.minimise import Effort
+from verify.obligations import TIED_MODES
 from verify.results import to_result
 from verify.solver import solver_version
 from verify.undecided import UNDECIDED, why
@@ -46,11 +47,14 @@ def solve(
     deadline = Deadline(options.time_limit, options.memory_limit)
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     given: HumanPlan | None = None if human_plan is None else task.plan_from_names(human_plan)
+    if given is not None:
+        options = options.but(ties="fixed")  # there is but one plan
     plans = OptimalPlans(task)
     try:
         answers = [answer(call) for call in calls(task, options, given, effort, plans)]
-        tied = given is None and options.ties != "fixed" and plans.canonical() is not None
-        result = over_ties(answers, options.ties) if tied and len(answers) > 1 else to_result(answers[0])
+        tied = options.ties != "fixed" and options.mode in TIED_MODES
+        several = tied and answers[0].call.human_plan is not None
+        result = over_ties(answers, options.ties) if several else to_result(answers[0])
     except UNDECIDED as error:
         human = task.agents[task.human]
         result = Result(options.mode, "unknown", human, options, reason=why(error))
@@ -90,6 +94,8 @@ def _mean(answers: list[Answer], results: list[Result]) -> Result:
         return float(sum((value or Fraction(0) for value in values), Fraction(0)) / len(answers))
 
     objective = mean(_objective(each) for each in answers)
+    if len(results) == 1:
+        return results[0]
     return replace(
         results[0],
         opportunity=any(each.opportunity for each in answers),

@@ -84,9 +84,9 @@ class Certificate:
 
     @property
     def verdict(self) -> str:
-        """``refuted`` if a claim is, else ``undecided`` if one is, else ``proved``."""
+        """``refuted`` if a claim is, else ``undecided`` if one is or none is proved, else ``proved``."""
         verdicts = {claim.verdict for claim in self.claims}
-        return next((verdict for verdict in ("refuted", "undecided") if verdict in verdicts), "proved")
+        return next((each for each in ("refuted", "undecided", "proved") if each in verdicts), "undecided")
 
     @property
     def refuted(self) -> Claim | None:

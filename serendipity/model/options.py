@@ -14,6 +14,9 @@ INFINITE: Final = "inf"
 MAX_EPOCH: Final = 1_000_000
 """The largest epoch that a horizon or a result may name; ``search.keys`` has room for no more."""
 
+MAX_TIES: Final = 1_000_000_000
+"""The most that ``max_ties`` may be: nobody waits for so many plans."""
+
 CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "mode": ("serendipity", "individual", "communication", "composite", "assistance"),
     "suffix": ("replan", "subplan"),
@@ -24,7 +27,14 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
 }
 """The legal values of the options that are names; the first is the default."""
 
+_FLAGS: Final = {"keep_prefix": (True, False), "no_block": (True, False, None)}
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
+
+# How options are written in JSON.
+_LATER: Final = ("memory_limit",)  # results of the first versions don't have it
+_EXACT: Final = ("discount", "window_weight", "communication_weight", "max_cost")
+_OPTIONAL: Final = ("horizon", "max_window", "max_cost", *_LIMITS)
+_WORDS: Final = {"horizon": INFINITE, "max_cost": "human"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +57,7 @@ class Options:
         keep_prefix: the paper's second (7b), in communication mode.
         human_model: what the human does (SPEC 6).
         ties: over the human's optimal plans (SPEC 1), or over his choices (SPEC 7).
-        max_ties: the most optimal human plans that are enumerated.
+        max_ties: the most optimal human plans that are enumerated, at most :data:`MAX_TIES`.
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
@@ -78,24 +88,35 @@ class Options:
     def __post_init__(self) -> None:
         for name, legal in CHOICES.items():
             if getattr(self, name) not in legal:
-                raise UsageError(f"{name}: expected one of {', '.join(legal)}, got {getattr(self, name)!r}")
+                given = f"{getattr(self, name)!r:.50}"
+                raise UsageError(f"{name}: expected one of {', '.join(legal)}, got {given}")
         for name in ("discount", "window_weight", "communication_weight"):
             self._set(name, _not_negative(exact(getattr(self, name), name), name))
         if self.discount > 1:
             raise UsageError(f"discount: expected a number in [0, 1], got {float(self.discount):g}")
         if self.max_cost is not None and self.max_cost != "human":
             self._set("max_cost", _not_negative(exact(self.max_cost, "max_cost"), "max_cost"))
+        for name, legal_flags in _FLAGS.items():
+            if not any(getattr(self, name) is flag for flag in legal_flags):
+                raise UsageError(f"{name}: expected true or false, got {getattr(self, name)!r:.50}")
+        self._check_numbers()
+
+    def _check_numbers(self) -> None:
         self._set("horizon", _horizon(self.horizon))
         if self.horizon == INFINITE and self.mode != "composite":
             raise UsageError(f"horizon: 'inf' is for composite mode only, not for {self.mode}")
         if self.max_window is not None:
             self._set("max_window", _whole(self.max_window, "max_window", least=1))
-        self._set("max_ties", _whole(self.max_ties, "max_ties", least=1))
+        self._set("max_ties", _whole(self.max_ties, "max_ties", least=1, most=MAX_TIES))
         for name, unit in _LIMITS.items():
             if getattr(self, name) is not None:
                 self._set(name, limit_of(name, getattr(self, name), unit))
         if self.keep_prefix and self.mode != "communication":
             raise UsageError("keep_prefix: is for communication mode only")
+        if self.human_model != "omniscient" and self.mode != "serendipity":
+            raise UsageError(
+                f"human_model: '{self.human_model}' is for serendipity mode only, not for {self.mode}"
+            )
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
@@ -111,21 +132,28 @@ class Options:
         return self.mode == "serendipity" or self.keep_prefix
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON form: every option in force, numbers as floats."""
+        """JSON form: every option in force; numbers as floats, or as exact texts where no float is exact."""
         return {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> "Options":
-        """The options that :meth:`to_dict` wrote; keys it does not know are an error.
+        """The options that :meth:`to_dict` wrote: each of them, in the form in which it writes them.
 
         Raises:
-            UsageError: an unknown key, or a value that is not legal.
+            UsageError: an unknown or a missing key, or a value that is not legal.
         """
-        known = {f.name for f in fields(cls)}
+        known = [f.name for f in fields(cls)]
         for key in data:
             if key not in known:
-                raise UsageError(f"options: unknown option {key!r}")
-        return cls(**data)
+                raise UsageError(f"options: unknown option {key!r:.50}")
+        options = cls(**data)
+        for name, value in data.items():
+            if not _written(name, value):
+                raise UsageError(f"options: {name}: got {value!r:.50}, which is of another type")
+        missing = next((name for name in known if name not in data and name not in _LATER), None)
+        if missing is not None:
+            raise UsageError(f"options: the option '{missing}' is missing")
+        return options
 
     def but(self, **changes: Any) -> "Options":
         """These options with some changed."""
@@ -133,7 +161,22 @@ class Options:
 
 
 def _plain(value: object) -> object:
-    return float(value) if isinstance(value, Fraction) else value
+    if not isinstance(value, Fraction):
+        return value
+    return float(value) if Fraction(str(float(value))) == value else str(value)
+
+
+def _written(name: str, value: object) -> bool:
+    """Whether a value has a type that :meth:`Options.to_dict` writes for an option."""
+    if name in ("keep_prefix", "no_block"):
+        return isinstance(value, bool) or (value is None and name == "no_block")
+    if isinstance(value, str):
+        return name in CHOICES or value == _WORDS.get(name) or (name in _EXACT and "/" in value)
+    if value is None:
+        return name in _OPTIONAL
+    if isinstance(value, bool) or not isinstance(value, int | float) or name in CHOICES:
+        return False
+    return isinstance(value, int) or name in (*_EXACT, *_LIMITS)
 
 
 def _not_negative(value: Fraction, name: str) -> Fraction:

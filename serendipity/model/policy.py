@@ -120,14 +120,14 @@ class _Reader:
     def _list(self, data: dict[str, Any], key: str) -> list[Any]:
         value = data.get(key)
         if not isinstance(value, list):
-            raise self._error(f"{key}: expected a list, got {value!r}")
+            raise self._error(f"{key}: expected a list, got {value!r:.50}")
         return value
 
     def _decision(self, data: Any, where: str) -> Decision:
         state = self._state(data, where)
         action = data.get("action")
         if not isinstance(action, str):
-            raise self._error(f"{where}.action: expected a text, got {action!r}")
+            raise self._error(f"{where}.action: expected a text, got {action!r:.50}")
         return Decision(state, action, self._value(data, where))
 
     def _floor(self, data: Any, where: str) -> Floor:
@@ -135,23 +135,25 @@ class _Reader:
 
     def _state(self, data: Any, where: str) -> StateDelta:
         if not isinstance(data, dict):
-            raise self._error(f"{where}: expected an object, got {data!r}")
+            raise self._error(f"{where}: expected an object, got {data!r:.50}")
         return StateDelta(self._names(data, "true", where), self._names(data, "false", where))
 
     def _names(self, data: dict[str, Any], key: str, where: str) -> tuple[str, ...]:
         names = self._list(data, key)
-        if not all(isinstance(name, str) for name in names):
-            raise self._error(f"{where}.{key}: expected a list of facts")
+        if not all(isinstance(name, str) for name in names) or sorted(set(names)) != names:
+            raise self._error(f"{where}.{key}: expected a list of facts, ascending")
         return tuple(names)
 
     def _value(self, data: dict[str, Any], where: str) -> Costs:
         value = data.get("value")
-        if not isinstance(value, list) or len(value) != 2:
-            raise self._error(f"{where}.value: expected the human's and the supporter's cost, got {value!r}")
+        if not isinstance(value, list) or len(value) != 2 or not all(isinstance(cost, str) for cost in value):
+            raise self._error(
+                f"{where}.value: expected the human's and the supporter's cost as texts, got {value!r:.50}"
+            )
         try:
             first, second = (exact(cost, f"{where}.value") for cost in value)
         except UsageError as error:
             raise self._error(str(error)) from None
         if first < 0 or second < 0:
-            raise self._error(f"{where}.value: expected costs of at least 0, got {value!r}")
+            raise self._error(f"{where}.value: expected costs of at least 0, got {value!r:.50}")
         return first, second

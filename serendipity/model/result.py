@@ -1,7 +1,7 @@
 """The answer to a planning call, and its JSON form (schema ``serendipity.result/1``)."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 from serendipity.model.errors import InputError, UsageError
@@ -110,6 +110,18 @@ class Result:
         """
         return _Reader(data, file).result()
 
+    def checked(self) -> "Result":
+        """This result as its JSON would be read: for results that somebody made by hand.
+
+        Raises:
+            InputError: a field has a type or a value that no result has.
+        """
+        try:
+            data = self.to_dict()
+        except (AttributeError, TypeError, ValueError) as error:
+            raise InputError(f"result: a field is of another type: {error}") from None
+        return replace(_Reader(data, None).result(), options=self.options)
+
 
 class _Reader:
     """Reads a result object field by field, with one clear line for what is wrong."""
@@ -119,16 +131,19 @@ class _Reader:
         if not isinstance(data, dict):
             raise self._error(f"expected a JSON object, got {type(data).__name__}")
         if data.get("schema") != SCHEMA:
-            raise self._error(f"schema: expected '{SCHEMA}', got {data.get('schema')!r}")
+            raise self._error(f"schema: expected '{SCHEMA}', got {data.get('schema')!r:.50}")
         self.data = data
 
     def result(self) -> Result:
         options = self._options()
         status = self._text("status")
         if status not in STATUSES:
-            raise self._error(f"status: expected one of {', '.join(STATUSES)}, got {status!r}")
+            raise self._error(f"status: expected one of {', '.join(STATUSES)}, got {status!r:.50}")
+        mode = self._text("mode")
+        if mode != options.mode:
+            raise self._error(f"mode: is {mode!r:.50}, but '{options.mode}' in the options")
         return Result(
-            mode=self._text("mode"),
+            mode=mode,
             status=status,
             human=self._text("human"),
             options=options,
@@ -138,14 +153,14 @@ class _Reader:
             cost=self._number("cost"),
             saving=self._number("saving", signed=True),
             objective=self._number("objective"),
-            lower_bound=self._number("lower_bound", signed=True),
+            lower_bound=self._number("lower_bound"),
             horizon=self._horizon(),
             window=self._window(),
             reason=self._optional_text("reason"),
-            saving_alone=self._number("saving_alone", signed=True),
+            saving_alone=self._number("saving_alone"),
             plan=self._plan(),
             agent_costs=self._costs("agent_costs"),
-            realised=self._mapping("realised"),
+            realised=self._verdicts("realised"),
             statistics=self._mapping("statistics"),
             policy=self._policy(),
         )
@@ -161,7 +176,7 @@ class _Reader:
     def _text(self, key: str) -> str:
         value = self._field(key)
         if not isinstance(value, str):
-            raise self._error(f"{key}: expected a text, got {value!r}")
+            raise self._error(f"{key}: expected a text, got {value!r:.50}")
         return value
 
     def _optional_text(self, key: str) -> str | None:
@@ -170,7 +185,7 @@ class _Reader:
     def _flag(self, key: str) -> bool:
         value = self._field(key)
         if not isinstance(value, bool):
-            raise self._error(f"{key}: expected true or false, got {value!r}")
+            raise self._error(f"{key}: expected true or false, got {value!r:.50}")
         return value
 
     def _number(self, key: str, *, signed: bool = False) -> float | None:
@@ -185,19 +200,25 @@ class _Reader:
         if isinstance(value, bool) or not math.isfinite(number):
             raise self._error(f"{where}: expected a finite number, got {value!r:.50}")
         if number < 0 and not signed:
-            raise self._error(f"{where}: expected a number of at least 0, got {value!r}")
+            raise self._error(f"{where}: expected a number of at least 0, got {value!r:.50}")
         return number
 
     def _epoch(self, value: Any, where: str) -> int:
         if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= MAX_EPOCH:
-            raise self._error(f"{where}: expected an epoch from 1 to {MAX_EPOCH}, got {value!r}")
+            raise self._error(f"{where}: expected an epoch from 1 to {MAX_EPOCH}, got {value!r:.50}")
         return value
 
     def _mapping(self, key: str) -> dict[str, Any]:
         value = self._field(key)
         if not isinstance(value, dict):
-            raise self._error(f"{key}: expected an object, got {value!r}")
+            raise self._error(f"{key}: expected an object, got {value!r:.50}")
         return value
+
+    def _verdicts(self, key: str) -> dict[str, bool]:
+        verdicts = self._mapping(key)
+        if not all(isinstance(verdict, bool) for verdict in verdicts.values()):
+            raise self._error(f"{key}: expected true or false for each human model")
+        return verdicts
 
     def _costs(self, key: str) -> dict[str, float]:
         return {name: self._finite(cost, f"{key}.{name}") for name, cost in self._mapping(key).items()}
@@ -227,7 +248,7 @@ class _Reader:
         if value is None:
             return None
         if not isinstance(value, dict) or set(value) != {"start", "end"}:
-            raise self._error(f"window: expected an object with 'start' and 'end', got {value!r}")
+            raise self._error(f"window: expected an object with 'start' and 'end', got {value!r:.50}")
         start = self._epoch(value["start"], "window.start")
         end = self._epoch(value["end"], "window.end")
         if start >= end:
@@ -243,16 +264,16 @@ class _Reader:
         if value is None:
             return None
         if not isinstance(value, list):
-            raise self._error(f"plan: expected a list of steps, got {value!r}")
+            raise self._error(f"plan: expected a list of steps, got {value!r:.50}")
         return tuple(self._step(step, f"plan[{i}]") for i, step in enumerate(value))
 
     def _step(self, step: Any, where: str) -> PlanStep:
-        if not isinstance(step, dict) or not {"epoch", "agents", "action", "cost"} <= set(step):
-            raise self._error(f"{where}: expected an object with epoch, agents, action and cost")
+        if not isinstance(step, dict) or set(step) != {"epoch", "agents", "action", "cost"}:
+            raise self._error(f"{where}: expected an object with epoch, agents, action and cost only")
         agents, action = step["agents"], step["action"]
         if not isinstance(agents, list) or not all(isinstance(name, str) for name in agents):
-            raise self._error(f"{where}.agents: expected a list of names, got {agents!r}")
+            raise self._error(f"{where}.agents: expected a list of names, got {agents!r:.50}")
         if not isinstance(action, str):
-            raise self._error(f"{where}.action: expected a text, got {action!r}")
+            raise self._error(f"{where}.action: expected a text, got {action!r:.50}")
         cost = self._finite(step["cost"], f"{where}.cost")
         return PlanStep(self._epoch(step["epoch"], f"{where}.epoch"), tuple(agents), action, cost)

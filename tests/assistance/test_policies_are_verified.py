@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import Result, Task
-from serendipity.model import Deadline, Decision, Policy
+from serendipity.model import Deadline, Decision, Options, Policy
 from tests.assistance.strategies import games
 from tests.cases import case_5, case_6
 from verify.policy import check_policy
@@ -24,8 +24,27 @@ def verdicts(task: Task, result: Result) -> dict[str, str]:
 @given(task=games(), ties=st.sampled_from(TIES), no_block=st.booleans())
 def test_answers_are_proved(task: Task, ties: str, no_block: bool) -> None:
     result = serendipity.plan(task, mode="assistance", ties=ties, no_block=no_block)
-    expected = ["infeasible"] if result.status == "infeasible" else ["replay", "cost", "optimal"]
+    claims = ["replay", "cost", "optimal", "lower_bound"]
+    expected = ["infeasible"] if result.status == "infeasible" else claims
     assert verdicts(task, result) == dict.fromkeys(expected, "proved")
+
+
+def idle(result: Result, policy: Policy) -> Result:
+    """The same answer with a policy that does nothing, and every figure as if that were the best."""
+    cost = result.human_cost
+    value = [str(Fraction(str(cost))), "0"]
+    return replace(
+        result,
+        policy=policy,
+        plan=None,
+        agent_costs=dict.fromkeys(result.agent_costs, 0.0) | {"h": cost},
+        cost=cost,
+        objective=cost,
+        lower_bound=cost,
+        saving=0.0,
+        opportunity=False,
+        statistics={**result.statistics, "bounds": {"lower": value, "upper": value}},
+    )
 
 
 @given(task=games(), ties=st.sampled_from(TIES))
@@ -33,13 +52,10 @@ def test_idle_policy_is_proved_only_where_it_is_optimal(task: Task, ties: str) -
     result = serendipity.plan(task, mode="assistance", ties=ties)
     if result.human_cost is None or result.status == "infeasible":
         return
-    totals = dict.fromkeys(result.agent_costs, 0.0) | {"h": result.human_cost}
-    idle = replace(
-        result, agent_costs=totals, cost=result.human_cost, policy=replace(result.policy, decisions=())
-    )
-    found = verdicts(task, replace(idle, plan=None))
+    forged = idle(result, replace(result.policy, decisions=()))
+    found = verdicts(task, forged)
     assert (found["replay"], found["cost"]) == ("proved", "proved")
-    assert found["optimal"] == ("proved" if totals == result.agent_costs else "undecided")
+    assert found["optimal"] == ("proved" if forged.agent_costs == result.agent_costs else "undecided")
 
 
 @given(task=games(), data=st.data())
@@ -52,9 +68,7 @@ def test_floors_above_the_value_are_not_believed(task: Task, data: st.DataObject
     raised = tuple(
         replace(floor, value=(floor.value[0] + step, floor.value[1])) for floor in result.policy.floors
     )
-    totals = {"h": result.human_cost, "r": 0.0}
-    forged = replace(result, agent_costs=totals, cost=result.human_cost, policy=Policy((), raised), plan=None)
-    assert verdicts(task, forged)["optimal"] != "proved"
+    assert verdicts(task, idle(result, Policy((), raised)))["optimal"] != "proved"
 
 
 def tampered(policy: Policy, i: int, **changes: object) -> Policy:
@@ -107,9 +121,20 @@ def test_totals_must_be_those_of_the_policy() -> None:
     assert verdicts(case_5(), replace(result, agent_costs={"p": 1.0, "s": 1.0}))["cost"] == "refuted"
 
 
+def infeasible() -> Result:
+    """The false answer that case 5 has none."""
+    return Result(
+        "assistance",
+        "infeasible",
+        "p",
+        Options(mode="assistance"),
+        reason="no-plan",
+        statistics={"bounds": {"lower": ["0", "0"], "upper": None}},
+    )
+
+
 def test_false_infeasibility_is_refuted() -> None:
-    result = replace(serendipity.plan(case_5(), mode="assistance"), status="infeasible", policy=None)
-    assert verdicts(case_5(), result)["infeasible"] == "refuted"
+    assert verdicts(case_5(), infeasible())["infeasible"] == "refuted"
 
 
 def test_plan_must_be_a_run_of_the_policy() -> None:
@@ -121,7 +146,7 @@ def test_plan_must_be_a_run_of_the_policy() -> None:
 def test_certificate_of_the_facade_covers_policies() -> None:
     certificate = serendipity.verify(case_6(), serendipity.plan(case_6(), mode="assistance", ties="robust"))
     assert certificate.verdict == "proved"
-    assert [claim.claim for claim in certificate.claims] == ["replay", "cost", "optimal"]
+    assert [claim.claim for claim in certificate.claims] == ["replay", "cost", "optimal", "lower_bound"]
 
 
 @pytest.mark.parametrize("ties", TIES)
@@ -132,13 +157,13 @@ def test_check_walks_through_the_policy(ties: str) -> None:
         ("replay", "proved"),
         ("cost", "proved"),
         ("optimal", "not_in_scope"),
+        ("lower_bound", "not_in_scope"),
     ]
     wrong = replace(result, policy=tampered(result.policy, 0, value=(Fraction(0), Fraction(1))))
     assert serendipity.check(case_6(), wrong).verdict == "refuted"
 
 
 def test_check_says_what_it_did_not_examine() -> None:
-    infeasible = replace(serendipity.plan(case_5(), mode="assistance"), status="infeasible", policy=None)
-    (claim,) = serendipity.check(case_5(), infeasible).claims
+    (claim,) = serendipity.check(case_5(), infeasible()).claims
     assert (claim.claim, claim.verdict) == ("infeasible", "not_in_scope")
     assert "verify" in claim.reason

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from serendipity.model import Condition, Options, PlanStep, Result, Task, Window
+from serendipity.model import Condition, Options, PlanStep, Policy, Result, Task, Window
 from tests.builders import task as build
 from tests.cases import CASE_3_PLAN, case_2, case_3, case_4, case_7, case_8, case_9, case_10
 from tests.verify.results import moved, result, step, with_steps
@@ -67,6 +67,21 @@ def _options(make: Callable[[], Given], **changes: Any) -> Given:
     return Given(built.task, replace(built.result, options=built.result.options.but(**changes)))
 
 
+def stuck() -> Given:
+    """Case 8: no plan of the human alone."""
+    return Given(case_8(), solve(case_8(), Options()))
+
+
+def _no_reason() -> Given:
+    return _set(stuck, reason="no-plan")
+
+
+def _not_among_the_ties() -> Given:
+    built = _options(helped, ties="robust")
+    listed = [{"human_plan": list(CASE_4_PI_H), "cost": 8.0, "opportunity": False}]
+    return Given(built.task, replace(built.result, statistics={"ties": listed}))
+
+
 SLOW = {1: "both r", 2: "slow h", 3: "end h"}
 WAITING = {
     1: "move h a b; pick_up_medkit rob k2 r",
@@ -90,10 +105,28 @@ RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "infeasible though pi_H is an answer": (
         "infeasible",
         lambda: _set(
-            helped, status="infeasible", plan=None, cost=None, objective=None, window=None, opportunity=False
+            helped,
+            status="infeasible",
+            plan=None,
+            cost=None,
+            objective=None,
+            window=None,
+            opportunity=False,
+            saving=None,
+            saving_alone=None,
+            agent_costs={},
+            reason="no-plan-within-horizon",
         ),
     ),
-    "reason contradicts pi_H": ("infeasible", lambda: _set(helped, reason="no-human-plan")),
+    "a reason beside a plan": ("reason", lambda: _set(helped, reason="no-human-plan")),
+    "infeasible for another reason": ("reason", _no_reason),
+    "ties without their answers": ("ties", lambda: _options(helped, ties="robust")),
+    "an answer that is not among the ties": ("ties", _not_among_the_ties),
+    "a policy in another mode": ("mode-and-human", lambda: _set(helped, policy=Policy((), None))),
+    "no saving": ("status-and-plan", lambda: _set(helped, saving=None)),
+    "no saving_alone": ("status-and-plan", lambda: _set(helped, saving_alone=None)),
+    "costs of agents without a plan": ("status-and-plan", lambda: _set(stuck, agent_costs={"h": 0.0})),
+    "a window under a human model": ("status-and-plan", lambda: _options(helped, human_model="observant")),
     "horizon other than pi_H's": ("horizon", lambda: _set(helped, horizon=9)),
     "horizon other than asked for": ("horizon", lambda: _set(lifted, horizon=3)),
     "an epoch past T": ("epoch-range", lambda: _change(helped, lambda r: moved(r, "conduct_triage h g", 9))),
@@ -331,7 +364,7 @@ UNTRUE: dict[str, tuple[str, Callable[[], tuple[Task, Result]]]] = {
         lambda: (dearer()[0], replace(dearer()[1], status="feasible", lower_bound=1008.6)),
     ),
     "a bound above an opportunity not yet found": ("lower_bound", _hasty_bound),
-    "the robust answer called optimistic": ("optimal", _other_ties),
+    "the robust answer called optimistic": ("no_opportunity", _other_ties),
     "infeasible though there is a plan": ("infeasible", lambda: _infeasible(case_8(), 2)),
     "saving_alone wrong": ("cost", _wrong_saving_alone),
     "saving wrong with a robots' goal": ("cost", _forgotten_robots_goal),
@@ -378,5 +411,5 @@ DOCTORED: dict[str, Doctored] = {
     **{name: Doctored(claim, None, make) for name, (claim, make) in UNTRUE.items()},
 }
 
-ANOTHER_TASK = ("another human", "pi_H with an unknown step")
+ANOTHER_TASK = ("another human", "pi_H with an unknown step", "mode changed after the fact")
 """Doctored results that a certificate does not examine: they are refused as bad input."""

@@ -94,7 +94,7 @@ def test_doctored_results_are_refuted_by_the_right_claim(name: str) -> None:
     doctored = DOCTORED[name]
     task, answer = doctored.make()
     if name in ANOTHER_TASK:
-        with pytest.raises(InputError, match="another task"):
+        with pytest.raises(InputError, match=r"another task|the options"):
             certify(task, answer)
         return
     refuted = certify(task, answer).refuted
@@ -165,7 +165,7 @@ def test_a_time_limit_is_never_a_proof(mode: str, encoding: str) -> None:
 def test_solve_in_no_time_is_unknown() -> None:
     answer = solved(case_4(), time_limit=0)
     assert (answer.status, answer.plan, answer.cost) == ("unknown", None, None)
-    assert certify(case_4(), answer).verdict == "proved"
+    assert certify(case_4(), answer).verdict == "undecided"
 
 
 # -- bad input
@@ -173,7 +173,7 @@ def test_solve_in_no_time_is_unknown() -> None:
 
 def test_a_result_for_another_task() -> None:
     answer = solved(case_4())
-    with pytest.raises(InputError, match="another task"):
+    with pytest.raises(InputError, match=r"another task|the options"):
         certify(case_1(), answer)
 
 

@@ -42,7 +42,11 @@ def test_every_rule_refutes_something() -> None:
 
 def test_expected_cost_has_to_be_the_mean() -> None:
     built = idle()
-    answers = [{"cost": 6.2, "opportunity": True}, {"cost": 8.0, "opportunity": False}]
+    plan = list(built.result.human_plan or ())
+    answers = [
+        {"human_plan": plan, "cost": 6.2, "opportunity": True},
+        {"human_plan": plan, "cost": 8.0, "opportunity": False},
+    ]
     mean = replace(
         built.result,
         options=Options(discount="0.9", ties="expected"),  # type: ignore[arg-type]
@@ -50,13 +54,18 @@ def test_expected_cost_has_to_be_the_mean() -> None:
         opportunity=True,
         cost=7.1,
         saving=0.9,
+        agent_costs={},
         statistics={"ties": answers},
     )
     assert check(built.task, mean).ok
-    for doctored in (replace(mean, cost=7.0), replace(mean, statistics={}), replace(mean, opportunity=False)):
+    for doctored, rule in (
+        (replace(mean, cost=7.0), "ties-mean"),
+        (replace(mean, opportunity=False), "ties-mean"),
+        (replace(mean, statistics={}), "ties"),
+    ):
         report = check(built.task, doctored)
         assert report.first is not None
-        assert report.first.rule == "ties-mean"
+        assert report.first.rule == rule
 
 
 def test_a_violation_names_epoch_and_action() -> None:

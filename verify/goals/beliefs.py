@@ -63,6 +63,8 @@ def faults(task: Task, recognised: Recognised) -> Iterator[Fault]:
             return
     if not recognised.goals or not _close(sum(goal.prior for goal in recognised.goals), 1.0):
         yield "the priors do not add up to 1"
+    if len({goal.name for goal in recognised.goals}) < len(recognised.goals):
+        yield "two goals have one name"
     for goal in recognised.goals:
         yield from _own_faults(task, recognised, goal)
     possible = any(goal.prior and goal.with_observed is not None for goal in recognised.goals)
@@ -120,4 +122,4 @@ def _log_joint(beta: float, goal: Believed) -> float:
 
 
 def _close(a: float | Fraction, b: float | Fraction) -> bool:
-    return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12)
+    return math.isclose(a, b, rel_tol=1e-11, abs_tol=1e-12)

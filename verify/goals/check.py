@@ -22,6 +22,9 @@ from verify.goals.timelines import (
 )
 from verify.goals.together import Better, Rank, Together
 from verify.minimise import Effort
+from verify.rules.alone import Alone
+from verify.rules.case import Case
+from verify.rules.header import mode_and_human, reason, status_and_fields
 from verify.undecided import UNDECIDED, why
 
 _PROVED = {
@@ -62,7 +65,11 @@ def check_goals(task: Task, result: Result, certify: Certify, effort: Effort | N
     if fault is not None:
         yield Claim("replay", "refuted", fault, seconds=perf_counter() - started)
     elif not chosen:
-        yield Claim("infeasible", "proved", "he can reach no goal that is possible alone")
+        fault = _nothing_fault(task, result)
+        if fault is not None:
+            yield Claim("replay", "refuted", fault)
+        else:
+            yield Claim("infeasible", "proved", "no goal that is possible can be reached alone")
     elif len(chosen) == 1:
         yield from _certain(task, result, chosen[0], served[0], certify)
     else:
@@ -125,9 +132,21 @@ def _header_fault(task: Task, result: Result, chosen: Sequence[Believed]) -> str
     expected = longest if options.horizon is None else options.horizon
     if result.horizon != expected or longest > int(expected):
         return f"the horizon is {expected}, at least {longest}; the answer says {result.horizon}"
+    if result.reason is not None:
+        return f"status {result.status} with a reason"
     if result.window is not None or result.human_plan is not None or result.realised:
         return "windows, plans and verdicts belong to single goals"
     return None
+
+
+def _nothing_fault(task: Task, result: Result) -> str | None:
+    """Whether an answer that says that there is no plan says more than that."""
+    own = (result.human_plan, result.human_cost, result.lower_bound, result.horizon)
+    if own != (None, None, None, None):
+        return "infeasible, with a plan, a cost, a bound or a horizon"
+    case = Case(task, result, Alone(task))
+    found = mode_and_human(case) or status_and_fields(case) or reason(case)
+    return None if found is None else found.message
 
 
 def _certain(task: Task, result: Result, goal: Believed, entry: Served, certify: Certify) -> Iterator[Claim]:

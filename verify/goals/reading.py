@@ -7,6 +7,7 @@ from typing import Any, Final, TypeVar
 
 from serendipity.model import Condition, InputError, PlanStep, Result, Task, Window
 
+_SCHEMA: Final = "serendipity.recognition/1"
 _MOST_DIGITS: Final = 10**6
 _T = TypeVar("_T")
 
@@ -58,6 +59,8 @@ def read(task: Task, result: Result) -> tuple[Recognised, tuple[Served, ...]]:
         MalformedError: naming the field.
     """
     known = _Fields(_object(result.statistics.get("recognition"), "statistics.recognition"), "recognition")
+    if (known.raw("schema"), known.raw("human")) != (_SCHEMA, result.human):
+        raise MalformedError(f"statistics.recognition: expected schema '{_SCHEMA}' and the result's human")
     recognised = Recognised(
         known.texts("observed"),
         known.number("beta"),
@@ -117,10 +120,12 @@ class _Fields:
         return self.get(key, read)
 
     def optional(self, key: str, read: Callable[[str], _T]) -> _T | None:
-        return None if self._data.get(key) is None else read(key)
+        return None if self.raw(key) is None else read(key)
 
     def raw(self, key: str) -> Any:
-        return self._data.get(key)
+        if key not in self._data:
+            raise MalformedError(f"{self._where}: '{key}' is missing")
+        return self._data[key]
 
 
 def _object(value: Any, where: str) -> Mapping[str, Any]:

@@ -145,9 +145,10 @@ def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
             return f"the expected {name} is {float(value):.12g}, the answer says {said}"
     if not result.opportunity and (result.plan or any(line.case.result.window for line in lines)):
         return "no opportunity, but robots act"
-    for agent in result.agent_costs.keys() | set(lines[0].task.agents):
+    if result.agent_costs.keys() != set(lines[0].task.agents):
+        return "agent_costs: expected one figure for each agent"
+    for agent, said in result.agent_costs.items():
         share = mean(lines, [_share(line.case, agent) for line in lines])
-        said = result.agent_costs.get(agent, 0.0)
         if not close(said, share):
             return f"agent_costs of {agent} is {float(share):.12g}, the answer says {said:.12g}"
     return None
@@ -165,7 +166,7 @@ def bound_fault(result: Result) -> str | None:
 
 def close(said: float, value: Fraction) -> bool:
     """Whether a float stands for a value that was summed from rounded probabilities."""
-    return math.isclose(said, value, rel_tol=1e-9, abs_tol=1e-9)
+    return math.isclose(said, value, rel_tol=1e-12, abs_tol=1e-12)
 
 
 def mean(lines: Sequence[Timeline], values: Sequence[Fraction]) -> Fraction:

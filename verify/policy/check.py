@@ -2,14 +2,14 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from fractions import Fraction
 from time import perf_counter
 from typing import Final
 
 from serendipity.model import Claim, Deadline, Result, Task
-from verify.policy.board import Board, Costs
+from verify.policy.board import NOTHING, Board, Costs
 from verify.policy.closed import BrokenError, Walk
 from verify.policy.ending import ends
+from verify.policy.figures import Bounds, figure_faults, header_faults
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
@@ -21,7 +21,7 @@ _NO_WALK: Final = "not examined: it takes more than a walk through the policy; v
 def check_policy(
     task: Task, result: Result, deadline: Deadline, *, replay_only: bool = False
 ) -> tuple[Claim, ...]:
-    """Claims about a policy: ``replay``, ``cost``, ``optimal`` or ``infeasible``.
+    """Claims about a policy: ``replay``, ``cost``, ``optimal``, ``lower_bound`` or ``infeasible``.
 
     Args:
         task: one human, one robot.
@@ -53,15 +53,26 @@ class _Checker:
         if len(self._task.robots) != 1:
             yield Claim("replay", "refuted", "mode 'assistance' is for one robot")
             return
-        board = Board(self._task, fixed=self._ties == "fixed", deadline=self._deadline)
+        fault = next(header_faults(result), None)
+        if fault is not None:
+            yield Claim(fault[0], "refuted", fault[1])
+            return
+        try:
+            board = Board(self._task, fixed=self._ties == "fixed", deadline=self._deadline)
+        except UNDECIDED as error:
+            yield Claim("replay", "undecided", why(error))
+            return
         if result.status == "infeasible":
-            yield (
-                Claim("infeasible", "not_in_scope", _NO_WALK)
-                if self._replay_only
-                else self._infeasible(board)
-            )
+            yield self._unless_replay_only("infeasible") or self._infeasible(board)
         elif result.policy is not None:
             yield from self._with_policy(board)
+        elif result.lower_bound is not None:
+            yield self._unless_replay_only("lower_bound") or self._bounded(board)
+        else:
+            yield Claim("replay", "not_in_scope", "there is no answer to examine")
+
+    def _unless_replay_only(self, name: str) -> Claim | None:
+        return Claim(name, "not_in_scope", _NO_WALK) if self._replay_only else None
 
     def _infeasible(self, board: Board) -> Claim:
         try:
@@ -76,8 +87,8 @@ class _Checker:
         try:
             listed = read_decisions(board, self._result.policy)
             value = Walk(board, listed, self._ties, no_block=self._no_block).value()
-            if self._result.plan is not None and self._result.status == "optimal":
-                check_run(board, self._result)
+            if self._result.plan is not None:
+                check_run(self._task, board, self._result)
         except ValueError as error:
             yield Claim("replay", "refuted", str(error))
             return
@@ -87,28 +98,35 @@ class _Checker:
         except UNDECIDED as error:
             yield Claim("replay", "undecided", why(error))
             return
+        for claim, message in figure_faults(self._task, board, self._result, value):
+            yield Claim(claim, "refuted", message)
+            return
         yield Claim("replay", "proved", "closed under what the human may do, and every run ends")
-        yield self._cost(value)
-        if self._result.status == "optimal":
-            yield (
-                Claim("optimal", "not_in_scope", _NO_WALK)
-                if self._replay_only
-                else self._optimal(board, value)
-            )
-
-    def _cost(self, value: Costs) -> Claim:
-        result = self._result
-        given = [Fraction(str(cost)) for cost in result.agent_costs.values()]
-        totals = [Fraction(str(float(cost))) for cost in value]
-        names = [self._task.agents[self._task.human], self._task.agents[self._task.robots[0]]]
-        if list(result.agent_costs) != names or given != totals:
-            expected = ", ".join(f"{name} {float(cost):g}" for name, cost in zip(names, value, strict=True))
-            return Claim("cost", "refuted", f"agent_costs: expected {expected}, got {result.agent_costs}")
-        if result.cost != float(sum(value)):
-            return Claim("cost", "refuted", f"cost: expected {float(sum(value)):g}, got {result.cost}")
-        return Claim(
+        yield Claim(
             "cost", "proved", f"each value is what a round and the values after it make: {show(value)}"
         )
+        if self._result.status == "optimal":
+            best = self._unless_replay_only("optimal") or self._optimal(board, value)
+            yield best
+            yield replace(best, claim="lower_bound", reason=f"as 'optimal': {best.reason}")
+        else:
+            yield self._unless_replay_only("lower_bound") or self._bounded(board)
+
+    def _bounded(self, board: Board) -> Claim:
+        """A bound that comes without a proof: whether both together, without turns, pay as much."""
+        try:
+            bounds = Bounds(self._result)
+            if self._result.lower_bound != float(bounds.least_sum):
+                return Claim("lower_bound", "refuted", f"lower_bound: expected {float(bounds.least_sum):g}")
+            if (
+                bounds.lower == NOTHING
+                or board.goal.holds(board.start)
+                or board.at_least(board.start, bounds.lower)
+            ):
+                return Claim("lower_bound", "proved", f"both together pay at least {show(bounds.lower)}")
+        except UNDECIDED as error:
+            return Claim("lower_bound", "undecided", why(error))
+        return Claim("lower_bound", "undecided", "both together, without turns, might pay less")
 
     def _optimal(self, board: Board, value: Costs) -> Claim:
         assert self._result.policy is not None

@@ -46,6 +46,7 @@ class Walk:
         """
         board = self._board
         if board.start not in self._listed:
+            self._require_met()
             return self._idle(board.start)
         pending = [board.start]
         while pending:
@@ -53,8 +54,14 @@ class Walk:
             if state not in self._onward:
                 self._round(state)
                 pending.extend(self._onward[state])
+        self._require_met()
         self._require_an_end()
         return self._listed[board.start].value
+
+    def _require_met(self) -> None:
+        """No state is listed that the policy does not meet."""
+        if len(self._onward) < len(self._listed):
+            raise BrokenError("replay", "a state is listed that the policy does not meet")
 
     def _idle(self, state: int) -> Costs:
         """Doing nothing for ever."""

@@ -2,12 +2,12 @@
 
 from fractions import Fraction
 
-from serendipity.model import Result
+from serendipity.model import PlanStep, Result, Task
 from verify.policy.board import Board
 from verify.policy.closed import BrokenError
 
 
-def check_run(board: Board, result: Result) -> None:
+def check_run(task: Task, board: Board, result: Result) -> None:
     """Return if the plan is a run in which the human acts optimally, at the totals reported.
 
     Raises:
@@ -16,6 +16,8 @@ def check_run(board: Board, result: Result) -> None:
     """
     assert result.plan is not None
     human = result.human
+    for step in result.plan:
+        _check_step(task, step)
     done = {(step.epoch, step.agents == (human,)): step.action for step in result.plan}
     if len(done) < len(result.plan):
         raise BrokenError("replay", "plan: an agent acts twice in one epoch")
@@ -47,3 +49,13 @@ def _human(board: Board, state: int, name: str | None, epoch: int) -> tuple[Frac
             return reply.cost, reply.state
     what = "wait" if name is None else f"do '{name}'"
     raise BrokenError("replay", f"plan, epoch {epoch}: the human would not {what}")
+
+
+def _check_step(task: Task, step: PlanStep) -> None:
+    """Return if a step has an agent and a cost that an action of its name has."""
+    actions = [task.actions[i] for i in task.named.get(step.action, ())]
+    agents = [tuple(task.agents[i] for i in action.participants) for action in actions]
+    if step.agents not in agents:
+        raise BrokenError("replay", f"plan, epoch {step.epoch}: there is no '{step.action}' of these agents")
+    if step.cost not in [float(action.cost) for action in actions]:
+        raise BrokenError("cost", f"plan, epoch {step.epoch}: '{step.action}' does not cost {step.cost:g}")

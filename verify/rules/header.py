@@ -1,6 +1,7 @@
 """Rules on what a result says about its call: mode, human, ``pi_H``, horizon, status."""
 
-from serendipity.model import INFINITE, PlanError
+from serendipity.model import INFINITE, PlanError, Result
+from verify.obligations import is_mean
 from verify.rules.case import Case, Found
 from verify.undecided import UNDECIDED
 
@@ -12,6 +13,8 @@ def mode_and_human(case: Case) -> Found | None:
         return Found(f"the task's human is {human}, the result's {result.human}")
     if result.mode != result.options.mode:
         return Found(f"the mode is {result.mode}, but {result.options.mode} in the options")
+    if result.policy is not None:
+        return Found(f"a policy, which mode {result.mode} does not have")
     return None
 
 
@@ -19,8 +22,11 @@ def human_plan_valid(case: Case) -> Found | None:
     """``pi_H`` is a plan of the human alone; it is missing only if he has none."""
     if isinstance(case.human_plan, PlanError):
         return Found(f"pi_H: {case.human_plan.message}")
-    if case.human_plan is not None or case.result.status == "unknown":
+    if case.human_plan is not None:
         return None
+    bound = case.result.lower_bound
+    if case.result.status == "unknown" and (bound is None or case.result.mode == "composite"):
+        return None  # it may not have been known when the limit came, and nothing rests on it
     try:
         optimum = case.alone.optimum(case.task.init)
     except UNDECIDED:
@@ -32,10 +38,10 @@ def horizon(case: Case) -> Found | None:
     """``T``: as asked for, else ``|pi_H|``; never shorter (SPEC 2, 3.1)."""
     result = case.result
     asked, said = result.options.horizon, result.horizon
-    if result.status == "unknown" or (
-        case.human_plan is None and (result.mode == "individual" or result.options.windowed)
-    ):
+    if result.status == "unknown" and said is None:
         return None
+    if case.human_plan is None and (result.mode == "individual" or result.options.windowed):
+        return None if said is None else Found("a horizon, though there is no pi_H")
     expected: int | str | None = asked
     if result.mode == "individual" or (asked is None and case.human_plan is not None):
         expected = len(case.pi_h)
@@ -50,19 +56,46 @@ def horizon(case: Case) -> Found | None:
     return None
 
 
-def status_and_plan(case: Case) -> Found | None:
-    """A plan, its cost and objective are there exactly if the status says so."""
+def status_and_fields(case: Case) -> Found | None:
+    """A plan and what belongs to one are there exactly if the status says so."""
     result = case.result
     answered = result.status in ("optimal", "feasible")
-    mean = result.options.ties == "expected"
-    if answered and result.plan is None and not mean:
+    if answered and result.plan is None and not is_mean(result):
         return Found(f"status {result.status} without a plan")
     for name in ("cost", "objective"):
         if answered != (getattr(result, name) is not None):
             return Found(f"status {result.status} {'without' if answered else 'with'} a figure for {name}")
-    if not answered and (result.plan is not None or result.window is not None or result.opportunity):
-        return Found(f"status {result.status} with a plan, a window or an opportunity")
+    compared = answered and result.human_plan is not None
+    for name in ("saving", "saving_alone"):
+        there = getattr(result, name) is not None
+        if there != compared and not (compared and case.robots_goal):  # where the baseline decides
+            return Found(f"{name} is {'there' if there else 'missing'}: it goes with an answer and a pi_H")
+    if result.window is not None and result.options.human_model != "omniscient":
+        return Found("a window, to which a human who replans is not bound")
+    if result.plan is None and (result.window is not None or result.agent_costs or result.realised):
+        return Found("a window, costs of agents or verdicts on humans, but no plan")
+    if not answered and (result.plan is not None or result.opportunity):
+        return Found(f"status {result.status} with a plan or an opportunity")
     return None
+
+
+def reason(case: Case) -> Found | None:
+    """Where there is no plan, the reason says why; where there is one, there is nothing to say."""
+    result = case.result
+    if result.status in ("optimal", "feasible"):
+        return None if result.reason is None else Found(f"status {result.status} with a reason")
+    expected = infeasible_because(result)
+    if result.status == "infeasible" and result.reason != expected:
+        return Found(f"the reason is {expected}, the result says {result.reason!r:.50}")
+    return None
+
+
+def infeasible_because(result: Result) -> str:
+    """Why there is no plan (``Result.reason``): of what kind the answer's proof is."""
+    needs_pi_h = result.mode == "individual" or result.options.windowed
+    if result.human_plan is None and needs_pi_h:
+        return "no-human-plan"
+    return "no-plan" if result.horizon == INFINITE else "no-plan-within-horizon"
 
 
 def infeasible(case: Case) -> Found | None:
@@ -70,8 +103,6 @@ def infeasible(case: Case) -> Found | None:
     result = case.result
     if result.status == "infeasible" and case.human_plan is not None and not case.robots_goal:
         return Found("infeasible, though doing nothing is an answer: pi_H")
-    if result.reason == "no-human-plan" and case.human_plan is not None:
-        return Found("the reason is no-human-plan, but pi_H is reported")
     if (
         result.status == "optimal"
         and result.mode in ("individual", "serendipity")

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from verify.rules import bound, cost, execution, header, window
+from verify.rules import bound, cost, execution, header, tied, window
 from verify.rules.case import Case, Found
 
 
@@ -21,7 +21,9 @@ class Rule:
 RULES: Final[tuple[Rule, ...]] = (
     Rule("mode-and-human", "replay", "3", header.mode_and_human),
     Rule("human-plan", "replay", "1", header.human_plan_valid),
-    Rule("status-and-plan", "replay", "3", header.status_and_plan),
+    Rule("status-and-plan", "replay", "3", header.status_and_fields),
+    Rule("reason", "replay", "3.5", header.reason),
+    Rule("ties", "replay", "1", tied.ties),
     Rule("infeasible", "replay", "3.5", header.infeasible),
     Rule("horizon", "replay", "2", header.horizon),
     Rule("epoch-range", "replay", "2", execution.epoch_range),
@@ -42,7 +44,7 @@ RULES: Final[tuple[Rule, ...]] = (
     Rule("saving", "cost", "3.1", cost.saving),
     Rule("saving-alone", "cost", "1", cost.saving_alone),
     Rule("opportunity", "cost", "3.1", cost.opportunity),
-    Rule("ties-mean", "cost", "1", cost.ties_mean),
+    Rule("ties-mean", "cost", "1", tied.mean),
     Rule("window-presence", "window", "3.1", window.window_presence),
     Rule("idle-answer", "window", "3.1", window.idle_answer),
     Rule("window-range", "window", "3.1", window.window_range),

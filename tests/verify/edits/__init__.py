@@ -1,0 +1,1 @@
+"""Good results of every mode, and every edit of their fields."""

@@ -1,0 +1,176 @@
+"""Why an edited result may still be proved: what an edit must be for that, and nothing else."""
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any, Final
+
+import serendipity
+from serendipity.model import Result, SerendipityError, UsageError
+from tests.verify.edits.corpus import Good
+from tests.verify.edits.edits import Edit
+
+NO_CLAIM: Final = (
+    "options.time_limit",
+    "options.memory_limit",
+    "options.max_ties",
+    "policy.floors",
+    "realised",
+    "statistics.constraints",
+    "statistics.elapsed_seconds",
+    "statistics.encoding",
+    "statistics.expanded",
+    "statistics.gap",
+    "statistics.generated",
+    "statistics.optimal_plans",
+    "statistics.solver",
+    "statistics.solver_calls",
+    "statistics.ties.*.realised",
+    "statistics.variables",
+)
+"""Fields without a claim, and what is below them; ``realised`` may say less than it could."""
+
+_WEAKER: Final = (("optimal", "feasible"),)
+"""A status that claims less of the same answer."""
+
+
+def explained(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edit, ...]) -> str | None:
+    """Why the edited result is right; None if there is no reason.
+
+    Args:
+        good: what was edited.
+        data: the edited JSON.
+        result: what was read from it.
+        edits: what was changed.
+    """
+    original = good.result.to_dict()
+    if _meaning(data) == _meaning(original):
+        return "it says the same"
+    if _without_options(data) == _without_options(original) and _same_answer(good, result):
+        return "the options don't change the answer"
+    if _claims_less(good, result):
+        return "it claims less"
+    if "goals" in good.asked and "goals" not in result.statistics and _same_answer(good, result):
+        return "it is the answer for the task's own goal, too"
+    if _beliefs(result) is not None and _same_recognition(good, data, result):
+        return "the posterior is another one, and the answer is that for it"
+    if {edit.path[0] for edit in edits} <= {"plan", "policy", "window"} and _another_answer(good, result):
+        return "another answer of the same worth"
+    return None
+
+
+def _meaning(data: dict[str, Any]) -> Any:
+    """What a result says, without fields that carry no claim and without order that means nothing."""
+    return _plain(data, "")
+
+
+def _plain(value: Any, where: str) -> Any:
+    if isinstance(value, dict):
+        fields = {key: _plain(item, f"{where}.{key}".strip(".")) for key, item in value.items()}
+        kept = {key: item for key, item in fields.items() if not _claimless(f"{where}.{key}".strip("."), key)}
+        if where.endswith("goals.*") and "posterior" in kept and not kept["posterior"]:
+            kept["name"] = ""  # of a goal that is impossible
+        return {**kept, **({"policy": None} if not where and "policy" not in kept else {})}
+    if isinstance(value, list):
+        items = [_plain(item, f"{where}.*") for item in value]
+        unordered = (
+            where.endswith(("plan", "agents", "states", "ties", "goals")) and "human_plan" not in where
+        )
+        return sorted(items, key=repr) if unordered else items
+    return value
+
+
+def _claimless(where: str, key: str) -> bool:
+    return key == "more" or any(where == name or where.startswith(f"{name}.") for name in NO_CLAIM)
+
+
+def _without_options(data: dict[str, Any]) -> Any:
+    return _meaning({key: value for key, value in data.items() if key != "options"})
+
+
+def _asked(good: Good, result: Result) -> Result | None:
+    """What the call is answered under the edited result's options; None where it can't be asked so."""
+    options = {key: value for key, value in result.options.to_dict().items() if not key.endswith("_limit")}
+    wanted = ("human_plan", *(("goals", "observed") if "goals" in result.statistics else ()))
+    given = {key: value for key, value in good.asked.items() if key in wanted}
+    try:
+        return serendipity.plan(good.task, **options, **given)
+    except (UsageError, SerendipityError):
+        return None
+
+
+def _same_answer(good: Good, result: Result) -> bool:
+    """Whether the call under the edited options is answered just so, or better known by now."""
+    again = _asked(good, result)
+    if again is None:
+        return result.status == "infeasible"  # a horizon that is too short for others, say
+    figures = ("human_cost", "cost", "objective", "opportunity", "saving", "saving_alone", "reason")
+    if result.status in ("optimal", "infeasible"):
+        return again.status == result.status and all(
+            getattr(again, name) == getattr(result, name) for name in figures
+        )
+    return _bounded(result, again)
+
+
+def _bounded(result: Result, again: Result) -> bool:
+    """Whether the optimum lies where an unfinished answer says."""
+    if result.mode == "assistance" and again.status == "optimal":
+        said, right = (each.statistics["bounds"]["lower"] for each in (result, again))
+        return [Fraction(text) for text in said] <= [Fraction(text) for text in right]
+    if again.cost is None or again.objective is None or result.lower_bound is None:
+        return result.lower_bound in (None, 0.0)
+    least = again.objective
+    if again.window is not None and not result.opportunity:  # such a bound is net of one epoch
+        least = again.cost + float(result.options.window_weight) * (len(again.window) - 1)
+    most = float("inf") if result.objective is None else result.objective
+    return result.lower_bound <= least + 1e-9 and least <= most + 1e-9
+
+
+def _beliefs(result: Result) -> dict[str, Any] | None:
+    """The recognition that an answer for several goals rests on."""
+    return result.statistics.get("recognition") if "goals" in result.statistics else None
+
+
+def _same_recognition(good: Good, data: dict[str, Any], result: Result) -> bool:
+    """Whether the call with the beliefs that the edited result states is answered just so."""
+    said = _beliefs(result)
+    assert said is not None
+    goals = [{key: goal[key] for key in ("name", "goal", "prior")} for goal in said["goals"]]
+    options = {key: value for key, value in result.options.to_dict().items() if not key.endswith("_limit")}
+    again = serendipity.plan(good.task, goals=goals, observed=said["observed"], beta=said["beta"], **options)
+    return bool(_meaning(again.to_dict()) == _meaning(data))
+
+
+def _claims_less(good: Good, result: Result) -> bool:
+    """Whether only a bound or a status changed, to something weaker or to something else that is true."""
+    before = good.result
+    weaker = before.status == result.status or (before.status, result.status) in _WEAKER
+    same = replace(result, status=before.status, lower_bound=before.lower_bound, reason=before.reason)
+    statistics = dict(result.statistics)
+    for key in ("bounds", "ties"):  # a bound, and the answers that were looked at
+        if key in before.statistics:
+            statistics[key] = before.statistics[key]
+    same = replace(same, statistics=statistics)
+    if not weaker or _meaning(same.to_dict()) != _meaning(before.to_dict()):
+        return False
+    if result.status == "unknown" and before.reason and not result.reason:
+        return True
+    if result.status == "optimal":  # some of the answers that were looked at are not listed
+        return "ties" in before.statistics and result.lower_bound == before.lower_bound
+    again = _asked(good, result)
+    return again is not None and result.status != "infeasible" and _bounded(result, again)
+
+
+def _another_answer(good: Good, result: Result) -> bool:
+    """Whether the plan, executed here, costs the same and reaches the goals; a policy is worth the same."""
+    before = good.result
+    if result.mode == "assistance":
+        return result.agent_costs == before.agent_costs and result.status == before.status
+    task, state, cost = good.task, set(good.task.init), 0.0
+    steps = sorted(result.plan or (), key=lambda step: step.epoch)
+    for epoch in sorted({step.epoch for step in steps}):
+        chosen = [task.actions[task.named[step.action][0]] for step in steps if step.epoch == epoch]
+        if not all(action.applicable(state) for action in chosen):
+            return False
+        state = state.difference(*(action.delete for action in chosen)).union(*(a.add for a in chosen))
+        cost += sum(step.cost for step in steps if step.epoch == epoch)
+    return task.goal.holds(state) and abs(cost - (before.cost or 0)) < 1e-9

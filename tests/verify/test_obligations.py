@@ -1,0 +1,64 @@
+"""A certificate is a proof only if every claim that the kind of answer needs was examined."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.model import Certificate, Claim
+from tests.verify.edits.corpus import Good, corpus
+from verify.obligations import BEST, NEEDED, complete, kind_of, needed
+
+_PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
+
+
+@pytest.fixture(scope="module")
+def goods() -> list[Good]:
+    return [
+        good for good in corpus() if good.result.status != "unknown" or good.result.lower_bound is not None
+    ]
+
+
+def _verdict(claims: tuple[Claim, ...]) -> str:
+    return Certificate(claims, 0.0).verdict
+
+
+def test_every_row_of_the_table_has_an_example(goods: list[Good]) -> None:
+    met = {(kind_of(good.result), good.result.status) for good in goods}
+    rows = {(kind, status) for kind, row in NEEDED.items() for status in row}
+    unmet = rows - met
+    assert {kind for kind, _ in met} == set(NEEDED)
+    assert {status for _, status in unmet} <= {"feasible", "infeasible", "unknown"}
+
+
+def test_a_claim_left_out_leaves_it_undecided(goods: list[Good]) -> None:
+    for good in goods:
+        claims = serendipity.verify(good.task, good.result).claims
+        assert _verdict(claims) == "proved", good.name
+        for name in needed(good.result):
+            rest = tuple(claim for claim in claims if claim.claim != name)
+            assert _verdict(complete(good.result, rest)) == "undecided", (good.name, name)
+
+
+def test_a_claim_out_of_scope_leaves_it_undecided(goods: list[Good]) -> None:
+    for good in goods:
+        claims = serendipity.verify(good.task, good.result).claims
+        for name in needed(good.result):
+            passed = tuple(replace(c, verdict="not_in_scope") if c.claim == name else c for c in claims)
+            assert _verdict(complete(good.result, passed)) == "undecided", (good.name, name)
+
+
+def test_nothing_is_proved_by_saying_nothing(goods: list[Good]) -> None:
+    for good in goods:
+        assert _verdict(complete(good.result, ())) == "undecided"
+        assert _verdict(()) == "undecided"
+
+
+def test_the_page_shows_the_table() -> None:
+    lines = ["| answer | " + " | ".join(NEEDED["a plan"]) + " |", "|---|---|---|---|---|"]
+    for kind, row in NEEDED.items():
+        cells = (", ".join(row.get(status, ("-",))) for status in NEEDED["a plan"])
+        lines.append(f"| {kind} | " + " | ".join(cells) + " |")
+    assert "\n".join(lines) in _PAGE.read_text()
+    assert BEST in _PAGE.read_text()

@@ -1,0 +1,131 @@
+"""Whether the figures around a policy follow from it, and its bounds are written down (SPEC 7)."""
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import Any, Final
+
+from serendipity.model import PlanError, Result, Task, UsageError, exact
+from verify.policy.board import Board, Costs
+from verify.rules.replay import replay_human
+
+Fault = tuple[str, str]
+"""The claim that is refuted, and why."""
+
+_OF_ANSWERS: Final = ("human_plan", "human_cost", "saving", "saving_alone", "cost", "objective", "plan")
+"""Fields that only an answer with a policy has, beside the policy."""
+
+
+class Bounds:
+    """``statistics.bounds``: both sides of the value, as pairs of exact costs.
+
+    Raises:
+        ValueError: they are missing or of another form.
+    """
+
+    def __init__(self, result: Result) -> None:
+        bounds = result.statistics.get("bounds")
+        if not isinstance(bounds, Mapping) or set(bounds) != {"lower", "upper"}:
+            raise ValueError("statistics.bounds: expected an object with 'lower' and 'upper'")
+        lower = _pair(bounds["lower"])
+        if lower is None:
+            raise ValueError("statistics.bounds.lower: expected a pair of costs")
+        self.lower: Costs = lower
+        self.upper = _pair(bounds["upper"])
+
+    @property
+    def least_sum(self) -> Fraction:
+        """What both costs add up to at least, the human's being compared first."""
+        tied = self.upper is not None and self.lower[0] == self.upper[0]
+        return sum(self.lower, Fraction(0)) if tied else self.lower[0]
+
+
+def header_faults(result: Result) -> Iterator[Fault]:
+    """What does not belong to an answer of mode ``assistance``, or is missing, by its status."""
+    if result.mode != result.options.mode:
+        yield "replay", f"the mode is {result.mode}, but {result.options.mode} in the options"
+    try:
+        bounds = Bounds(result)
+    except ValueError as error:
+        yield "replay", str(error)
+        return
+    if result.window is not None or result.horizon is not None or result.realised:
+        yield "replay", "a window, a horizon or verdicts on humans, which this mode does not have"
+    if result.status in ("optimal", "feasible"):
+        if result.policy is None:
+            yield "replay", f"status {result.status} without a policy"
+        if result.reason is not None:
+            yield "replay", f"status {result.status} with a reason"
+        return
+    if bounds.upper is not None:
+        yield "replay", f"status {result.status}, but statistics.bounds.upper is there"
+    there = next((name for name in (*_OF_ANSWERS, "policy") if getattr(result, name) is not None), None)
+    if there is not None or result.agent_costs or result.opportunity:
+        yield "replay", f"status {result.status} with {there or 'an answer'}"
+    if result.status == "infeasible" and (result.reason, result.lower_bound) != ("no-plan", None):
+        yield "replay", "infeasible: expected the reason 'no-plan', and no lower bound"
+
+
+def figure_faults(task: Task, board: Board, result: Result, value: Costs) -> Iterator[Fault]:
+    """Whether every figure is what the policy's value and the human's own plan make it."""
+    names = [task.agents[task.human], task.agents[task.robots[0]]]
+    expected = {name: float(cost) for name, cost in zip(names, value, strict=True)}
+    if list(result.agent_costs) != names or result.agent_costs != expected:
+        words = ", ".join(f"{name} {cost:g}" for name, cost in expected.items())
+        yield "cost", f"agent_costs: expected {words}"
+    total = float(sum(value))
+    for name in ("cost", "objective"):
+        if getattr(result, name) != total:
+            yield "cost", f"{name}: expected {total:g}, got {getattr(result, name)}"
+    yield from _own_faults(task, board, result, value)
+    yield from _bound_faults(result, value)
+
+
+def _own_faults(task: Task, board: Board, result: Result, value: Costs) -> Iterator[Fault]:
+    """``pi_H``, its cost, and what the human saves."""
+    alone = board.alone(board.start)
+    if result.human_plan is None:
+        if alone is not None and result.status == "optimal":
+            yield "replay", "no pi_H is reported, but the human has a plan alone"
+        own = (result.human_cost, result.saving, result.saving_alone)
+        if own != (None, None, None) or result.opportunity:
+            yield "cost", "a saving, or the cost of a plan, but no pi_H"
+        return
+    try:
+        cost = task.cost_of(replay_human(task, result.human_plan))
+    except PlanError as error:
+        yield "replay", f"pi_H: {error.message}"
+        return
+    if cost != alone:
+        yield "replay", f"pi_H costs {float(cost):g}, which is not the human's least cost alone"
+    saving = cost - value[0]
+    expected = (float(cost), float(saving), 0.0, saving > 0)
+    if (result.human_cost, result.saving, result.saving_alone, result.opportunity) != expected:
+        words = "human_cost {:g}, saving {:g}, saving_alone {:g}, opportunity {}".format(*expected)
+        yield "cost", f"expected {words.lower()}"
+
+
+def _bound_faults(result: Result, value: Costs) -> Iterator[Fault]:
+    bounds = Bounds(result)
+    if bounds.upper != value:
+        yield "cost", "statistics.bounds.upper is not the policy's value"
+    if bounds.lower > value or (result.status == "optimal" and bounds.lower != value):
+        yield "lower_bound", f"statistics.bounds.lower does not fit status {result.status}"
+    if result.lower_bound != float(bounds.least_sum):
+        yield "lower_bound", f"lower_bound: expected {float(bounds.least_sum):g}, got {result.lower_bound}"
+
+
+def _pair(value: Any) -> Costs | None:
+    """Two costs from their exact texts; None for null.
+
+    Raises:
+        ValueError: it is something else.
+    """
+    if value is None:
+        return None
+    if not isinstance(value, list | tuple) or len(value) != 2 or not all(isinstance(x, str) for x in value):
+        raise ValueError("statistics.bounds: expected the human's and the robot's cost as texts")
+    try:
+        first, second = (exact(cost, "statistics.bounds") for cost in value)
+    except UsageError as error:
+        raise ValueError(str(error)) from None
+    return first, second
