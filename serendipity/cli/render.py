@@ -7,8 +7,10 @@ import io
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+from serendipity.printable import printable
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -53,12 +55,21 @@ def rendered(parts: Iterable[Line | Grid], *, terminal: bool | None = None) -> s
         parts: from top to bottom.
         terminal: with colours and folded to the terminal's width; None asks stdout.
     """
-    if sys.stdout.isatty() if terminal is None else terminal:
-        return _coloured(parts)
+    shown = [_printable(part) for part in parts]
+    if (sys.stdout is not None and sys.stdout.isatty()) if terminal is None else terminal:
+        return _coloured(shown)
     lines: list[str] = []
-    for part in parts:
+    for part in shown:
         lines += [part.text] if isinstance(part, Line) else _plain(part)
     return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def _printable(part: Line | Grid) -> Line | Grid:
+    if isinstance(part, Line):
+        return replace(part, text=printable(part.text))
+    return replace(
+        part, header=[*map(printable, part.header)], rows=[[*map(printable, row)] for row in part.rows]
+    )
 
 
 def _plain(grid: Grid) -> list[str]:

@@ -5,9 +5,10 @@ Series are told apart by colour (the Okabe-Ito palette), by dashes and by their 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from math import ceil, floor, log10
 from typing import Final
+
+from serendipity.printable import markup
 
 _WIDTH, _HEIGHT = 700, 360
 _LEFT, _RIGHT, _TOP, _BOTTOM = 64, 210, 40, 52
@@ -132,13 +133,13 @@ def _legend(index: int, name: str, colour: str, dash: str) -> list[str]:
 def _text(x: float, y: float, text: str, anchor: str, *, weight: str = "normal") -> str:
     return (
         f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-weight="{weight}" '
-        f'fill="currentColor">{escape(text)}</text>'
+        f'fill="currentColor">{markup(text)}</text>'
     )
 
 
 def _svg(labels: Labels, parts: Sequence[str]) -> str:
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" '
-        f'aria-label="{escape(labels.title)}" font-family="sans-serif" font-size="12">'
-        f"<title>{escape(labels.title)}</title>" + "".join(parts) + "</svg>"
+        f'aria-label="{markup(labels.title)}" font-family="sans-serif" font-size="12">'
+        f"<title>{markup(labels.title)}</title>" + "".join(parts) + "</svg>"
     )

@@ -1,10 +1,9 @@
 """A run as CSV and as JSON."""
 
-import csv
-import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, Final
 
+from serendipity.csv_text import as_csv
 from serendipity.reproduction.rows import COLUMNS
 from serendipity.reproduction.run import Reproduction
 from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
@@ -14,7 +13,7 @@ SCHEMA: Final = "serendipity.reproduction/1"
 
 def rows_as_csv(run: Reproduction) -> str:
     """The rows, one a line, below the names of ``COLUMNS``."""
-    return _csv(COLUMNS, (row.cells() for row in run.rows))
+    return as_csv(COLUMNS, (row.cells() for row in run.rows))
 
 
 def table_1_as_csv(entries: Sequence[Entry]) -> str:
@@ -44,12 +43,4 @@ def as_json(
 
 def _csv_of(objects: Sequence[dict[str, Any]]) -> str:
     lines = (["" if value is None else value for value in item.values()] for item in objects)
-    return _csv(list(objects[0]), lines)
-
-
-def _csv(header: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(lines)
-    return text.getvalue()
+    return as_csv(list(objects[0]), lines)

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from html import escape
 from math import floor
 from typing import Final
 
+from serendipity.printable import markup
 from serendipity.reproduction.charts import Labels, Points, bars, lines
 from serendipity.reproduction.run import Reproduction
 from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
@@ -32,7 +32,7 @@ def html_report(
     tests = len({row.test for row in run.rows})
     parts = [
         "<h1>Planning for serendipity: a reproduction</h1>",
-        f"<p>{tests} tasks, modes {escape(', '.join(run.modes))}.</p>",
+        f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>",
         "<h2>Table I: cost, and tasks in which a robot helps</h2>",
         _table(*table_1_grid(entries)),
         _chart_of_costs(entries),
@@ -108,8 +108,8 @@ def _short(value: Fraction) -> str:
 
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-    body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>\n" for row in rows)
+    head = "".join(f"<th>{markup(cell)}</th>" for cell in header)
+    body = "".join("<tr>" + "".join(f"<td>{markup(cell)}</td>" for cell in row) + "</tr>\n" for row in rows)
     return f'<div class="wide"><table><thead><tr>{head}</tr></thead>\n<tbody>{body}</tbody></table></div>'
 
 

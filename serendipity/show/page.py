@@ -2,12 +2,12 @@
 
 import json
 from functools import cache
-from html import escape
 from importlib.resources import files
 from string import Template
 from typing import Any, Final
 
 from serendipity.model.numbers import plain
+from serendipity.printable import markup, printable
 from serendipity.show.drawing import Picture
 from serendipity.show.headline import headline, subtitle
 from serendipity.show.map_picture import MARGIN, map_picture, trails
@@ -30,9 +30,9 @@ def page(scene: Scene) -> str:
     lanes = timeline_picture(scene)
     lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, cursor(scene)), lanes.description)
     return _template("page.html").substitute(
-        title=escape(f"{scene.name}: {headline(scene)}"),
-        headline=escape(headline(scene)),
-        subtitle=escape(subtitle(scene)),
+        title=markup(f"{scene.name}: {headline(scene)}"),
+        headline=markup(headline(scene)),
+        subtitle=markup(subtitle(scene)),
         style=_text("style.css"),
         script=_text("play.js"),
         data=_embedded(_data(scene)),
@@ -73,7 +73,7 @@ def _data(scene: Scene) -> dict[str, Any]:
     return {
         "frames": [_frame(scene, frame) for frame in scene.frames],
         "trails": {key: [path(points)[1:] for points in steps] for key, steps in trails(scene).items()},
-        "meetings": [{"epoch": meeting.epoch, "text": meeting.text} for meeting in scene.meetings],
+        "meetings": [{"epoch": meeting.epoch, "text": printable(meeting.text)} for meeting in scene.meetings],
         "column": COLUMN,
         "margin": MARGIN,
         "most": max(float(scene.frames[-1].cost), float(scene.frames[-1].former_spent), 1e-9),
@@ -86,15 +86,15 @@ def _data(scene: Scene) -> dict[str, Any]:
 def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
     last = scene.frames[-1]
     return {
-        "caption": frame.caption,
+        "caption": printable(frame.caption),
         "tokens": {key: _token(token) for key, token in tokens(scene, frame).items()},
         "cost": f"{plain(frame.cost)} of {plain(last.cost)}",
         "former": f"{plain(frame.former_spent)} of {plain(last.former_spent)}",
         "formerValue": float(frame.former_spent),
         "spent": [float(frame.spent[agent]) for agent in scene.lanes],
         "window": frame.in_window,
-        "made": [*frame.made],
-        "undone": [*frame.undone],
+        "made": [*map(printable, frame.made)],
+        "undone": [*map(printable, frame.undone)],
     }
 
 
@@ -108,9 +108,9 @@ def _legend(scene: Scene) -> str:
     for agent in scene.lanes:
         kind = "person" if agent == scene.human else "machine"
         sample = f'<i class="{kind}" style="background:{colours[agent]};color:{on(colours[agent])}"></i>'
-        items.append(f"{sample}{escape(scene.agents[agent])}")
+        items.append(f"{sample}{markup(scene.agents[agent])}")
     if scene.deviates:
-        items.append(f'<i class="former"></i>{escape(scene.agents[scene.human])}’s former plan')
+        items.append(f'<i class="former"></i>{markup(scene.agents[scene.human])}’s former plan')
     if scene.window is not None:
         items.append('<i class="window"></i>window')
     if scene.meetings:
@@ -124,7 +124,7 @@ def _bars(scene: Scene) -> str:
     """Two bars: the former plan's cost so far, and the team's, in the agents' colours."""
     colours = agent_colours(len(scene.agents), scene.human)
     part = '<span class="part" style="background:{}" title="{}"></span>'
-    parts = "".join(part.format(colours[agent], escape(scene.agents[agent])) for agent in scene.lanes)
+    parts = "".join(part.format(colours[agent], markup(scene.agents[agent])) for agent in scene.lanes)
     rows = [("team", "this plan", parts, "cost")]
     if scene.former_acts:
         rows.append(("former", "former plan", '<span class="part former"></span>', "former-cost"))
@@ -137,9 +137,9 @@ def _bars(scene: Scene) -> str:
 
 def _table(scene: Scene) -> str:
     """The plan as a table, full names and all."""
-    head = "".join(f'<th scope="col">{escape(scene.agents[agent])}</th>' for agent in scene.lanes)
+    head = "".join(f'<th scope="col">{markup(scene.agents[agent])}</th>' for agent in scene.lanes)
     if scene.deviates:
-        head += f'<th scope="col">{escape(scene.agents[scene.human])}’s former plan</th>'
+        head += f'<th scope="col">{markup(scene.agents[scene.human])}’s former plan</th>'
     rows = []
     for frame in scene.frames[1:]:
         cells = []
@@ -148,7 +148,7 @@ def _table(scene: Scene) -> str:
             cells.append(", ".join(acts))
         if scene.deviates:
             cells.append(", ".join(a.action for a in scene.former_acts if a.epoch == frame.epoch))
-        body = "".join(f"<td>{escape(cell)}</td>" for cell in cells)
+        body = "".join(f"<td>{markup(cell)}</td>" for cell in cells)
         row_class = ' class="window"' if frame.in_window else ""
         rows.append(f'<tr{row_class}><th scope="row">{frame.epoch}</th>{body}</tr>')
     return f'<thead><tr><th scope="col">epoch</th>{head}</tr></thead><tbody>{"".join(rows)}</tbody>'

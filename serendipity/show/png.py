@@ -4,6 +4,7 @@ import io
 from typing import TYPE_CHECKING, Any
 
 from serendipity.model import UsageError
+from serendipity.printable import printable
 from serendipity.show.drawing import Circle, Group, Line, Picture, Rect, Shape, Style, Text
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ class _Painter:
         self.axes.text(
             x + text.x,
             y + text.y,
-            text.text.replace("$", r"\$"),
+            printable(text.text).replace("$", r"\$"),
             fontsize=text.size * 0.88,  # its font is wider than the usual ones of browsers
             color=text.colour,
             ha={"middle": "center", "start": "left", "end": "right"}[text.anchor],

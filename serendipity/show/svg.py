@@ -1,8 +1,8 @@
 """Pictures as SVG, written by hand: no library is needed."""
 
 from collections.abc import Iterator, Mapping
-from html import escape
 
+from serendipity.printable import markup
 from serendipity.show.drawing import Circle, Group, Line, Picture, Point, Rect, Shape, Style, Text
 
 _FONT = "system-ui, 'DejaVu Sans', 'Segoe UI', Arial, sans-serif"
@@ -29,7 +29,7 @@ def svg(picture: Picture, *, inline: bool = False, **attributes: str) -> str:
     }
     body = "".join(part for shape in picture.shapes for part in _shape(shape))
     paper = "" if inline else '<rect width="100%" height="100%" fill="#ffffff"/>'
-    title = f"<title>{escape(picture.description)}</title>" if not inline else ""
+    title = f"<title>{markup(picture.description)}</title>" if not inline else ""
     return f"<svg{_attributes(own)}>{title}{paper}{body}</svg>"
 
 
@@ -67,7 +67,7 @@ def _shape(shape: Shape) -> Iterator[str]:
             faint = {"opacity": number(shape.opacity)} if shape.opacity < 1 else {}
             yield f"<g{_attributes({**moved, **faint, **_data(shape.data)})}>"
             if shape.title:
-                yield f"<title>{escape(shape.title)}</title>"
+                yield f"<title>{markup(shape.title)}</title>"
             for inner in shape.shapes:
                 yield from _shape(inner)
             yield "</g>"
@@ -83,7 +83,7 @@ def _text(text: Text) -> str:
         "dy": ".35em",
         **({"font-weight": "700"} if text.bold else {}),
     }
-    return f"<text{_attributes(attributes)}>{escape(text.text)}</text>"
+    return f"<text{_attributes(attributes)}>{markup(text.text)}</text>"
 
 
 def _paint(style: Style) -> dict[str, str]:
@@ -102,4 +102,4 @@ def _data(data: Mapping[str, str]) -> dict[str, str]:
 
 
 def _attributes(values: Mapping[str, str]) -> str:
-    return "".join(f' {key}="{escape(value)}"' for key, value in values.items())
+    return "".join(f' {key}="{markup(value)}"' for key, value in values.items())
