@@ -1,6 +1,7 @@
 """A folder of tasks through modes x discounts: in parallel, and resumable."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from fractions import Fraction
 from os import PathLike
@@ -83,13 +84,14 @@ def reproduce(
         known[_key(task, call)].opportunity for task in tasks for call in calls if _key(task, call) in known
     )
     report(Progress(done, len(tasks), helped))
-    for record in _work(assignments, jobs, dask):
-        if book is not None:
-            book.append(record)
-        known |= _by_call([record])
-        done += 1
-        helped += sum(row.opportunity for row in record.rows)
-        report(Progress(done, len(tasks), helped))
+    with closing(_work(assignments, jobs, dask)) as records:
+        for record in records:
+            if book is not None:
+                book.append(record)
+            known |= _by_call([record])
+            done += 1
+            helped += sum(row.opportunity for row in record.rows)
+            report(Progress(done, len(tasks), helped))
     rows = tuple(known[_key(task, call)] for task in tasks for call in calls)
     return Reproduction(
         tuple(dict.fromkeys(c.mode for c in calls)), tuple(dict.fromkeys(c.discount for c in calls)), rows
@@ -124,9 +126,12 @@ def _left(task: TaskFolder, calls: Sequence[Call], known: dict[_Key, Row]) -> As
     return Assignment(task.test, task.path, task.fingerprint, missing) if missing else None
 
 
-def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Iterator[TaskRows]:
+def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:
     if not assignments:
-        return iter(())
+        return
     if dask is not None:
-        return on_dask(solve, assignments, dask, jobs)
-    return in_turn(solve, assignments) if jobs == 1 else in_processes(solve, assignments, jobs)
+        yield from on_dask(solve, assignments, dask, jobs)
+    elif jobs == 1:
+        yield from in_turn(solve, assignments)
+    else:
+        yield from in_processes(solve, assignments, jobs)

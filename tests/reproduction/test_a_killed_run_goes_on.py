@@ -13,6 +13,7 @@ import pytest
 
 import serendipity
 from serendipity.reproduction import Progress, reproduce, run
+from serendipity.reproduction.pool import in_processes
 
 CALLS = {"modes": ["serendipity", "communication"], "discounts": ["0.6", "0.9"]}
 
@@ -115,6 +116,14 @@ def test_kill_in_the_middle(suite: Path, tmp_path: Path) -> None:
     found = [line.rpartition(",")[0] for line in answer.read_text().splitlines()[1:]]
     assert found == [",".join(row.cells()[:-1]) for row in uninterrupted.rows]
     assert not journal.exists()
+
+
+def test_workers_end_where_nobody_asks_for_more() -> None:
+    started = time.monotonic()
+    finished = in_processes(time.sleep, [0.0, 600.0], jobs=2)
+    next(finished)
+    finished.close()
+    assert time.monotonic() - started < 60
 
 
 def ended(pid: int) -> None:
