@@ -9,12 +9,11 @@ Everything public is importable from here and loads when it is first used::
     certificate = serendipity.verify(task, result)
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any, Final
-
-from serendipity._siblings import require_siblings
+TYPE_CHECKING = False  # of `typing`, which the command line need not load before it listens to Ctrl-C
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from serendipity.certify import check, verify
     from serendipity.explanation import Explanation, explain
     from serendipity.goals import Recognition, recognise
@@ -37,7 +36,8 @@ if TYPE_CHECKING:
     )
     from serendipity.planning import plan, plan_anytime
     from serendipity.reproduction import reproduce
-    from serendipity.scenarios import example, generate_usar
+    from serendipity.scenarios.examples import example
+    from serendipity.scenarios.generate import generate_usar
     from serendipity.session import Session
     from serendipity.simulation import simulate
 
@@ -77,12 +77,12 @@ __all__ = [
     "verify",
 ]
 
-_HOMES: Final = {
+_HOMES = {
     "load": "serendipity.loading",
     "load_agents": "serendipity.loading",
     "load_pddl": "serendipity.loading",
-    "example": "serendipity.scenarios",
-    "generate_usar": "serendipity.scenarios",
+    "example": "serendipity.scenarios.examples",
+    "generate_usar": "serendipity.scenarios.generate",
     "plan": "serendipity.planning",
     "plan_anytime": "serendipity.planning",
     "Session": "serendipity.session",
@@ -98,7 +98,7 @@ _HOMES: Final = {
 }
 """Where the public functions live; the public classes live in ``serendipity.model``."""
 
-_NEED_SIBLINGS: Final = (
+_NEED_SIBLINGS = (
     "serendipity.planning",
     "serendipity.certify",
     "serendipity.interruptibility",
@@ -111,12 +111,16 @@ _NEED_SIBLINGS: Final = (
 )
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     if name not in __all__:
         raise AttributeError(f"module 'serendipity' has no attribute {name!r}")
     home = _HOMES.get(name, "serendipity.model")
     if home in _NEED_SIBLINGS:
+        from serendipity._siblings import require_siblings
+
         require_siblings("search", "verify")
+    from importlib import import_module
+
     value = getattr(import_module(home), name)
     globals()[name] = value
     return value

@@ -1,7 +1,6 @@
 """``python -m serendipity`` is the command ``serendipity``."""
 
-import sys
+from serendipity.cli.entry import run
 
-from serendipity.cli.app import main
-
-sys.exit(main())
+if __name__ == "__main__":
+    run()

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 from serendipity.benchmark.measure import MODES
 from serendipity.model.errors import SerendipityError, UsageError
-from serendipity.scenarios import generate_usar
+from serendipity.scenarios.generate import generate_usar
 
 _DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
 

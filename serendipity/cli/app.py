@@ -1,63 +1,35 @@
 """The typer application: its commands, and the one place where errors become exit codes."""
 
 import io
-import logging
 import sys
 from collections.abc import Sequence
+from contextvars import copy_context
 from typing import Annotated
 
 import typer
 
 from serendipity import __version__
-from serendipity.cli import (
-    bench,
-    crosscheck,
-    examples,
-    explain,
-    generate,
-    interruptions,
-    plan,
-    recognise,
-    reproduce,
-    show,
-    simulate,
-    solve,
-    verify,
-)
+from serendipity.cli import output
+from serendipity.cli.commands import Commands
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.help_examples import epilog
-from serendipity.model import SerendipityError
-
-log = logging.getLogger("serendipity")
+from serendipity.cli.stderr import tell
+from serendipity.model.errors import SerendipityError
 
 app = typer.Typer(
     name="serendipity",
+    cls=Commands,
     help="Plan help for a person who did not ask for it, and prove that none is better.",
     epilog=epilog(),
-    add_completion=False,
-    no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.command("plan", epilog=epilog("plan"))(plan.plan)
-app.command("verify", epilog=epilog("verify"))(verify.verify)
-app.command("simulate", epilog=epilog("simulate"))(simulate.simulate)
-app.command("explain", epilog=epilog("explain"))(explain.explain)
-app.command("interruptions", epilog=epilog("interruptions"))(interruptions.interruptions)
-app.command("recognise", epilog=epilog("recognise"))(recognise.recognise)
-app.command("reproduce", epilog=epilog("reproduce"))(reproduce.reproduce)
-app.command("show", epilog=epilog("show"))(show.show)
-app.command("solve", epilog=epilog("solve"))(solve.solve)
-app.command("crosscheck", epilog=epilog("crosscheck"))(crosscheck.crosscheck)
-app.command("bench", epilog=epilog("bench"))(bench.bench)
-app.command("examples", epilog=epilog("examples"))(examples.examples)
-app.add_typer(generate.app, name="generate")
 
 
 def _show_version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"serendipity {__version__}")
+        output.say(f"serendipity {__version__}\n")
         raise typer.Exit
 
 
@@ -80,19 +52,31 @@ def main(argv: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # names that the terminal can't show
     try:
-        code = int(app(args=argv, prog_name="serendipity", standalone_mode=False) or 0)
-    except typer.TyperException as error:
-        return _fail(error.format_message())
-    except (SerendipityError, ImportError) as error:
-        log.debug("the error came from here", exc_info=True)
-        return _fail(str(error))
+        code = copy_context().run(_run, sys.argv[1:] if argv is None else argv)
     except (typer.Abort, KeyboardInterrupt):
         code = ExitCode.INTERRUPTED
     if code == ExitCode.INTERRUPTED:  # typer may have turned Ctrl-C into this code
-        sys.stderr.write("Interrupted.\n")
+        tell("Interrupted.")
+    return code
+
+
+def _run(argv: Sequence[str]) -> int:
+    try:
+        code = int(app(args=argv or ["--help"], prog_name="serendipity", standalone_mode=False) or 0)
+        output.flush()
+    except typer.TyperException as error:
+        return _fail(error.format_message())
+    except (SerendipityError, ImportError) as error:
+        output.log_origin()
+        return _fail(str(error))
+    except OSError as error:
+        where = error.filename or "standard output"
+        return _fail(f"{where} can't be written: {error.strerror}")
+    except SystemExit as left:  # typer's way out where the reader of its help has stopped, and of completion
+        return ExitCode.ANSWERED if left.code == 1 else int(left.code or 0)
     return code
 
 
 def _fail(message: str) -> int:
-    sys.stderr.write(f"Error: {' '.join(message.split())}\n")
+    tell(f"Error: {message}")
     return ExitCode.WRONG_INPUT

@@ -1,7 +1,5 @@
 """``serendipity bench``: the search, integer programs and Fast Downward on the same calls; scaling series."""
 
-import csv
-import io
 import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import astuple, fields
@@ -11,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from serendipity.cli import output, progress
+from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.render import Grid, Line, rendered
+from serendipity.csv_text import as_csv
 from serendipity.model import InputError, Task, UsageError
 
 if TYPE_CHECKING:
@@ -50,8 +50,8 @@ def bench(
     scaling: Annotated[
         str | None,
         typer.Option(
-            metavar="AXES|all",
             help="How the search scales instead: some of rooms, medkits, robots, length, modes, discounts.",
+            **choices("AXES", "all"),
         ),
     ] = None,
     repeat: Annotated[
@@ -98,12 +98,12 @@ def bench(
     if ratios:
         parts += [Grid(benchmark.RATIOS_HEADER, ratios), Line()]
     parts.append(Grid(benchmark.TIMES_HEADER, benchmark.times(timings)))
-    typer.echo(rendered(parts), nl=False)
-    _write_csv(timings, output_file)
+    answers = [output.Answer(rendered(parts), None), *_as_csv(timings, output_file)]
     if plot is not None:
         from serendipity.benchmark.plot import side_by_side
 
-        output.write_answer(side_by_side(timings, plot.suffix), plot)
+        answers.append(output.Answer(side_by_side(timings, plot.suffix), plot, "--plot"))
+    output.write_answers(answers)
     return ExitCode.ANSWERED
 
 
@@ -135,12 +135,12 @@ def _scaling(
         Line(),
         Grid(benchmark.EXPONENTS_HEADER, benchmark.exponents(samples)),
     ]
-    typer.echo(rendered(parts), nl=False)
-    _write_csv(samples, output_file)
+    answers = [output.Answer(rendered(parts), None), *_as_csv(samples, output_file)]
     if plot is not None:
         from serendipity.benchmark.plot import series
 
-        output.write_answer(series(samples, plot.suffix), plot)
+        answers.append(output.Answer(series(samples, plot.suffix), plot, "--plot"))
+    output.write_answers(answers)
     return ExitCode.ANSWERED
 
 
@@ -149,7 +149,7 @@ def _check_files(output_file: Path | None, plot: Path | None) -> None:
     if plot is not None:
         from serendipity.benchmark.plot import check_suffix
 
-        output.check_output(plot)
+        output.check_output(plot, "--plot")
         check_suffix(plot.suffix)
 
 
@@ -162,14 +162,12 @@ def _present(names: Sequence[str]) -> tuple[list[str], tuple[str, ...]]:
     return [name for name in names if reasons.get(name) is None], absent
 
 
-def _write_csv(rows: "Sequence[Timing] | Sequence[Sample]", output_file: Path | None) -> None:
-    if output_file is None or not rows:
-        return
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([field.name for field in fields(rows[0])])
-    writer.writerows(astuple(row) for row in rows)
-    output.write_answer(text.getvalue(), output_file)
+def _as_csv(
+    rows: "Sequence[Timing] | Sequence[Sample]", output_file: Path | None
+) -> "Iterator[output.Answer]":
+    if output_file is not None and rows:
+        header = [field.name for field in fields(rows[0])]
+        yield output.Answer(as_csv(header, (astuple(row) for row in rows)), output_file)
 
 
 def _loaded(folder: Path, stride: int) -> Iterator[Task]:

@@ -1,6 +1,5 @@
 """``serendipity crosscheck``: search, integer programs and certificates on the same calls."""
 
-import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Final
@@ -60,8 +59,8 @@ def crosscheck(
                 found = compare(smallest, chosen) or found
                 break
         else:
-            sys.stdout.write(f"{total} calls, {', '.join(chosen)}: 0 disagreements\n")
+            output.say(f"{total} calls, {', '.join(chosen)}: 0 disagreements\n")
             return ExitCode.ANSWERED
     commands = write_case(found, folder)
-    sys.stdout.write(f"after {checked} calls without, a disagreement: {found}\nreproduce: {commands}\n")
+    output.say(f"after {checked} calls without, a disagreement: {found}\nreproduce: {commands}\n")
     return ExitCode.REFUTED

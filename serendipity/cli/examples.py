@@ -1,12 +1,11 @@
 """``serendipity examples``: the tasks that are shipped."""
 
-import typer
+from serendipity.cli import output
 
 
 def examples() -> None:
     """List the tasks that --example takes."""
-    from serendipity.scenarios import EXAMPLES
+    from serendipity.scenarios.examples import EXAMPLES
 
     width = max(len(name) for name in EXAMPLES)
-    for shipped in EXAMPLES.values():
-        typer.echo(f"{shipped.name:<{width}}  {shipped.summary}")
+    output.say("".join(f"{shipped.name:<{width}}  {shipped.summary}\n" for shipped in EXAMPLES.values()))

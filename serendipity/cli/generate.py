@@ -5,9 +5,17 @@ from typing import Annotated
 
 import typer
 
+from serendipity.cli.choices import choices
 from serendipity.cli.help_examples import epilog
+from serendipity.cli.output import say
+from serendipity.printable import printable
 
-app = typer.Typer(help="Write seeded tasks of any size as PDDL.", no_args_is_help=True, rich_markup_mode=None)
+app = typer.Typer(
+    name="generate",
+    help="Write seeded tasks of any size as PDDL.",
+    rich_markup_mode=None,
+    add_completion=False,
+)
 
 
 @app.callback()
@@ -33,18 +41,21 @@ def usar(
     ] = None,
     preset: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="figure2 (the paper's building), or room2, room5, room7 in it."),
+        typer.Option(
+            help="The paper's building; or one of its examples.",
+            **choices("figure2", "room2", "room5", "room7"),
+        ),
     ] = None,
     layout: Annotated[
         str,
         typer.Option(
-            metavar="agents|pair",
             help="A folder per agent and superagent/, or one domain and one problem.",
+            **choices("agents", "pair"),
         ),
     ] = "agents",
 ) -> None:
     """Write a search-and-rescue building: a human, robots, medkits and a place for triage."""
-    from serendipity.scenarios import generate_usar
+    from serendipity.scenarios.generate import generate_usar
 
     written = generate_usar(
         output,
@@ -57,5 +68,4 @@ def usar(
         preset=preset,
         layout=layout,
     )
-    for path in written:
-        typer.echo(path)
+    say("".join(f"{printable(str(path))}\n" for path in written))

@@ -1,6 +1,5 @@
 """The examples of ``--help``: data, so that the tests can run them in this order."""
 
-import shlex
 from typing import Final
 
 EXAMPLES: Final = (
@@ -29,5 +28,5 @@ EXAMPLES: Final = (
 
 def epilog(command: str = "") -> str:
     """The examples of one command (all without one), as the closing lines of its help."""
-    chosen = [text for text in EXAMPLES if not command or shlex.split(text)[1] == command]
+    chosen = [text for text in EXAMPLES if not command or text.split()[1] == command]
     return "\n".join(["\b", "Examples:", *(f"  {text}" for text in chosen)])

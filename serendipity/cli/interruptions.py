@@ -58,15 +58,19 @@ def interruptions(
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     with progress.counting("searches", quiet=quiet) as on_progress:
         report = serendipity.interruptions(task, on_progress=on_progress, **options)
+    answers = [output.Answer(_shown(report, form), output_file)]
     if heat_map is not None:
-        output.write_answer(_drawn(report, heat_map.suffix), heat_map, "--heat-map")
-    if form == "json":
-        output.write_answer(output.as_json(report.to_dict()), output_file)
-    else:
-        from serendipity.cli.render import rendered
-
-        output.write_answer(rendered(_text(report)), output_file)
+        answers.append(output.Answer(_drawn(report, heat_map.suffix), heat_map, "--heat-map"))
+    output.write_answers(answers)
     return ExitCode.ANSWERED if report.human_plan is not None else ExitCode.INFEASIBLE
+
+
+def _shown(report: "InterruptionReport", form: str) -> str:
+    if form == "json":
+        return output.as_json(report.to_dict())
+    from serendipity.cli.render import rendered
+
+    return rendered(_text(report))
 
 
 def _drawn(report: "InterruptionReport", suffix: str) -> str | bytes:

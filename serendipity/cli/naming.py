@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from serendipity.cli import output, progress
-from serendipity.model import Task, UsageError
+from serendipity.model.errors import UsageError
+from serendipity.model.task import Task
 
 Files = Annotated[
     list[Path] | None,
@@ -40,7 +41,18 @@ Team = Annotated[
     str | None,
     typer.Option("--team", metavar="DOMAIN,PROBLEM", help="With --agent: the files of the joint actions."),
 ]
-Example = Annotated[str | None, typer.Option("--example", metavar="NAME", help="A task that is shipped.")]
+
+
+def _examples() -> list[tuple[str, str]]:
+    from serendipity.scenarios.examples import EXAMPLES
+
+    return [(shipped.name, shipped.summary) for shipped in EXAMPLES.values()]
+
+
+Example = Annotated[
+    str | None,
+    typer.Option("--example", metavar="NAME", help="A task that is shipped.", autocompletion=_examples),
+]
 
 
 def load(
@@ -103,7 +115,7 @@ class TaskName:
         return self._from_files()
 
     def _from_example(self, name: str) -> Task:
-        from serendipity.scenarios import example
+        from serendipity.scenarios.examples import example
 
         task = example(name)
         return task if self.human is None else task.with_human(self.human)

@@ -1,26 +1,45 @@
-"""Where answers go: stdout, or a file that is there whole or not at all."""
+"""Where answers go: stdout, or files that are there whole or not at all."""
 
-import json
-import logging
 import os
-import stat
 import sys
-import tempfile
+from contextlib import nullcontext
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, Final, NamedTuple
 
 import typer
 
-from serendipity.model import UsageError
+from serendipity.cli.choices import choices
+from serendipity.cli.stderr import tell
+from serendipity.model.errors import UsageError
 
 FORMATS: Final = ("text", "json")
 
 Format = Annotated[
-    str | None, typer.Option("--format", metavar="|".join(FORMATS), help="Text, or JSON for -o *.json.")
+    str | None,
+    typer.Option("--format", help="Text, or JSON for -o *.json.", **choices(*FORMATS)),
 ]
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the answer here.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No warnings and no progress on stderr.")]
 Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Log to stderr; -vv logs more.")]
+
+
+class Answer(NamedTuple):
+    """Something a command has to say.
+
+    Attributes:
+        content: a text, or the bytes of a picture.
+        file: where it goes; None is stdout.
+        option: that named the file, for errors.
+    """
+
+    content: str | bytes
+    file: Path | None
+    option: str = "-o"
+
+    @property
+    def encoded(self) -> bytes:
+        """The bytes to be written."""
+        return self.content.encode() if isinstance(self.content, str) else self.content
 
 
 def prepare(wanted: str | None, output: Path | None, verbosity: int) -> str:
@@ -65,64 +84,88 @@ def check_output(output: Path | None, option: str = "-o") -> None:
 
 
 def as_json(value: dict[str, Any]) -> str:
-    """A JSON object as text, indented."""
-    return json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    """A JSON object as text, indented; characters that can't be seen are escaped."""
+    import json
+
+    from serendipity.printable import printable_json
+
+    return printable_json(json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False)) + "\n"
 
 
 def write_answer(answer: str | bytes, output: Path | None, option: str = "-o") -> None:
     """Write an answer to ``output``; a text to stdout where that is None.
 
     Raises:
-        UsageError: the file can't be written, with the system's reason.
+        UsageError: it can't be written, with the system's reason.
     """
-    if output is None:
-        _print(answer if isinstance(answer, str) else answer.decode())
-        return
+    write_answers([Answer(answer, output, option)])
+
+
+def write_answers(answers: list[Answer]) -> None:
+    """Write several answers: all of them, or none.
+
+    Raises:
+        UsageError: one of them can't be written, with the system's reason.
+    """
+    options = {str(answer.file): answer.option for answer in answers if answer.file is not None}
+    files = {answer.file: answer.encoded for answer in answers if answer.file is not None}
+    together: Any = nullcontext()
+    if files:
+        from serendipity.writing import written_together
+
+        together = written_together(files)
     try:
-        _write_whole(output.resolve(), answer.encode() if isinstance(answer, str) else answer)
+        with together:
+            for answer in answers:
+                if answer.file is None:
+                    say(answer.encoded.decode())
     except OSError as error:
-        raise UsageError(f"{option}: {output} can't be written: {error.strerror}") from None
+        where = f"{options.get(error.filename, '-o')}: {error.filename}"
+        raise UsageError(f"{where} can't be written: {error.strerror}") from None
 
 
-def _print(text: str) -> None:
+def say(text: str) -> None:
+    """Write a text to stdout.
+
+    Raises:
+        UsageError: it is closed or full.
+    """
+    if sys.stdout is None:
+        raise UsageError("standard output is closed")
     try:
         sys.stdout.write(text)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader has stopped, as `head` does: no error, also not when Python closes the stream.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise UsageError(f"standard output can't be written: {error.strerror}") from None
 
 
-def _write_whole(path: Path, content: bytes) -> None:
-    if path.exists() and not stat.S_ISREG(path.stat().st_mode):  # a device or a pipe: nothing to replace
-        path.write_bytes(content)
-        return
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        Path(name).chmod(path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask())
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
+def flush() -> None:
+    """Make sure that what others have written to stdout, such as help, is there.
 
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    Raises:
+        UsageError: stdout is full.
+    """
+    if sys.stdout is not None:
+        say("")
 
 
 def warn(lines: tuple[str, ...], *, quiet: bool) -> None:
     """Print warnings to stderr, unless the user asked for quiet."""
     if not quiet:
         for line in lines:
-            sys.stderr.write(f"Warning: {' '.join(line.split())}\n")
+            tell(f"Warning: {line}")
 
 
 def start_logging(verbosity: int) -> None:
-    """Log to stderr: nothing but warnings at 0, progress at 1 (``-v``), everything at 2."""
+    """Log to stderr: nothing but warnings at 0, more at 1 (``-v``), everything at 2."""
+    if not verbosity and "logging" not in sys.modules:
+        return  # it takes longer to load than many a plan to find
+    import logging
+
     level = (logging.WARNING, logging.INFO, logging.DEBUG)[min(verbosity, 2)]
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(logging.Formatter("%(levelname)s %(name)s: %(message)s"))
@@ -130,3 +173,11 @@ def start_logging(verbosity: int) -> None:
         logger = logging.getLogger(name)
         logger.handlers = [handler]  # of this call; one of an earlier call would write everything twice
         logger.setLevel(level)
+
+
+def log_origin() -> None:
+    """Log where the error that is being handled came from (``-vv``)."""
+    if "logging" in sys.modules:
+        import logging
+
+        logging.getLogger("serendipity").debug("the error came from here", exc_info=True)

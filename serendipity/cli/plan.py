@@ -1,6 +1,7 @@
 """``serendipity plan``: the main job."""
 
-from collections.abc import Callable, Iterable
+import threading
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -9,8 +10,8 @@ import typer
 import serendipity
 from serendipity.cli import goals as goal_options
 from serendipity.cli import naming, output, plan_options, progress
+from serendipity.cli.cancelling import cancelling
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
-from serendipity.cli.human_plan import read_human_plan
 from serendipity.model import Certificate, Result, UsageError
 from serendipity.model.numbers import plain
 
@@ -70,21 +71,26 @@ def plan(
         time_limit=time_limit,
     )
     if human_plan is not None:
+        from serendipity.cli.human_plan import read_human_plan
+
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     if goals is not None:
         options |= plan_options.given(goals=goals, observed=observed, beta=beta)
-        with progress.working("planning", quiet=quiet):
-            expected = serendipity.plan(task, **options)
+        with progress.working("planning", quiet=quiet), cancelling() as cancelled:
+            expected = serendipity.plan(task, cancelled=cancelled, **options)
         with progress.working("verifying", quiet=quiet):
-            proof = serendipity.verify(task, expected) if certify else None
-        return _for_goals(expected, proof, form, output_file)
+            proof = serendipity.verify(task, expected) if certify and not cancelled.is_set() else None
+        code = _for_goals(expected, proof, form, output_file)
+        return ExitCode.INTERRUPTED if cancelled.is_set() else code
     for option, value in (("--observed", observed), ("--beta", beta)):
         if value is not None:
             raise UsageError(f"{option}: goes with --goals only")
-    with progress.working("planning", quiet=quiet) as on_news:
-        result, interrupted = _last(serendipity.plan_anytime(task, **options), on_news)
+    with progress.working("planning", quiet=quiet) as on_news, cancelling() as cancelled:
+        result = _last(serendipity.plan_anytime(task, cancelled=cancelled, **options), on_news, cancelled)
     if result is None:
         return ExitCode.INTERRUPTED
+    interrupted = cancelled.is_set()
+    certify = certify and not interrupted  # who interrupts does not want to wait for a proof
     with progress.working("verifying", quiet=quiet):
         certificate = serendipity.verify(task, result) if certify else serendipity.check(task, result)
     if form == "json":
@@ -116,13 +122,14 @@ def _for_goals(result: Result, certificate: Certificate | None, form: str, outpu
     return ExitCode.REFUTED if refuted else OF_STATUS[result.status]
 
 
-def _last(answers: Iterable[Result], on_news: Callable[[str], None]) -> tuple[Result | None, bool]:
-    """The last answer that came, and whether the user interrupted the work on a better one."""
+def _last(answers: Iterable[Result], on_news: progress.News, cancelled: threading.Event) -> Result | None:
+    """The last answer that came; ``cancelled`` is set if somebody interrupts the work on a better one."""
     result = None
     try:
         for result in answers:
-            if result.status == "feasible":
-                on_news(f"{plain(result.cost)}, at least {plain(result.lower_bound)}")
+            if result.cost is not None:
+                figures = {name: getattr(result, name) for name in ("objective", "cost", "lower_bound")}
+                on_news(f"cost {plain(result.cost)}", **figures)
     except KeyboardInterrupt:
-        return result, True
-    return result, False
+        cancelled.set()
+    return result

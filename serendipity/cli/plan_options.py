@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final
 
 import typer
 
+from serendipity.cli.choices import choices
 from serendipity.model.options import CHOICES, Options
 
 _DEFAULTS: Final = {field.name: getattr(Options(), field.name) for field in fields(Options)}
@@ -20,7 +21,7 @@ def _option(name: str, help: str, metavar: str | None = None) -> Any:  # noqa: A
     shown = "" if default is None else f" [default: {default}]"
     return typer.Option(
         f"--{name.replace('_', '-')}",
-        metavar=metavar or "|".join(CHOICES[name]),
+        **choices(*(metavar.split("|") if metavar else CHOICES[name])),
         help=help + shown,
         show_default=False,
     )

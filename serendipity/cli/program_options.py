@@ -4,7 +4,9 @@ from typing import Annotated
 
 import typer
 
-Solver = Annotated[str, typer.Option(help="highs, or cbc as a cross-check.", metavar="highs|cbc")]
+from serendipity.cli.choices import choices
+
+Solver = Annotated[str, typer.Option(help="highs, or cbc as a cross-check.", **choices("highs", "cbc"))]
 Encoding = Annotated[
-    str, typer.Option(help="Agent automata, or the paper's equations.", metavar="automata|paper")
+    str, typer.Option(help="Agent automata, or the paper's equations.", **choices("automata", "paper"))
 ]

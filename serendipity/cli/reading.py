@@ -9,13 +9,13 @@ from serendipity.model import InputError, Result, UsageError
 
 
 def read_text(path: Path) -> str:
-    """The text of a file.
+    """The text of a file, with or without a byte order mark; its lines may end as on any system.
 
     Raises:
         InputError: it can't be read, or is not UTF-8.
     """
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise InputError("expected a text in UTF-8", path) from None
     except OSError as error:

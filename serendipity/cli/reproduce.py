@@ -1,14 +1,17 @@
 """``serendipity reproduce``: a folder of tasks through modes x discounts."""
 
 import logging
-import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
 from serendipity.cli import output
+from serendipity.cli.choices import choices
+from serendipity.cli.stderr import is_terminal, tell
 from serendipity.model import UsageError
+from serendipity.printable import message
 
 if TYPE_CHECKING:
     from serendipity.reproduction import Reproduction
@@ -37,7 +40,7 @@ def reproduce(
     jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", help="Processes.")] = 1,
     dask: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS|local", help="Work on a Dask cluster (needs serendipity[dask])."),
+        typer.Option(help="Work on a Dask cluster (needs serendipity[dask]).", **choices("ADDRESS", "local")),
     ] = None,
     journal: Annotated[
         Path | None,
@@ -55,7 +58,7 @@ def reproduce(
     ] = None,
     format: Annotated[  # noqa: A002 - the option's name
         str | None,
-        typer.Option("--format", metavar="|".join(_FORMATS), help="By default after -o's name, else table."),
+        typer.Option("--format", help="By default after -o's name, else table.", **choices(*_FORMATS)),
     ] = None,
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -85,21 +88,23 @@ def reproduce(
             on_progress=on_progress,
         )
     entries, times, answers = table_1(run), table_2(run), examples()
-    written = _extras(report, tables, run, entries, times, answers)
-    output.write_answer(_answer(form, run, entries, times, answers), output_file)
-    written += [output_file] if output_file else []
+    written = [
+        output.Answer(_answer(form, run, entries, times, answers), output_file),
+        *_extras(report, tables, run, entries, times, answers),
+    ]
+    output.write_answers(written)
     if journal is None and kept is not None:
         kept.unlink(missing_ok=True)  # the answer holds all of it
-    _tell(written, quiet=quiet)
+    _tell([answer.file for answer in written if answer.file is not None], quiet=quiet)
 
 
 def _tell(written: list[Path], *, quiet: bool) -> None:
     """Where the files are: on a terminal, or in the log."""
     for path in written:
-        if sys.stderr.isatty() and not quiet:
-            sys.stderr.write(f"Wrote {path}\n")
+        if is_terminal() and not quiet:
+            tell(f"Wrote {path}")
         else:
-            log.info("wrote %s", path)
+            log.info("wrote %s", message(str(path)))
 
 
 def _format(wanted: str | None, output_file: Path | None) -> str:
@@ -158,17 +163,14 @@ def _extras(
     entries: "tuple[Entry, ...]",
     times: "tuple[Times, ...]",
     answers: "tuple[ExampleAnswer, ...]",
-) -> list[Path]:
-    """Write what was asked for besides the answer; the files written."""
+) -> Iterator[output.Answer]:
+    """What was asked for besides the answer."""
     from serendipity.reproduction import formats
     from serendipity.reproduction.report import html_report
 
-    texts: dict[Path, str] = {}
     if report is not None:
-        texts[report] = html_report(run, entries, times, answers)
+        yield output.Answer(html_report(run, entries, times, answers), report, "--report")
     if tables is not None:
-        texts[tables.with_name(f"{tables.name}1.csv")] = formats.table_1_as_csv(entries)
-        texts[tables.with_name(f"{tables.name}2.csv")] = formats.table_2_as_csv(times)
-    for path, text in texts.items():
-        output.write_answer(text, path, "--report" if path == report else "--tables")
-    return list(texts)
+        first, second = (tables.with_name(f"{tables.name}{number}.csv") for number in (1, 2))
+        yield output.Answer(formats.table_1_as_csv(entries), first, "--tables")
+        yield output.Answer(formats.table_2_as_csv(times), second, "--tables")

@@ -6,6 +6,7 @@ import typer
 
 import serendipity
 from serendipity.cli import naming, output, progress
+from serendipity.cli.choices import choices
 from serendipity.cli.reading import read_result
 from serendipity.model import InputError
 
@@ -18,7 +19,10 @@ def simulate(
     team: naming.Team = None,
     example: naming.Example = None,
     human_model: Annotated[
-        str, typer.Option(metavar="observant|local", help="Sees everything, or only what is where he is.")
+        str,
+        typer.Option(
+            help="Sees everything, or only what is where they are.", **choices("observant", "local")
+        ),
     ] = "observant",
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
@@ -34,5 +38,10 @@ def simulate(
             trace = serendipity.simulate(task, result, human_model)
     except InputError as error:
         raise InputError(error.message, answer) from None
-    output.write_answer(output.as_json(trace.to_dict()) if form == "json" else trace.text(), output_file)
+    if form == "json":
+        output.write_answer(output.as_json(trace.to_dict()), output_file)
+    else:
+        from serendipity.cli.render import Line, rendered
+
+        output.write_answer(rendered(map(Line, trace.lines())), output_file)
     return 0

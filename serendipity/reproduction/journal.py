@@ -6,6 +6,7 @@ dropped when the journal is opened again; its task is simply done again.
 
 import json
 import os
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -48,8 +49,9 @@ class Journal:
         """Add a finished task; on return it is on disk.
 
         Raises:
-            UsageError: the file can't be written.
+            UsageError: the file can't be written; it is then as it was before.
         """
+        before = self.path.stat().st_size if self.path.exists() else None
         rows = [row.to_dict() for row in record.rows]
         line = json.dumps({"test": record.test, "fingerprint": record.fingerprint, "rows": rows})
         try:
@@ -58,7 +60,16 @@ class Journal:
                 file.flush()
                 os.fsync(file.fileno())
         except OSError as error:
+            self._cut(before)
             raise UsageError(f"journal: {self.path} can't be written: {error.strerror}") from None
+
+    def _cut(self, size: int | None) -> None:
+        """Take away what has been written beyond a size; the whole file where that is None."""
+        with suppress(OSError):
+            if size is None:
+                self.path.unlink(missing_ok=True)
+            elif self.path.is_file():
+                os.truncate(self.path, size)
 
     def _record(self, line: bytes, number: int) -> TaskRows:
         try:

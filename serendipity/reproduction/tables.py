@@ -11,7 +11,7 @@ from serendipity.planning import plan
 from serendipity.reproduction.published import TABLE_1, TABLE_2, TESTS
 from serendipity.reproduction.rows import Row
 from serendipity.reproduction.run import Reproduction
-from serendipity.scenarios import example
+from serendipity.scenarios.examples import example
 
 _EXAMPLES: Final = {"room5": "III-B", "room2": "III-C", "room7": "III-D"}
 _EXAMPLE_DISCOUNTS: Final = ("0.5", "0.6", "0.9")

@@ -1,7 +1,4 @@
-"""Scenarios: the tasks that are shipped, and a generator of search-and-rescue tasks."""
+"""Scenarios: the tasks that are shipped, and a generator of search-and-rescue tasks.
 
-from serendipity.scenarios.examples import EXAMPLES, Example, example
-from serendipity.scenarios.generate import PRESETS, generate_usar, make_usar
-from serendipity.scenarios.usar_pddl import LAYOUTS
-
-__all__ = ["EXAMPLES", "LAYOUTS", "PRESETS", "Example", "example", "generate_usar", "make_usar"]
+Who wants one of the two need not wait for the other to be loaded: see :mod:`examples` and :mod:`generate`.
+"""

@@ -8,6 +8,7 @@ from serendipity.model.errors import UsageError
 from serendipity.scenarios.building import Building, figure2, random_building
 from serendipity.scenarios.usar import Usar
 from serendipity.scenarios.usar_pddl import pddl_files
+from serendipity.writing import write_together
 
 _WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}
 """Sections III-B to III-D of the paper: where medkit 1 lies; all else is the same (SPEC 5)."""
@@ -101,10 +102,7 @@ def _write_files(files: dict[str, str], folder: Path) -> tuple[Path, ...]:
         UsageError: the system refuses, with its reason.
     """
     try:
-        for path, text in files.items():
-            target = folder / path
-            target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_text(text, encoding="utf-8", newline="\n")
+        write_together({folder / path: text.encode() for path, text in files.items()})
     except OSError as error:
         raise UsageError(f"{error.filename or folder}: {error.strerror}") from None
     return tuple(folder / path for path in files)

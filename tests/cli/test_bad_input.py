@@ -185,6 +185,15 @@ def test_results_that_are_no_object(text: str, run: Callable[[str], Run]) -> Non
     assert_one_line(run("verify --example room2 answer.json"), "answer.json")
 
 
+def test_results_and_goals_may_begin_with_a_byte_order_mark(
+    answer: dict[str, object], run: Callable[[str], Run]
+) -> None:
+    Path("answer.json").write_text("\ufeff" + json.dumps(answer))
+    assert run("verify --example room2 answer.json").code == 0
+    Path("goals.json").write_text('\ufeff[{"goal": ["conducted_triage commx room1"]}]')
+    assert run("recognise --example room2 --goals goals.json").code == 0
+
+
 def test_truncated_result_names_the_line(answer: dict[str, object], run: Callable[[str], Run]) -> None:
     Path("answer.json").write_text(json.dumps(answer, indent=1)[:-40])
     lines = Path("answer.json").read_text().count("\n") + 1

@@ -63,7 +63,7 @@ def test_a_joint_plan_where_he_has_none_is_0(stuck: str, run: Callable[[str], Ru
 
 def test_no_answer_within_the_limit_is_4(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
     def nothing(task: Task, **options: Any) -> Iterator[Result]:
-        yield Result("serendipity", "unknown", "commx", serendipity.Options(**options))
+        yield Result("serendipity", "unknown", "commx", serendipity.Options())
 
     monkeypatch.setattr(serendipity, "plan_anytime", nothing)
     done = run("plan --example room2 --time-limit 0")

@@ -29,6 +29,10 @@ LOOKS: dict[str, Callable[[list[str]], str]] = {
     "noops": lambda names: "noop\n" + "\n(NOOP)\n".join(names),
     "json": lambda names: json.dumps(names),
     "json lines": lambda names: json.dumps(names, indent=2),
+    "byte order mark": lambda names: "\ufeff" + "\n".join(names),
+    "json with a byte order mark": lambda names: "\ufeff" + json.dumps(names),
+    "carriage returns only": lambda names: "; his plan\r" + "\r".join(names),
+    "json with carriage returns": lambda names: json.dumps(names, indent=2).replace("\n", "\r"),
 }
 
 
@@ -42,7 +46,10 @@ def test_every_look_is_the_same_plan(look: str, names: list[str], run: Callable[
     assert (answer["human_cost"], answer["cost"]) == (13.0, 12.6)
 
 
-@pytest.mark.parametrize("look", ["plain", "comments", "json lines", "noops"])
+@pytest.mark.parametrize(
+    "look",
+    ["plain", "comments", "json lines", "noops", "carriage returns only"],
+)
 def test_an_error_names_file_and_line(look: str, names: list[str], run: Callable[[str], Run]) -> None:
     spoilt = [*names[:4], "fly commx hall5 hall1", *names[5:]]
     Path("plan.txt").write_text(LOOKS[look](spoilt))

@@ -1,19 +1,21 @@
-"""What takes a while is shown on a terminal, told in a log, and silent where it is piped."""
+"""What takes a while is shown on a terminal, told in lines elsewhere, and silent where it is unwanted."""
 
 import io
-import logging
+import json
 import os
 import pty
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import serendipity
-from serendipity.cli import progress
+from serendipity.cli import progress, progress_bar, progress_lines
 from serendipity.cli.exit_codes import ExitCode
+from tests.cli.conftest import Run, assert_one_line
 
 
 class Screen(io.StringIO):
@@ -27,7 +29,7 @@ def on_screen(monkeypatch: pytest.MonkeyPatch, patience: float = 0.05) -> Screen
     """Put a screen where progress goes (in the test itself: pytest puts its own back before one)."""
     screen = Screen()
     monkeypatch.setattr(sys, "stderr", screen)
-    monkeypatch.setattr(progress, "_PATIENCE", patience)
+    monkeypatch.setattr(progress_bar, "PATIENCE", patience)
     monkeypatch.setenv("TERM", "xterm")
     return screen
 
@@ -69,18 +71,63 @@ def test_nothing_is_shown_where_it_is_not_wanted(monkeypatch: pytest.MonkeyPatch
     assert screen.getvalue() == ""
 
 
-def test_a_log_has_plain_lines(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(progress, "_PATIENCE", 0.0)
-    monkeypatch.setattr(logging.getLogger("serendipity"), "propagate", True)
-    with caplog.at_level(logging.INFO, logger="serendipity.progress"):
-        with progress.counting("searches", quiet=False) as on_progress:
-            on_progress(3, 8)
-        with progress.working("planning", quiet=False) as on_news:
-            on_news("13")
-    told = [record.getMessage() for record in caplog.records]
-    assert "3 of 8 searches" in told
-    assert any(line.startswith("planning: 13") for line in told)
-    assert any(line.startswith("planning: done after") for line in told)
+def test_without_a_terminal_there_are_lines_that_get_rarer(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(progress_lines.PlainLines, "first", 0.02)
+    with progress.counting("searches", quiet=False) as on_progress:
+        on_progress(0, 8)
+        on_progress(3, 8)
+        time.sleep(0.3)  # lines after 0.02, 0.06, 0.14 and 0.3 seconds
+    with progress.working("planning", quiet=False) as on_news:
+        on_news("cost 13", cost=13.0)
+        time.sleep(0.1)
+    told = capsys.readouterr().err.splitlines()
+    searches = [line for line in told if line == "searches: 3 of 8 (0 s, 0 s left)"]
+    assert 1 <= len(searches) <= 4
+    assert told.count("searches: done (0 s)") == 1
+    assert "planning: cost 13 (0 s)" in told
+
+
+def test_quick_work_says_nothing_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+    with progress.working("planning", quiet=False) as on_news:
+        on_news("cost 13")
+    assert capsys.readouterr().err == ""
+
+
+def test_json_lines_hold_every_answer(run: Callable[[str], Run]) -> None:
+    done = run("plan --example room2 --discount 0.6 --progress json")
+    assert done.code == 0
+    events = [json.loads(line) for line in done.err.splitlines()]
+    assert [event["event"] for event in events if event["what"] == "reading"] == ["done"]
+    answers = [event for event in events if event["event"] == "answer"]
+    assert answers[0]["cost"] == 13
+    assert (answers[-1]["cost"], answers[-1]["objective"]) == (12.6, 1012.6)
+    assert answers[-1]["lower_bound"] == answers[-1]["objective"]
+    assert all(answer["what"] == "planning" and answer["seconds"] >= 0 for answer in answers)
+
+
+def test_json_lines_count(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(progress_lines.JsonLines, "first", 0.01)
+    done = run("interruptions --example room2 --progress json")
+    events = [json.loads(line) for line in done.err.splitlines()]
+    working = [event for event in events if event["what"] == "searches" and "done" in event]
+    assert working
+    assert all(0 < event["done"] <= event["total"] == 182 for event in working)
+
+
+@pytest.mark.parametrize("words", ["--progress none", "--progress json --quiet"])
+def test_progress_can_be_switched_off(words: str, run: Callable[[str], Run]) -> None:
+    assert run(f"plan --example room2 {words}").err == ""
+
+
+def test_the_style_holds_for_one_call_only(run: Callable[[str], Run]) -> None:
+    assert run("plan --example room2 --progress json").err
+    assert run("plan --example room2").err == ""
+
+
+def test_an_unknown_style_is_one_line(run: Callable[[str], Run]) -> None:
+    assert_one_line(run("plan --example room2 --progress loud"), "--progress", "plain", "loud")
 
 
 def test_an_error_is_not_hidden(monkeypatch: pytest.MonkeyPatch) -> None:

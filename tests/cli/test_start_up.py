@@ -5,12 +5,14 @@ import sys
 
 import pytest
 
+from serendipity.cli.commands import NAMES
+
 SOLVERS = ("pulp", "highspy")
 
 
-def loaded_after(program: str) -> set[str]:
-    """Top-level modules that a program has loaded when it ends."""
-    shown = f"{program}\nimport sys\nprint(' '.join({{name.split('.')[0] for name in sys.modules}}))"
+def modules_after(program: str) -> set[str]:
+    """Modules that a program has loaded when it ends."""
+    shown = f"{program}\nimport sys\nprint(' '.join(sys.modules))"
     done = subprocess.run(
         [sys.executable, "-c", shown],
         capture_output=True,
@@ -18,6 +20,26 @@ def loaded_after(program: str) -> set[str]:
         check=True,
     )
     return set(done.stdout.splitlines()[-1].split())
+
+
+def loaded_after(program: str) -> set[str]:
+    """Top-level modules that a program has loaded when it ends."""
+    return {name.split(".")[0] for name in modules_after(program)}
+
+
+def test_only_the_command_that_is_called_loads() -> None:
+    command = ["plan", "--example", "room2", "--discount", "0.6"]
+    loaded = modules_after(f"from serendipity.cli.app import main\nassert main({command!r}) == 0")
+    assert not loaded & {f"serendipity.cli.{name}" for name in NAMES if name != "plan"}
+    assert not loaded & {"logging", "tempfile", "random", "json", "serendipity.scenarios.generate"}
+
+
+def test_a_signal_is_listened_to_before_anything_loads() -> None:
+    loaded = modules_after("import serendipity.cli.entry")
+    assert not {name for name in loaded if name.startswith(("serendipity.", "typing", "typer"))} - {
+        "serendipity.cli",
+        "serendipity.cli.entry",
+    }
 
 
 @pytest.mark.parametrize(

@@ -10,11 +10,11 @@ import pytest
 
 import serendipity
 from serendipity.model import Task
-from serendipity.scenarios import EXAMPLES, LAYOUTS, make_usar
 from serendipity.scenarios.building import Building, figure2, random_building
-from serendipity.scenarios.examples import DATA
+from serendipity.scenarios.examples import DATA, EXAMPLES
+from serendipity.scenarios.generate import make_usar
 from serendipity.scenarios.usar import Usar
-from serendipity.scenarios.usar_pddl import pddl_files
+from serendipity.scenarios.usar_pddl import LAYOUTS, pddl_files
 
 
 def load(folder: Path, layout: str, robots: int) -> Task:

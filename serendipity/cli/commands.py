@@ -1,0 +1,84 @@
+"""The commands, each loaded when somebody asks for it: all of them take longer than most answers."""
+
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from typing import Any, Final
+
+import typer
+from typer.core import TyperGroup, TyperOption
+from typer.main import get_command
+
+from serendipity.cli import progress
+from serendipity.cli.help_examples import epilog
+
+NAMES: Final = (
+    "plan",
+    "verify",
+    "simulate",
+    "explain",
+    "interruptions",
+    "recognise",
+    "reproduce",
+    "show",
+    "solve",
+    "crosscheck",
+    "bench",
+    "examples",
+    "generate",
+)
+"""As ``--help`` lists them: each a function of its name in the module of its name, or a group ``app``."""
+
+
+class Commands(TyperGroup):
+    """The commands as a group that loads the one that is called."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
+        self.commands = _OnDemand()  # type: ignore[assignment]
+
+
+class _OnDemand(Mapping[str, Any]):
+    """What typer makes of each command, by name."""
+
+    def __init__(self) -> None:
+        self._made: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in NAMES:
+            raise KeyError(name)
+        if name not in self._made:
+            self._made[name] = _command(name)
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(NAMES)
+
+    def __len__(self) -> int:
+        return len(NAMES)
+
+
+def _command(name: str) -> Any:
+    module = import_module(f"serendipity.cli.{name}")
+    group = getattr(module, "app", None)
+    if group is not None:
+        return get_command(group)
+    single = typer.Typer(add_completion=False, rich_markup_mode=None)
+    single.command(name, epilog=epilog(name))(getattr(module, name))
+    command = get_command(single)
+    names = [parameter.name for parameter in command.params]
+    if "quiet" in names:  # it may take a while
+        command.params.insert(names.index("quiet") + 1, _progress())
+    return command
+
+
+def _progress() -> TyperOption:
+    """``--progress``, an option that says how a command works and that its function need not know."""
+    return TyperOption(
+        param_decls=["--progress"],
+        default="auto",
+        help="How progress is shown: a bar on a terminal, plain lines elsewhere; or JSON lines.",
+        callback=lambda _context, _option, value: progress.choose(value),
+        expose_value=False,
+        metavar="|".join(progress.STYLES),
+        autocompletion=lambda *_begun: list(progress.STYLES),
+    )

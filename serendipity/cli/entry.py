@@ -1,0 +1,61 @@
+"""The process: what has to be settled before anything that takes long is loaded.
+
+Signals and closed streams are looked after from the first moment on, so nothing is imported here
+but what Python has loaded anyway, or nearly so.
+"""
+
+import gc
+import os
+import signal
+import sys
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+"""What asks a process to end: Ctrl-C; and ``kill``, ``timeout``, containers and schedulers."""
+
+INTERRUPTED = 130
+"""``ExitCode.INTERRUPTED``, which is not loaded yet."""
+
+_OBJECTS = 50_000
+"""Objects that are made between two garbage collections: loading makes many, and hardly any garbage."""
+
+
+def run() -> None:
+    """The command ``serendipity``: run the command line of this process and exit."""
+    _on_signals(_leave)
+    _fill_closed_streams()
+    gc.set_threshold(_OBJECTS)
+    from serendipity.cli.app import main
+
+    _on_signals(_interrupt)
+    code = main()
+    _on_signals(signal.SIG_DFL)  # all is said and done
+    gc.freeze()  # or Python would look through everything once more
+    sys.exit(code)
+
+
+def _fill_closed_streams() -> None:
+    """Point descriptors that nobody opened to nowhere, or the next files opened would get their numbers."""
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+
+
+def _on_signals(handler: "signal._HANDLER") -> None:
+    for number in SIGNALS:
+        if signal.getsignal(number) is not signal.SIG_IGN:  # as `nohup` and shells' background jobs ask for
+            signal.signal(number, handler)
+
+
+def _leave(_number: int, _frame: object) -> None:
+    """Before the work has begun."""
+    try:
+        os.write(2, b"Interrupted.\n")
+    finally:
+        os._exit(INTERRUPTED)
+
+
+def _interrupt(_number: int, _frame: object) -> None:
+    """While commands work: they tidy up, and write what they have."""
+    raise KeyboardInterrupt
