@@ -3,9 +3,16 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Annotated, Any, NoReturn
 
-from serendipity.model import InputError, Result, UsageError
+import typer
+
+import serendipity
+from serendipity.model import InputError, Result, Task, UsageError
+
+Strict = Annotated[
+    bool, typer.Option("--strict", help="Exit with 1 where the result breaks a rule; else that is a warning.")
+]
 
 
 def read_text(path: Path) -> str:
@@ -57,3 +64,16 @@ def read_result(files: Sequence[Path], command: str) -> tuple[list[Path], Path, 
     if answer.suffix == ".pddl" or answer.is_dir():
         raise UsageError(f"{command}: expected TASK and then RESULT.json, got {answer} last")
     return named, answer, Result.from_dict(read_json(answer), answer)
+
+
+def broken_rule(task: Task, result: Result, file: Path) -> str | None:
+    """What is wrong with a result that does not replay, as a warning; None where nothing is.
+
+    Raises:
+        InputError: the result is for another task.
+    """
+    try:
+        wrong = serendipity.check(task, result).refuted
+    except InputError as error:
+        raise InputError(error.message, file) from None
+    return None if wrong is None else f"{file} does not hold: {wrong.claim}: {wrong.reason}"

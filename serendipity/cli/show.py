@@ -6,7 +6,9 @@ from typing import Annotated, Final
 import typer
 
 from serendipity.cli import naming, output, progress
-from serendipity.cli.reading import read_result
+from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.reading import Strict, broken_rule, read_result
+from serendipity.cli.stderr import tell
 from serendipity.model import InputError, UsageError
 
 SUFFIXES: Final = (".html", ".svg", ".png")
@@ -29,9 +31,10 @@ def show(
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="A page .html, or a still .svg or .png."),
     ] = None,
+    strict: Strict = False,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
-) -> None:
+) -> int:
     """Show who is where when, and what changes hands: a page that plays the plan, or a still."""
     output.start_logging(verbose)
     if output_file is None or output_file.suffix not in SUFFIXES:
@@ -42,6 +45,10 @@ def show(
     output.check_output(output_file)
     named, answer, result = read_result(files, "show")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
+    wrong = broken_rule(task, result, answer)
+    if wrong is not None and strict:
+        tell(f"Error: {wrong}")
+        return ExitCode.REFUTED
     from serendipity.show import build_scene, draw
 
     try:
@@ -49,4 +56,7 @@ def show(
             drawn = draw(build_scene(task, result), output_file.suffix, epoch)
     except InputError as error:
         raise InputError(error.message, answer) from None
+    if wrong is not None:
+        output.warn((wrong,), quiet=quiet)
     output.write_answer(drawn, output_file)
+    return ExitCode.ANSWERED

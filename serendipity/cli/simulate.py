@@ -7,7 +7,9 @@ import typer
 import serendipity
 from serendipity.cli import naming, output, progress
 from serendipity.cli.choices import choices
-from serendipity.cli.reading import read_result
+from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.reading import Strict, broken_rule, read_result
+from serendipity.cli.stderr import tell
 from serendipity.model import InputError
 
 
@@ -26,6 +28,7 @@ def simulate(
     ] = "observant",
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
+    strict: Strict = False,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
@@ -33,15 +36,21 @@ def simulate(
     form = output.prepare(format, output_file, verbose)
     named, answer, result = read_result(files, "simulate")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
+    wrong = broken_rule(task, result, answer)
+    if wrong is not None and strict:
+        tell(f"Error: {wrong}")
+        return ExitCode.REFUTED
     try:
         with progress.working("simulating", quiet=quiet):
             trace = serendipity.simulate(task, result, human_model)
     except InputError as error:
         raise InputError(error.message, answer) from None
+    if wrong is not None:
+        output.warn((wrong,), quiet=quiet)
     if form == "json":
         output.write_answer(output.as_json(trace.to_dict()), output_file)
     else:
         from serendipity.cli.render import Line, rendered
 
         output.write_answer(rendered(map(Line, trace.lines())), output_file)
-    return 0
+    return ExitCode.ANSWERED

@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import Final
 
-from serendipity.model import GroundAction, Result, Task, Window
+from serendipity.model import GroundAction, InputError, Result, Task, Window
 from serendipity.show.changes import Change, find_changes
 from serendipity.show.layout import Layout, lay_out
 from serendipity.show.names import parts, verb_and_rest, without
@@ -14,6 +14,9 @@ from serendipity.show.places import Places, Whereabouts, find_places
 from serendipity.show.replay import Moment, replay, replay_former
 
 NOWHERE: Final = Whereabouts()
+
+MOST_EPOCHS: Final = 2_000
+"""Epochs of a picture: a second of work, and a page of a megabyte; nobody looks at more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,8 +139,11 @@ def build_scene(task: Task, result: Result) -> Scene:
     """The scene of a result; without a plan, of the human's own plan, or of the initial state.
 
     Raises:
-        InputError: the plan does not fit the task.
+        InputError: the plan does not fit the task, or has more than :data:`MOST_EPOCHS` epochs.
     """
+    epochs = max([step.epoch for step in result.plan or ()] + [len(result.human_plan or ())], default=0)
+    if epochs > MOST_EPOCHS:
+        raise InputError(f"plan: it has {epochs} epochs, and at most {MOST_EPOCHS} are drawn")
     places = find_places(task)
     moments, former = replay(task, result), replay_former(task, result)
     last = max(len(moments), len(former)) - 1
