@@ -25,11 +25,15 @@ class PlanGraph:
     Args:
         start: the packed state that they start from.
         edges: the steps that lie on an optimal plan.
+        expanded: states that the search for them expanded.
+        generated: steps that it looked at.
     """
 
-    def __init__(self, start: int, edges: Edges) -> None:
+    def __init__(self, start: int, edges: Edges, expanded: int, generated: int) -> None:
         self._start = start
         self._edges = edges
+        self.expanded = expanded
+        self.generated = generated
 
     def canonical(self) -> tuple[int, ...]:
         """The plan that takes the smallest action at each step (SPEC 1)."""
@@ -183,12 +187,11 @@ class Alone:
         start = state & self._mask
         last = self._memory.plans
         if last is None or last[0] != start:
-            edges = self._optimal_edges(start)
-            last = self._memory.plans = start, None if edges is None else PlanGraph(start, edges)
+            last = self._memory.plans = start, self._optimal(start)
         return last[1]
 
-    def _optimal_edges(self, start: int) -> Edges | None:
-        """Per state on an optimal path the actions, ascending, that continue one; None if there is none.
+    def _optimal(self, start: int) -> PlanGraph | None:
+        """The graph of the optimal plans; None if there is no plan.
 
         Every state whose bound does not exceed the optimum is expanded; edges that lie on
         an optimal path are then those between exact distances.
@@ -225,7 +228,7 @@ class Alone:
         edges = _edges_into(goals, expanded, distance)
         for state in (*edges, *goals):
             self._known[state] = optimum - distance[state]
-        return edges
+        return PlanGraph(start, edges, len(expanded), sum(map(len, expanded.values())))
 
 
 class Priced:

@@ -81,6 +81,8 @@ def _individual(tables: Tables, plan: HumanPlan) -> Outcome:
         lower_bound=cost,
         baseline=given,
         saving_alone=given - cost,
+        expanded=graph.expanded,
+        generated=graph.generated,
     )
 
 
@@ -90,13 +92,13 @@ def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
         shortest = 0 if plan is None else len(plan)
         if isinstance(options.horizon, int) and options.horizon < shortest:
             raise UsageError(
-                f"horizon: expected at least {shortest}, the length of his plan, got {options.horizon}"
+                f"horizon: expected at least {shortest}, as long as the human's plan, got {options.horizon}"
             )
         return options.horizon
     if plan is None:
         if options.mode == "composite":
             return INFINITE
-        raise UsageError("horizon: must be given, since the human has no plan of his own")
+        raise UsageError("horizon: must be given, since the human has no plan alone")
     if not plan and task.robot_goal:
         raise UsageError(
             "horizon: must be given, since the human's goal holds already and robots have theirs"

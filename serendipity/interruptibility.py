@@ -1,7 +1,7 @@
 """Which interruptions would help the human: every window, and the best that is possible in it (SPEC 3.2)."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final
 
@@ -44,6 +44,7 @@ class Interruption:
         team_saving: cost of doing nothing - ``team_cost``.
         removal: what the plan with ``human_cost`` removes and puts in place.
         plan: that plan.
+        informative: no window within this one saves the human as much, or none the team.
     """
 
     window: Window
@@ -53,6 +54,7 @@ class Interruption:
     team_saving: Fraction | None
     removal: Removal | None
     plan: tuple[PlanStep, ...] | None
+    informative: bool = False
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
@@ -72,6 +74,7 @@ class Interruption:
             "removed": removed,
             "replacement": None if self.removal is None else list(self.removal.replacement),
             "plan": None if self.plan is None else [step.to_dict() for step in self.plan],
+            "informative": self.informative,
         }
 
 
@@ -168,9 +171,30 @@ def interruptions(
         team_cost=found.baseline,
         horizon=found.horizon,
         interruptible=any(w.human_saving is not None and w.human_saving > 0 for w in windows),
-        windows=tuple(windows),
+        windows=_marked(windows),
         options=chosen,
     )
+
+
+def _marked(windows: list[Interruption]) -> tuple[Interruption, ...]:
+    """The same windows; those that say something that no window within them says are marked."""
+    for_human = _informative({entry.window: entry.human_saving for entry in windows})
+    for_team = _informative({entry.window: entry.team_saving for entry in windows})
+    return tuple(replace(w, informative=w.window in for_human or w.window in for_team) for w in windows)
+
+
+def _informative(savings: dict[Window, Fraction | None]) -> set[Window]:
+    """The windows that save something, and more than every window within them."""
+    most: dict[tuple[int, int], Fraction] = {}
+    found = set()
+    for window in sorted(savings, key=len):
+        within = ((window.start + 1, window.end), (window.start, window.end - 1))
+        before = max((most.get(smaller, Fraction(0)) for smaller in within), default=Fraction(0))
+        saving = savings[window] or Fraction(0)
+        if saving > before:
+            found.add(window)
+        most[window.start, window.end] = max(before, saving)
+    return found
 
 
 def removal(former: tuple[str, ...], executed: tuple[str, ...]) -> Removal:

@@ -70,7 +70,7 @@ def plan(
     """
     if goals is not None:
         if human_plan is not None:
-            raise UsageError("human_plan: with goals, his plans are predicted; give observed instead")
+            raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
         # Loaded only here: who knows the goal has nothing to do with it.
         from serendipity.goals.planning import plan_for_goals
 

@@ -148,7 +148,8 @@ class _Story:
             done = None if did is None else self._name(did)
             if done != wanted:
                 deed, wish = done or "nothing", wanted or "nothing"
-                return f"epoch {epoch.epoch}: he does {deed}, where the plan has {wish}; "
+                who = self.task.agents[self.task.human]
+                return f"epoch {epoch.epoch}: {who} does {deed}, where the plan has {wish}; "
         return ""
 
     def _epochs(self) -> Iterator[TraceEpoch]:
@@ -186,9 +187,9 @@ def _why(decision: str, epoch: Epoch) -> str:
     if decision == "waits":
         return "has no plan from here and waits"
     if decision == "keeps":
-        return f"keeps his plan: it still costs {_number(epoch.best)}, and none is cheaper"
+        return f"keeps the plan: it still costs {_number(epoch.best)}, and none is cheaper"
     if epoch.kept is None:
-        return f"replans: his plan does not work any more; the best from here costs {_number(epoch.best)}"
+        return f"replans: the plan does not work any more; the best from here costs {_number(epoch.best)}"
     return f"replans: {_number(epoch.best)} instead of {_number(epoch.kept)}"
 
 

@@ -16,16 +16,18 @@ if TYPE_CHECKING:
 Goals = Annotated[
     Path | None,
     typer.Option(
-        "--goals", metavar="FILE", help="Goals that he may have: JSON, or 'prior: fact, fact' on each line."
+        "--goals",
+        metavar="FILE",
+        help="Goals that the human may have: JSON, or 'prior: fact, fact' on each line.",
     ),
 ]
 Observed = Annotated[
     Path | None,
-    typer.Option("--observed", metavar="FILE", help="What he has done so far, an action a line."),
+    typer.Option("--observed", metavar="FILE", help="What the human has done so far, an action a line."),
 ]
 Beta = Annotated[
     str | None,
-    typer.Option("--beta", metavar="B", help="How strictly he minimises cost; 0 and more. [default: 1]"),
+    typer.Option("--beta", metavar="B", help="How strictly the human saves cost; 0 and more. [default: 1]"),
 ]
 
 _UNEXPLAINED: Final = "no goal explains what was observed: the posterior is the prior"
@@ -65,7 +67,9 @@ def plan_text(result: Result) -> "Iterator[Line | Grid]":
         why = result.reason or result.status
         yield Line(f"no plan: {result.human} can reach none of the goals alone ({why})")
         return
-    proof = "proved" if result.status == "optimal" else f"not proved; at least {plain(result.lower_bound)}"
+    weight = plain(result.options.window_weight)
+    gap = f"not proved; at least {plain(result.lower_bound)}, with {weight} for each epoch of a window"
+    proof = "proved" if result.status == "optimal" else gap
     if not result.opportunity:
         yield Line(f"the robots leave {result.human} alone: expected cost {plain(result.cost)} ({proof})")
     else:

@@ -36,12 +36,15 @@ def interruptions(
     heat_map: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Also draw savings by start and end (.svg, .png).")
     ] = None,
+    every: Annotated[
+        bool, typer.Option("--all", help="Every window, also where a smaller one within saves as much.")
+    ] = False,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """For every window: the least he could pay, the least the team could, what goes and what replaces it."""
+    """In which windows the human, or the team, could pay less, and what would change then."""
     form = output.prepare(format, output_file, verbose)
     output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
@@ -58,19 +61,19 @@ def interruptions(
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     with progress.counting("searches", quiet=quiet) as on_progress:
         report = serendipity.interruptions(task, on_progress=on_progress, **options)
-    answers = [output.Answer(_shown(report, form), output_file)]
+    answers = [output.Answer(_shown(report, form, every=every), output_file)]
     if heat_map is not None:
         answers.append(output.Answer(_drawn(report, heat_map.suffix), heat_map, "--heat-map"))
     output.write_answers(answers)
     return ExitCode.ANSWERED if report.human_plan is not None else ExitCode.INFEASIBLE
 
 
-def _shown(report: "InterruptionReport", form: str) -> str:
+def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str:
     if form == "json":
         return output.as_json(report.to_dict())
     from serendipity.cli.render import rendered
 
-    return rendered(_text(report))
+    return rendered(_text(report, every=every))
 
 
 def _drawn(report: "InterruptionReport", suffix: str) -> str | bytes:
@@ -86,26 +89,33 @@ def _drawn(report: "InterruptionReport", suffix: str) -> str | bytes:
     return svg(picture) + "\n"
 
 
-def _text(report: "InterruptionReport") -> "Iterator[Line | Grid]":
+def _text(report: "InterruptionReport", *, every: bool) -> "Iterator[Line | Grid]":
     from serendipity.cli.render import Grid, Line
 
     if report.human_plan is None:
-        yield Line(f"{report.human} can't reach his goal alone: there is no plan to interrupt")
+        yield Line(f"{report.human} can't reach the goal alone: there is no plan to interrupt")
         return
     verdict = "can" if report.interruptible else "can't"
     yield Line(
-        f"the plan of {report.human} ({len(report.human_plan)} actions, cost {plain(report.human_cost)}) "
-        f"{verdict} be interrupted to his advantage"
+        f"{report.human}'s plan ({len(report.human_plan)} actions, cost {plain(report.human_cost)}) "
+        f"{verdict} be interrupted to {report.human}'s advantage"
     )
+    shown = [entry for entry in report.windows if every or entry.informative]
+    if len(shown) < len(report.windows):
+        less = f"{len(shown)} of {len(report.windows)} windows save more than every window within them"
+        yield Line(f"{less}; --all shows the others, too")
+    if not shown:
+        return
     yield Line()
-    header = ("window", "he pays", "team pays", "he saves", "team saves", "removed", "instead")
+    who = report.human
+    header = ("window", f"{who} pays", "team pays", f"{who} saves", "team saves", "removed", "instead")
     rows = []
-    for entry in report.windows:
+    for entry in shown:
         gone = entry.removal
         removed = f"{gone.first}..{gone.last}" if gone is not None and gone.removed else ""
         window = f"[{entry.window.start}, {entry.window.end})"
         costs = (entry.human_cost, entry.team_cost, entry.human_saving, entry.team_saving)
         instead = "" if gone is None else "; ".join(gone.replacement)
         rows.append((window, *map(plain, costs), removed, instead))
-    helpful = (i for i, entry in enumerate(report.windows) if entry.human_saving and entry.human_saving > 0)
+    helpful = (i for i, entry in enumerate(shown) if entry.human_saving and entry.human_saving > 0)
     yield Grid(header, rows, frozenset(helpful), numbered=True)

@@ -35,7 +35,7 @@ Robots = Annotated[
 ]
 Agents = Annotated[
     list[str] | None,
-    typer.Option("--agent", metavar="A=DOMAIN,PROBLEM", help="An agent and his own files (repeat it)."),
+    typer.Option("--agent", metavar="A=DOMAIN,PROBLEM", help="An agent and its own files (repeat it)."),
 ]
 Team = Annotated[
     str | None,

@@ -34,7 +34,7 @@ Horizon = Annotated[
 ]
 HumanPlan = Annotated[
     Path | None,
-    typer.Option(metavar="FILE", help="What he is going to do, an action a line; predicted by default."),
+    typer.Option(metavar="FILE", help="What the human will do, an action a line; predicted by default."),
 ]
 WindowWeight = Annotated[
     str | None, _option("window_weight", "K: cost of each epoch that the window lasts.", "K")
@@ -42,14 +42,15 @@ WindowWeight = Annotated[
 MaxWindow = Annotated[str | None, _option("max_window", "Longest window, in epochs.", "N")]
 Suffix = Annotated[str | None, _option("suffix", "What the human does after the window.")]
 Preservation = Annotated[
-    str | None, _option("preservation", "What has to be left of his plan's state (Def. 3.1).")
+    str | None, _option("preservation", "What has to be left of the state of the human's plan (Def. 3.1).")
 ]
 Interference = Annotated[str | None, _option("interference", "Which actions may share an epoch.")]
 MaxCost = Annotated[
-    str | None, _option("max_cost", "Reject plans that cost more; 'human': than his own.", "X|human")
+    str | None, _option("max_cost", "Reject plans that cost more; 'human': than the human's own.", "X|human")
 ]
 CommunicationWeight = Annotated[
-    str | None, _option("communication_weight", "Cost per unit of his actions that he must be told.", "W")
+    str | None,
+    _option("communication_weight", "Cost per unit of announced actions of the human.", "W"),
 ]
 KeepPrefix = Annotated[
     bool | None,
@@ -57,7 +58,7 @@ KeepPrefix = Annotated[
 ]
 HumanModel = Annotated[str | None, _option("human_model", "How the human reacts.")]
 Ties = Annotated[str | None, _option("ties", "Which of the human's optimal plans counts.")]
-MaxTies = Annotated[str | None, _option("max_ties", "The most of his optimal plans that are tried.", "N")]
+MaxTies = Annotated[str | None, _option("max_ties", "The most of those plans that are tried.", "N")]
 NoBlock = Annotated[
     bool | None,
     typer.Option("--no-block/--allow-block", help="Whether robots may leave the human without a plan."),
@@ -75,5 +76,5 @@ def seconds(text: str | None) -> float | None:
 
 
 def given(**options: str | bool | Path | None) -> dict[str, Any]:
-    """The options that the user gave; what he left out keeps its default."""
+    """The options that the user gave; what is left out keeps its default."""
     return {name: value for name, value in options.items() if value is not None}

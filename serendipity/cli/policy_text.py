@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 
 from serendipity.model import Result, Task
+from serendipity.model.numbers import plain
 
 
 def totals_line(result: Result) -> str:
     """Both totals of SPEC 7, and what the human pays alone."""
-    upper = result.statistics.get("bounds", {}).get("upper") or list(result.agent_costs.values())
-    paid = ", ".join(f"{agent} pays {cost}" for agent, cost in zip(result.agent_costs, upper, strict=False))
+    paid = ", ".join(f"{agent} pays {plain(cost)}" for agent, cost in result.agent_costs.items())
     mean = " on average" if result.options.ties == "expected" else ""
-    alone = "" if result.human_cost is None else f"; alone {result.human} pays {result.human_cost:.10g}"
+    alone = "" if result.human_cost is None else f"; alone {result.human} pays {plain(result.human_cost)}"
     return f"{paid}{mean}{alone}"
 
 

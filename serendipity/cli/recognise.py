@@ -1,4 +1,4 @@
-"""``serendipity recognise``: which goal the human has, from what he has done."""
+"""``serendipity recognise``: which goal the human has, from what was observed."""
 
 from pathlib import Path
 from typing import Annotated
@@ -22,7 +22,9 @@ def recognise(
     goals: Annotated[
         Path,
         typer.Option(
-            "--goals", metavar="FILE", help="Goals he may have: JSON, or 'prior: fact, fact' on each line."
+            "--goals",
+            metavar="FILE",
+            help="Goals that the human may have: JSON, or 'prior: fact, fact' on each line.",
         ),
     ],
     observed: goal_options.Observed = None,

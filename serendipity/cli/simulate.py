@@ -23,7 +23,7 @@ def simulate(
     human_model: Annotated[
         str,
         typer.Option(
-            help="Sees everything, or only what is where they are.", **choices("observant", "local")
+            help="Sees everything, or only what is at the same place.", **choices("observant", "local")
         ),
     ] = "observant",
     format: output.Format = None,  # noqa: A002 - the option's name

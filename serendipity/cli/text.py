@@ -12,7 +12,7 @@ from serendipity.model import Certificate, Options, Result, Task
 from serendipity.model.numbers import plain
 
 _REASONS: Final = {
-    "no-human-plan": "the human can't reach his goal alone, so there is no plan to preserve",
+    "no-human-plan": "the human can't reach the goal alone, so there is no plan to preserve",
     "no-plan": "no plan reaches the goals within the horizon",
 }
 """What the commonest reasons of an infeasible result mean."""
@@ -48,14 +48,25 @@ def _headlines(task: Task, result: Result) -> Iterator[str]:
     if result.mode == "assistance" and result.agent_costs:
         yield totals_line(result)
     elif result.cost is not None and result.human_cost is not None:
-        saving = f", saving {plain(result.saving)}" if result.opportunity and result.saving else ""
-        yield f"cost {plain(result.human_cost)} -> {plain(result.cost)}{saving}"
+        yield _costs(result.human_cost, result.cost, result.saving if result.opportunity else None)
     elif result.cost is not None:
         yield f"cost {plain(result.cost)}"
     if result.window is not None:
         last = result.window.end - 1
         epochs = f"epoch {last}" if len(result.window) == 1 else f"epochs {result.window.start} to {last}"
-        yield f"window: {epochs} (marked *); before it he follows his former plan, after it he goes on alone"
+        who = result.human
+        phases = f"before it {who} follows the former plan, after it {who} goes on alone"
+        yield f"window: {epochs} (marked *); {phases}"
+
+
+def _costs(before: float, after: float, saving: float | None) -> str:
+    """The costs without and with help, with as many digits as tell them apart."""
+    figures = plain(before), plain(after)
+    if saving and figures[0] == figures[1]:
+        figures = f"{before:.17g}", f"{after:.17g}"
+    if saving and figures[0] == figures[1]:
+        return f"cost {plain(before)}, saving {plain(saving)}"
+    return f"cost {figures[0]} -> {figures[1]}{f', saving {plain(saving)}' if saving else ''}"
 
 
 def _options(options: Options) -> Iterator[str]:
@@ -65,7 +76,7 @@ def _options(options: Options) -> Iterator[str]:
     for option in fields(Options):
         value = getattr(options, option.name)
         if option.name != "mode" and value != getattr(usual, option.name):
-            shown = plain(float(value)) if isinstance(value, Fraction) else str(value)
+            shown = plain(value) if isinstance(value, Fraction | float) else str(value)
             yield f"{option.name} {shown}"
 
 
@@ -73,7 +84,7 @@ def _summary(result: Result) -> str:
     if result.status == "infeasible":
         return f"infeasible (proved): {_REASONS.get(result.reason or '', result.reason or 'no plan')}"
     if result.status == "unknown":
-        return "the limit came before any answer"
+        return f"{'interrupted' if result.reason == 'cancelled' else 'the limit came'} before any answer"
     proof = "proved to be the best" if result.status == "optimal" else _gap(result)
     if result.opportunity:
         return f"an opportunity, {proof}"
@@ -83,8 +94,24 @@ def _summary(result: Result) -> str:
 
 
 def _gap(result: Result) -> str:
-    bound = "" if result.lower_bound is None else f": no better than {plain(result.lower_bound)} is possible"
-    return f"the limit came before the proof{bound}"
+    known = f": {_least_cost(result)}" if result.lower_bound else ""
+    return f"the limit came before the proof{known}"
+
+
+def _least_cost(result: Result) -> str:
+    """What the lower bound of an unproved answer means for costs: without the price of the window itself."""
+    assert result.lower_bound is not None
+    bound, weight = Fraction(str(result.lower_bound)), result.options.window_weight
+    paid = "paid, announcements included" if result.options.communication_weight else "paid"
+    if result.window is None or not result.options.windowed:
+        return f"at least {plain(bound)} has to be {paid}"
+    if weight <= (result.human_cost or 0):  # costs may outweigh windows: no figure without both
+        return f"no less than {plain(bound)} is possible, with {plain(weight)} for each epoch of a window"
+    epochs = max(1, min(int(bound / weight), len(result.window)))
+    least = plain(max(bound - epochs * weight, Fraction(0)))
+    if epochs == len(result.window):
+        return f"at least {least} has to be {paid}"
+    return f"in a window of {epochs} epoch{'s' if epochs > 1 else ''}, at least {least} has to be {paid}"
 
 
 def _columns(task: Task, result: Result) -> Grid:
@@ -110,7 +137,7 @@ def _columns(task: Task, result: Result) -> Grid:
 
 def _closing(result: Result) -> Iterator[str]:
     if result.saving_alone:
-        yield f"he could save {plain(result.saving_alone)} alone: the given human plan is not his best"
+        yield f"{result.human} could save {plain(result.saving_alone)} alone: the given plan is not the best"
     ties = result.statistics.get("ties")
     if ties:
         helped = sum(bool(tie["opportunity"]) for tie in ties)

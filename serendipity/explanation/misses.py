@@ -9,10 +9,10 @@ from serendipity.model import Result, Window
 
 RULES: Final = {
     "window-length": "a longer interruption (window_weight 0)",
-    "prefix": "telling him (communication mode)",
+    "prefix": "telling the human (communication mode)",
     "max_window": "longer windows (no max_window)",
-    "suffix": "letting him replan after the window (suffix replan)",
-    "preservation": "keeping only what he needs (preservation kernel)",
+    "suffix": "letting the human replan after the window (suffix replan)",
+    "preservation": "keeping only what the human needs (preservation kernel)",
     "interference": "the paper's interference rule",
     "max_cost": "dearer plans (no max_cost)",
 }

@@ -13,8 +13,8 @@ WHY: Final = {
     "saves-less": "would save less",
     "not-in-time": "too early: robots can't be there in time",
     "costs-more": "would cost as much as it saves, or more",
-    "prefix": "too late: by then the plan that he follows leaves nothing to save",
-    "nothing": "no robot can make his plan cheaper",
+    "prefix": "too late: by then the plan that is followed leaves nothing to save",
+    "nothing": "no robot can make the human's plan cheaper",
 }
 """What the reasons mean."""
 

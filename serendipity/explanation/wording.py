@@ -39,7 +39,7 @@ def sentences(found: Explanation) -> Iterator[Sentence]:
 
 
 def _without_a_plan(answer: Result) -> Iterator[Sentence]:
-    yield "help", f"{answer.human} can't reach his goal alone, so there is no plan of his to make cheaper."
+    yield "help", f"{answer.human} can't reach the goal alone, so there is no plan to make cheaper."
     if answer.cost is not None:
         yield "help", f"Together they can: for {plain(answer.cost)}."
 
@@ -72,7 +72,7 @@ def _help(found: Explanation) -> Iterator[Sentence]:
     if answer.mode == "serendipity" and answer.realised.get("observant") is False:
         yield (
             "help",
-            f"But {answer.human} is not told: if he goes by what he sees, he does not do all of this "
+            f"But {answer.human} is not told, and would not do all of this going by what is to be seen "
             "(`simulate` plays what happens).",
         )
 
@@ -169,12 +169,12 @@ def _cheapest_miss(found: Explanation, miss: Miss) -> Iterator[str]:
     if gone.removed or gone.replacement:
         instead = _listed(gone.replacement) if gone.replacement else "nothing"
         removed = _listed(gone.removed) if gone.removed else "nothing"
-        yield f"In it, {found.answer.human} leaves out {removed}; instead he does: {instead}."
+        yield f"In it, {found.answer.human} leaves out {removed}, and does instead: {instead}."
     if miss.window is not None and len(miss.window) > 1:
         start = miss.window.start
         yield (
             f"It breaks the rule of the prefix, or needs {len(miss.window)} epochs of interruption: "
-            f"he would have to leave his plan in epoch {start}, and robots are busy until "
+            f"{found.answer.human} would have to leave the plan in epoch {start}, and robots are busy until "
             f"epoch {miss.window.end - 1} (window {_window(miss.window)})."
         )
 

@@ -78,7 +78,7 @@ def plan_for_goals(
     if options.horizon is not None and int(options.horizon) < max(len(c.plan) for c in asked):
         longest = max(len(c.plan) for c in asked)
         raise UsageError(
-            f"horizon: expected at least {longest}, the length of his longest plan, got {options.horizon}"
+            f"horizon: expected at least {longest}, as long as the longest plan, got {options.horizon}"
         )
     answer = solve_expected(task, options, asked, deadline)
     entries = [

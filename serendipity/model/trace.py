@@ -11,7 +11,7 @@ SCHEMA: Final = "serendipity.trace/1"
 WHY: Final = {
     "inapplicable": "its preconditions do not hold",
     "conflict": "it gets in the way of another action",
-    "refused": "it would cost him more than going on alone",
+    "refused": "it would cost the human more than going on alone",
 }
 """Why a step of the plan does not happen, in words."""
 

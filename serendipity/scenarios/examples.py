@@ -43,7 +43,7 @@ EXAMPLES: Final = {
     shipped.name: shipped
     for shipped in (
         _usar("room2", "the paper's III-C: a medkit handed over in passing pays from a discount above 0.5"),
-        _usar("room5", "the paper's III-B: the human passes the medkit's room before he meets the robot"),
+        _usar("room5", "the paper's III-B: the human passes the medkit's room before meeting the robot"),
         _usar("room7", "the paper's III-D: no help without a word, 12.6 for 13 with one at discount 0.6"),
     )
 }

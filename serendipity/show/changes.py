@@ -36,14 +36,17 @@ def find_changes(
 ) -> tuple[Change, ...]:
     """Lanes of what changes, and of the human's goals; first goals, then in order of change.
 
+    Goals that hold all the time say nothing; they have a lane only where that is all there is to say.
+
     Args:
         task: whose facts they are.
         states: after each epoch, from 0.
         last: epoch up to which lanes are drawn; the last state lasts till then.
         hidden: facts that the map shows already.
     """
-    lanes = [_goal(task, states, last, fact, wanted=True) for fact in task.goal.positive]
-    lanes += [_goal(task, states, last, fact, wanted=False) for fact in task.goal.negative]
+    goals = [_goal(task, states, last, fact, wanted=True) for fact in task.goal.positive]
+    goals += [_goal(task, states, last, fact, wanted=False) for fact in task.goal.negative]
+    lanes = [goal for goal in goals if [(s.first, s.last) for s in goal.spans] != [(0, last)]] or goals
     shown = {*task.goal.positive, *task.goal.negative, *hidden}
     found = []
     for variable in task.variables:
@@ -81,10 +84,13 @@ def _label(task: Task, variable: Variable) -> str:
 
 
 def _shared(task: Task, variable: Variable) -> str:
-    """What the names of a variable's facts have in common, word by word."""
+    """What the names of a variable's facts have in common: word by word, else the thing they speak of."""
     first, *others = (task.facts[f].split() for f in variable.facts)
     words = [
         word if all(i < len(other) and other[i] == word for other in others) else "·"
         for i, word in enumerate(first)
     ]
-    return " ".join(words) if set(words) != {"·"} else " / ".join(task.facts[f] for f in variable.facts[:3])
+    if set(words) != {"·"}:
+        return " ".join(words)
+    named = [word for word in first if all(word in other for other in others)]
+    return " ".join(named) or " / ".join(task.facts[f] for f in variable.facts[:3])

@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from dataclasses import dataclass
+from itertools import count
 from typing import Final
 
 from serendipity.show.drawing import LETTER, Point
@@ -43,11 +44,14 @@ def pill(name: str) -> tuple[str, float]:
 
 def initials(agents: tuple[str, ...]) -> tuple[str, ...]:
     """Up to three letters that tell the agents apart: ``C``, ``R1``, ``R2``."""
+    wanted = [name[:1].upper() + "".join(filter(str.isdigit, name))[-2:] for name in agents]
     found: list[str] = []
-    for name in agents:
-        digits = "".join(letter for letter in name if letter.isdigit())[-2:]
-        found.append(name[:1].upper() + digits)
-    return tuple(text if found.count(text) == 1 else f"{text[0]}{i + 1}" for i, text in enumerate(found))
+    for text in wanted:
+        if wanted.count(text) > 1:
+            numbered = (f"{text[0]}{number}" for number in count(1))
+            text = next(other for other in numbered if other not in wanted and other not in found)
+        found.append(text)
+    return tuple(found)
 
 
 def tokens(scene: Scene, frame: Frame) -> dict[str, Token]:

@@ -98,4 +98,4 @@ def test_policy_is_printed_as_a_plan_with_branches() -> None:
     text = "\n".join(policy_lines(case_5(), result))
     assert "walk p a b: go on at" in text
     assert "carry s b d" in text
-    assert totals_line(result) == "p pays 3/2, s pays 1/2 on average; alone p pays 2"
+    assert totals_line(result) == "p pays 1.5, s pays 0.5 on average; alone p pays 2"

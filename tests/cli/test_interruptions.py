@@ -14,7 +14,7 @@ Runs = Callable[[str], Run]
 
 
 def test_table_json_and_map_agree(run: Runs, tmp_path: Path) -> None:
-    shown = run("interruptions --example room2 --discount 0.6 --heat-map map.svg")
+    shown = run("interruptions --example room2 --discount 0.6 --all --heat-map map.svg")
     assert (shown.code, shown.err) == (0, "")
     data = json.loads(run("interruptions --example room2 --discount 0.6 --format json").out)
     assert data["schema"] == "serendipity.interruptions/1"
@@ -29,6 +29,34 @@ def test_table_json_and_map_agree(run: Runs, tmp_path: Path) -> None:
         assert [float(cell) for cell in row[2:6]] == costs
         assert drawn[i] == f"{window}: saves {entry['human_saving']:.3g}"
         assert drawn[91 + i] == f"{window}: saves {entry['team_saving']:.3g}"
+
+
+def test_only_windows_that_say_something_are_printed(run: Runs) -> None:
+    lines = run("interruptions --example room2 --discount 0.6").out.splitlines()
+    data = json.loads(run("interruptions --example room2 --discount 0.6 --format json").out)
+    assert lines[1].startswith("4 of 91 windows")
+    printed = [" ".join(line.split()[:2]) for line in lines[4:]]
+    assert printed == ["[5, 6)", "[6, 7)", "[7, 8)", "[8, 9)"]
+    informative = [e["window"] for e in data["windows"] if e["informative"]]
+    assert printed == [f"[{window['start']}, {window['end']})" for window in informative]
+
+
+@pytest.mark.parametrize("discount", ["0.6", "0.9"])
+def test_no_window_within_an_informative_one_saves_as_much(discount: str) -> None:
+    report = serendipity.interruptions(serendipity.example("room5"), discount=discount)
+    for entry in report.windows:
+        within = [
+            other
+            for other in report.windows
+            if entry.window.start <= other.window.start
+            and other.window.end <= entry.window.end
+            and other.window != entry.window
+        ]
+        news = False
+        for saving in ("human_saving", "team_saving"):
+            own = getattr(entry, saving) or 0
+            news |= own > 0 and all(own > (getattr(other, saving) or 0) for other in within)
+        assert entry.informative == news
 
 
 def test_the_hand_over_of_section_3c(run: Runs) -> None:

@@ -2,11 +2,15 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
 import serendipity
+from serendipity.cli.commands import NAMES
 from serendipity.cli.render import Grid, Line, rendered
+from serendipity.cli.text import plan_report
+from serendipity.model import Options, Result, Window
 from serendipity.model.numbers import plain
 from tests.cli.conftest import Run
 
@@ -81,3 +85,70 @@ def test_a_terminal_gets_the_same_words_in_colour() -> None:
     bare = re.sub(r"\x1b\[[0-9;]*m", "", coloured)
     assert coloured != bare
     assert bare.split() == plain.split()
+
+
+def answer(**changes: object) -> Result:
+    """An answer that is not proved, with a window of one epoch, in the example room2."""
+    result = serendipity.plan(serendipity.example("room2"), discount=0.6)
+    return replace(result, status="feasible", **changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"lower_bound": 1009.7}, "at least 9.7 has to be paid"),
+        (
+            {"lower_bound": 2009.7, "window": Window(4, 7)},
+            "in a window of 2 epochs, at least 9.7 has to be paid",
+        ),
+        ({"lower_bound": 12.0, "window": None}, "at least 12 has to be paid"),
+        ({"lower_bound": 5.0}, "at least 0 has to be paid"),
+    ],
+)
+def test_what_is_not_proved_is_said_in_costs(changes: dict[str, object], words: str) -> None:
+    task = serendipity.example("room2")
+    result = answer(**changes)
+    text = plan_report(task, result, serendipity.check(task, result))
+    assert f"the limit came before the proof: {words}" in text
+    assert "100" not in text.splitlines()[1]
+
+
+def test_a_small_window_weight_stays_in_the_sentence() -> None:
+    task = serendipity.example("room2")
+    result = answer(lower_bound=11.0, options=Options(window_weight=2))
+    text = plan_report(task, result, serendipity.check(task, result))
+    assert "no less than 11 is possible, with 2 for each epoch of a window" in text
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "words"),
+    [
+        (13.0, 12.6, "cost 13 -> 12.6, saving 0.4"),
+        (12345678901.5, 12345678901.1, "cost 12345678901.5 -> 12345678901.1, saving 0.4"),
+        (1e30, 1e30, "cost 1e+30, saving 0.4"),
+    ],
+)
+def test_a_saving_is_seen_in_the_costs_beside_it(before: float, after: float, words: str) -> None:
+    task = serendipity.example("room2")
+    result = answer(human_cost=before, cost=after, saving=0.4)
+    assert words in plan_report(task, result, serendipity.check(task, result)).splitlines()
+
+
+@pytest.mark.parametrize("mode", ["individual", "serendipity", "composite"])
+def test_every_mode_says_how_much_was_looked_at(mode: str, run: Callable[[str], Run]) -> None:
+    assert re.search(
+        r"planned in .*, [1-9]\d* nodes expanded", run(f"plan --example room2 --mode {mode}").out
+    )
+
+
+PRONOUNS = re.compile(r"\b(he|his|him|himself|she|her)\b", re.IGNORECASE)
+
+
+def test_nobody_is_called_he(run: Callable[[str], Run]) -> None:
+    assert run("plan --example room5 --discount 0.9 -o help.json").code == 0
+    commands = [f"{name} --help" for name in NAMES]
+    commands += ["generate usar --help", "plan --example room2 --discount 0.6", "explain --example room2"]
+    commands += ["explain --example room7 --discount 0.6", "simulate --example room5 help.json"]
+    commands += ["interruptions --example room2 --all", "examples"]
+    for command in commands:
+        assert not PRONOUNS.search(run(command).out), command

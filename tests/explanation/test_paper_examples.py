@@ -110,7 +110,7 @@ def test_what_has_no_explanation(options: dict[str, str]) -> None:
 def test_a_human_without_a_plan() -> None:
     found = serendipity.explain(cases.case_8())
     assert next(text for topic, text in found.sentences if topic == "help").startswith(
-        "h can't reach his goal"
+        "h can't reach the goal"
     )
     assert found.to_dict()["reason"] == "no-human-plan"
     together = serendipity.explain(cases.case_8(), mode="composite")
