@@ -9,6 +9,7 @@ EXAMPLES: Final = (
     "serendipity verify --example room7 help.json",
     "serendipity simulate --example room7 help.json --human-model local",
     "serendipity plan --example room2 --discount 0.9 --human-model observant",
+    "serendipity plan --example room2 --discount 0.6 --save-plan help.plan",
     "serendipity show --example room7 help.json -o help.html",
     "serendipity show --example room7 help.json --epoch 6 -o help.svg",
     "serendipity solve --example room7 --discount 0.6 --mode communication --solver highs",

@@ -12,7 +12,7 @@ from serendipity.cli import goals as goal_options
 from serendipity.cli import naming, output, plan_options, progress
 from serendipity.cli.cancelling import cancelling
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
-from serendipity.model import Certificate, Result, UsageError
+from serendipity.model import Certificate, Result, Task, UsageError
 from serendipity.model.numbers import plain
 
 
@@ -44,6 +44,10 @@ def plan(
     beta: goal_options.Beta = None,
     time_limit: plan_options.TimeLimit = None,
     certify: Annotated[bool, typer.Option("--verify", help="Add the certificate of `verify`.")] = False,
+    save_plan: Annotated[
+        Path | None,
+        typer.Option("--save-plan", metavar="FILE", help="Also write the plan, as in planning competitions."),
+    ] = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -51,6 +55,7 @@ def plan(
 ) -> int:
     """Find the best plan in which robots help the human, and prove that none is better."""
     form = output.prepare(format, output_file, verbose)
+    output.check_output(save_plan, "--save-plan")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     options = plan_options.given(
         mode=mode,
@@ -75,6 +80,8 @@ def plan(
 
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     if goals is not None:
+        if save_plan is not None:
+            raise UsageError("--save-plan: there is no single plan with --goals")
         options |= plan_options.given(goals=goals, observed=observed, beta=beta)
         with progress.working("planning", quiet=quiet), cancelling() as cancelled:
             expected = serendipity.plan(task, cancelled=cancelled, **options)
@@ -93,16 +100,26 @@ def plan(
     certify = certify and not interrupted  # who interrupts does not want to wait for a proof
     with progress.working("verifying", quiet=quiet):
         certificate = serendipity.verify(task, result) if certify else serendipity.check(task, result)
-    if form == "json":
-        answer = result.to_dict() | ({"certificate": certificate.to_dict()} if certify else {})
-        output.write_answer(output.as_json(answer), output_file)
-    else:
-        from serendipity.cli.text import plan_report
+    answers = [output.Answer(_shown(task, result, certificate, form, claims=certify), output_file)]
+    if save_plan is not None and result.plan is not None:
+        from serendipity.cli.plan_file import plan_file
 
-        output.write_answer(plan_report(task, result, certificate, claims=certify), output_file)
+        answers.append(output.Answer(plan_file(task, result), save_plan, "--save-plan"))
+    elif save_plan is not None:
+        output.warn((f"--save-plan: there is no plan, so {save_plan} is not written",), quiet=quiet)
+    output.write_answers(answers)
     if certificate.verdict == "refuted":
         return ExitCode.REFUTED
     return ExitCode.INTERRUPTED if interrupted else OF_STATUS[result.status]
+
+
+def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, claims: bool) -> str:
+    if form == "json":
+        certified = {"certificate": certificate.to_dict()} if claims else {}
+        return output.as_json(result.to_dict() | certified)
+    from serendipity.cli.text import plan_report
+
+    return plan_report(task, result, certificate, claims=claims)
 
 
 def _for_goals(result: Result, certificate: Certificate | None, form: str, output_file: Path | None) -> int:

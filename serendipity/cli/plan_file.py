@@ -1,0 +1,58 @@
+"""Plans as files of the planning competitions: an action a line, with comments for the epochs."""
+
+from collections.abc import Iterator
+from itertools import groupby
+
+from serendipity.model import GroundAction, PlanStep, Result, Task
+from serendipity.model.actions import disables
+from serendipity.model.numbers import plain
+from serendipity.printable import printable
+
+
+def plan_file(task: Task, result: Result) -> str:
+    """A plan, epoch by epoch: ``(move commx room13 hall8)``, comments apart.
+
+    Within an epoch an action comes before those that would undo what it needs, so that the
+    lines can also be executed one after another; a comment says where no order does.
+
+    Args:
+        task: that the result answers.
+        result: with a plan.
+    """
+    return "".join(f"{line}\n" for line in _lines(task, result))
+
+
+def _lines(task: Task, result: Result) -> Iterator[str]:
+    robots = ", ".join(task.agents[i] for i in task.robots)
+    yield f"; {printable(task.name)}: human {printable(result.human)}, robots {printable(robots) or 'none'}"
+    steps = sorted(result.plan or (), key=lambda step: step.epoch)
+    for epoch, group in groupby(steps, key=lambda step: step.epoch):
+        yield f"; epoch {epoch}"
+        yield from _ordered(task, list(group))
+    yield f"; cost = {plain(result.cost)} (general cost)"
+
+
+def _ordered(task: Task, steps: list[PlanStep]) -> Iterator[str]:
+    while steps:
+        first = next((step for step in steps if not _disturbs(task, step, steps)), None)
+        if first is None:
+            yield "; the next actions only work at the same time"
+            yield from (f"({step.action})" for step in steps)
+            return
+        steps.remove(first)
+        yield f"({first.action})"
+
+
+def _disturbs(task: Task, step: PlanStep, others: list[PlanStep]) -> bool:
+    """Whether a step undoes what another one of its epoch needs."""
+    return any(
+        disables(mine, theirs)
+        for other in others
+        if other is not step
+        for mine in _actions(task, step)
+        for theirs in _actions(task, other)
+    )
+
+
+def _actions(task: Task, step: PlanStep) -> Iterator[GroundAction]:
+    return (task.actions[i] for i in task.named.get(step.action, ()))

@@ -1,0 +1,82 @@
+"""``plan --save-plan``: the plan as planning competitions write it, executable line by line."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.cli.plan_file import plan_file
+from serendipity.model import Result, Task
+from tests.builders import task
+from tests.cases import WORKED, Worked
+from tests.cli.conftest import Run, assert_one_line
+
+Runs = Callable[[str], Run]
+
+
+def actions(text: str) -> list[str]:
+    return [line[1:-1] for line in text.splitlines() if line.startswith("(")]
+
+
+def executes(planned: Task, names: list[str]) -> bool:
+    """Whether actions can be executed one after another and reach the goals."""
+    state = planned.init
+    for name in names:
+        same = [planned.actions[i] for i in planned.named[name]]
+        action = next((action for action in same if action.applicable(state)), None)
+        if action is None:
+            return False
+        state = state.difference(action.delete).union(action.add)
+    return planned.goal.holds(state) and planned.robot_goal.holds(state)
+
+
+def test_it_is_written_beside_the_answer(run: Runs, tmp_path: Path) -> None:
+    done = run("plan --example room2 --discount 0.6 -o help.json --save-plan help.plan")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    lines = (tmp_path / "help.plan").read_text().splitlines()
+    assert lines[0] == "; usar-room2: human commx, robots robot"
+    assert lines[-1] == "; cost = 12.6 (general cost)"
+    at = lines.index("(hand_over robot commx mk2 hall4)")
+    assert lines[at - 1] == "; epoch 6"
+    assert executes(serendipity.example("room2"), actions("\n".join(lines)))
+
+
+@pytest.mark.parametrize("worked", WORKED, ids=str)
+def test_every_plan_can_be_executed_line_by_line(worked: Worked) -> None:
+    planned = worked.task()
+    result = serendipity.plan(planned, human_plan=worked.human_plan, **worked.options)
+    if result.plan is not None and result.mode != "assistance":
+        assert executes(planned, actions(plan_file(planned, result)))
+
+
+def test_who_undoes_something_comes_later() -> None:
+    planned = task(
+        init="door",
+        goal="inside",
+        actions={"enter h": "door -> inside @ 2", "close r": "door -> !door shut @ 0"},
+    )
+    result = Result(
+        "composite",
+        "feasible",
+        "h",
+        serendipity.Options(mode="composite"),
+        plan=(
+            serendipity.PlanStep(1, ("r",), "close r", 0.0),
+            serendipity.PlanStep(1, ("h",), "enter h", 2.0),
+        ),
+        cost=2.0,
+    )
+    assert actions(plan_file(planned, result)) == ["enter h", "close r"]
+
+
+def test_without_a_plan_there_is_no_file(run: Runs, tmp_path: Path) -> None:
+    serendipity.generate_usar(tmp_path / "task", preset="room2")
+    done = run("plan task --mode composite --horizon inf --time-limit 0 --save-plan help.plan")
+    assert done.err.startswith("Warning: --save-plan: there is no plan")
+    assert not (tmp_path / "help.plan").exists()
+
+
+@pytest.mark.parametrize("option", ["--save-plan nowhere/help.plan", "--save-plan ."])
+def test_what_is_wrong_is_said_before_the_work(option: str, run: Runs) -> None:
+    assert_one_line(run(f"plan --example room2 {option}"), "--save-plan")
