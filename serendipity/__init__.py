@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from serendipity.explanation import Explanation, explain
     from serendipity.goals import Recognition, recognise
     from serendipity.interruptibility import interruptions
+    from serendipity.lint import Finding, TaskReport, check_task
     from serendipity.loading import load, load_agents, load_pddl
     from serendipity.model import (
         Certificate,
@@ -47,6 +48,7 @@ __all__ = [
     "Certificate",
     "Deadline",
     "Explanation",
+    "Finding",
     "InputError",
     "LimitReachedError",
     "Options",
@@ -57,11 +59,13 @@ __all__ = [
     "SerendipityError",
     "Session",
     "Task",
+    "TaskReport",
     "Trace",
     "UsageError",
     "Window",
     "__version__",
     "check",
+    "check_task",
     "example",
     "explain",
     "generate_usar",
@@ -88,6 +92,9 @@ _HOMES = {
     "Session": "serendipity.session",
     "simulate": "serendipity.simulation",
     "check": "serendipity.certify",
+    "check_task": "serendipity.lint",
+    "Finding": "serendipity.lint",
+    "TaskReport": "serendipity.lint",
     "verify": "serendipity.certify",
     "reproduce": "serendipity.reproduction",
     "interruptions": "serendipity.interruptibility",

@@ -13,6 +13,7 @@ from serendipity.cli.help_examples import epilog
 
 NAMES: Final = (
     "plan",
+    "check-task",
     "verify",
     "simulate",
     "explain",
@@ -26,7 +27,7 @@ NAMES: Final = (
     "examples",
     "generate",
 )
-"""As ``--help`` lists them: each a function of its name in the module of its name, or a group ``app``."""
+"""As ``--help`` lists them: each a function in a module, both of its name, or a group ``app`` there."""
 
 
 class Commands(TyperGroup):
@@ -58,12 +59,13 @@ class _OnDemand(Mapping[str, Any]):
 
 
 def _command(name: str) -> Any:
-    module = import_module(f"serendipity.cli.{name}")
+    function = name.replace("-", "_")
+    module = import_module(f"serendipity.cli.{function}")
     group = getattr(module, "app", None)
     if group is not None:
         return get_command(group)
     single = typer.Typer(add_completion=False, rich_markup_mode=None)
-    single.command(name, epilog=epilog(name))(getattr(module, name))
+    single.command(name, epilog=epilog(name))(getattr(module, function))
     command = get_command(single)
     names = [parameter.name for parameter in command.params]
     if "quiet" in names:  # it may take a while

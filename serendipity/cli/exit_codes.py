@@ -10,7 +10,7 @@ class ExitCode(IntEnum):
     ANSWERED = 0
     """An answer: an opportunity, a proof that there is none, a certificate that holds."""
     REFUTED = 1
-    """A certificate that is refuted; with ``--strict`` a result that breaks a rule."""
+    """Something is refuted: a certificate, a result (``--strict``), a task that can't be right."""
     WRONG_INPUT = 2
     """Wrong usage or input: one line on stderr says what was expected."""
     INFEASIBLE = 3

@@ -16,6 +16,7 @@ EXAMPLES: Final = (
     "serendipity crosscheck --count 5 --judges search,automata",
     "serendipity bench --rooms 12 --seeds 2 --contenders search,automata --repeat 1 -o timings.csv",
     "serendipity generate usar --rooms 30 --medkits 3 --seed 7 -o building",
+    "serendipity check-task building",
     "serendipity plan building --discount 0.9",
     "serendipity generate usar --preset figure2 --seed 7 --layout pair -o figure2",
     "serendipity plan figure2/domain.pddl figure2/problem.pddl --human commx --robot robot",

@@ -1,0 +1,79 @@
+"""``serendipity check-task``: is a task what its author meant?"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import serendipity
+from serendipity.cli import naming, output, progress
+from serendipity.cli.exit_codes import ExitCode
+
+if TYPE_CHECKING:
+    from serendipity.cli.render import Grid, Line
+    from serendipity.lint import TaskReport
+
+
+def check_task(
+    files: naming.Files = None,
+    human: naming.Human = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    format: output.Format = None,  # noqa: A002 - the option's name
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Look at a task before planning: its size, goals out of reach, and what is declared and not used."""
+    form = output.prepare(format, output_file, verbose)
+    name = naming.TaskName(
+        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
+    )
+    with progress.working("reading", quiet=quiet):
+        task = name.load()
+    with progress.working("checking", quiet=quiet):
+        report = serendipity.check_task(task, _files(name))
+    if form == "json":
+        output.write_answer(output.as_json(report.to_dict()), output_file)
+    else:
+        from serendipity.cli.render import rendered
+
+        output.write_answer(rendered(_text(report)), output_file)
+    return ExitCode.ANSWERED if report.right else ExitCode.REFUTED
+
+
+def _files(name: naming.TaskName) -> list[tuple[Path, Path]]:
+    """Domain and problem of each pair of files that a task is read from."""
+    if name.example is not None:
+        from serendipity.scenarios.examples import DATA, EXAMPLES
+
+        shipped = EXAMPLES[name.example]
+        return [(DATA / shipped.domain, DATA / shipped.problem)]
+    if name.agents:
+        words = [text.partition("=")[2] for text in name.agents] + [name.team or ""]
+        return [
+            (Path(domain), Path(problem)) for domain, _, problem in (w.partition(",") for w in words if w)
+        ]
+    if len(name.files) == 2:
+        return [(name.files[0], name.files[1])]
+    folders = sorted(folder for folder in name.files[0].iterdir() if folder.is_dir())
+    pairs = ((folder / "domain.pddl", folder / "problem.pddl") for folder in folders)
+    return [(domain, problem) for domain, problem in pairs if domain.exists() and problem.exists()]
+
+
+def _text(report: "TaskReport") -> "Iterator[Line | Grid]":
+    from serendipity.cli.render import Grid, Line
+
+    yield Line(f"{report.task}: human {report.human}; {report.facts} facts in {report.variables} variables")
+    yield Line()
+    counts = [(name, str(count)) for name, count in report.actions.items()]
+    yield Grid(("action", "ground actions"), [*counts, ("all", str(sum(report.actions.values())))])
+    yield Line()
+    yield Grid(("agent", "takes part in"), [(name, str(count)) for name, count in report.agents.items()])
+    yield Line()
+    styles = {"error": "bold red", "warning": "yellow", "note": ""}
+    for finding in report.findings:
+        yield Line(f"{finding.level}: {finding.text} ({finding.rule})", styles[finding.level])
+    if not report.findings:
+        yield Line("nothing wrong was found", "green")

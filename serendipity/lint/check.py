@@ -1,0 +1,65 @@
+"""The facade of the lint: a task, and the files it was read from, to a report."""
+
+from collections import Counter
+from collections.abc import Iterable
+from itertools import chain
+from os import PathLike
+
+from serendipity.lint.file_rules import file_findings
+from serendipity.lint.report import LEVELS, Finding, TaskReport
+from serendipity.lint.task_rules import task_findings
+from serendipity.model import GroundAction, Task
+from serendipity.pddl.files import read_unit
+
+Files = Iterable[tuple[str | PathLike[str], str | PathLike[str]]]
+
+
+def check_task(task: Task, files: Files = ()) -> TaskReport:
+    """Look for what is wrong with a task, or is probably not meant: nothing is planned.
+
+    Args:
+        task: the task.
+        files: domain and problem of each pair of PDDL files that it was read from.  Without
+            them, what only files show is left out: names that nothing uses, requirements.
+
+    Returns:
+        How large the task is, and the findings.  Where one has the level ``error`` the task
+        can't be right: a goal is out of everybody's reach.
+
+    Raises:
+        InputError: a file can't be read or is wrong.
+    """
+    units = [read_unit(None, domain, problem) for domain, problem in files]
+    found = chain(task_findings(task), file_findings(task, units) if units else ())
+    return TaskReport(
+        task=task.name,
+        human=task.agents[task.human],
+        agents={
+            name: sum(agent in action.participants for action in task.actions)
+            for agent, name in enumerate(task.agents)
+        },
+        facts=len(task.facts),
+        variables=len(task.variables),
+        actions=dict(Counter(_origin(task, action) for action in task.actions).most_common()),
+        findings=_sorted(found),
+    )
+
+
+def _sorted(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    by_rule: dict[tuple[str, str], Finding] = {}
+    for finding in findings:
+        by_rule.setdefault((finding.rule, finding.text), finding)
+    return tuple(sorted(by_rule.values(), key=lambda finding: LEVELS.index(finding.level)))
+
+
+def _origin(task: Task, action: GroundAction) -> str:
+    """The PDDL action of a ground one; of names without arguments what comes before the agents."""
+    first, *arguments = action.key
+    if arguments:
+        return first
+    parts = first.split("_")
+    agents = {part for i in action.participants for part in task.agents[i].split("_")}
+    verb = [
+        part for part in parts[: next((i for i, p in enumerate(parts) if p in agents), len(parts))] if part
+    ]
+    return "_".join(verb) or first

@@ -1,0 +1,71 @@
+"""What can be reached if nothing that was reached is ever lost, and what matters for a goal."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+
+from serendipity.model import Condition, GroundAction, Task
+
+Fact = tuple[int, bool]
+"""A fact, and whether it is true."""
+
+
+def unreachable(task: Task, goal: Condition, actions: Sequence[GroundAction]) -> tuple[Fact, ...]:
+    """The literals of a goal that no sequence of some actions makes true, each by itself.
+
+    Made true once, a literal stays so, beside its opposite; so what is not reached here can't
+    be reached at all, and what is may still be out of reach.
+    """
+    reached = _reached(task, actions)
+    wanted = [(fact, True) for fact in goal.positive] + [(fact, False) for fact in goal.negative]
+    return tuple(literal for literal in wanted if literal not in reached)
+
+
+def _reached(task: Task, actions: Sequence[GroundAction]) -> set[Fact]:
+    reached = {(fact, fact in task.init) for fact in range(len(task.facts))}
+    waiting: defaultdict[Fact, list[GroundAction]] = defaultdict(list)
+    pending = list(actions)
+    while pending:
+        action = pending.pop()
+        missing = next((literal for literal in _needs(action) if literal not in reached), None)
+        if missing is not None:
+            waiting[missing].append(action)
+            continue
+        for literal in _makes(action):
+            if literal not in reached:
+                reached.add(literal)
+                pending += waiting.pop(literal, ())
+    return reached
+
+
+def relevant(task: Task) -> list[bool]:
+    """For each action whether it may contribute to a goal, the human's or the robots'."""
+    makers: defaultdict[Fact, list[int]] = defaultdict(list)
+    for i, action in enumerate(task.actions):
+        for literal in _makes(action):
+            makers[literal].append(i)
+    found = [False] * len(task.actions)
+    pending = [*_literals(task.goal), *_literals(task.robot_goal)]
+    seen = set(pending)
+    while pending:
+        for i in makers.pop(pending.pop(), ()):
+            if not found[i]:
+                found[i] = True
+                new = [literal for literal in _needs(task.actions[i]) if literal not in seen]
+                seen.update(new)
+                pending += new
+    return found
+
+
+def _literals(goal: Condition) -> Iterable[Fact]:
+    yield from ((fact, True) for fact in goal.positive)
+    yield from ((fact, False) for fact in goal.negative)
+
+
+def _needs(action: GroundAction) -> Iterable[Fact]:
+    yield from ((fact, True) for fact in action.pre)
+    yield from ((fact, False) for fact in action.neg)
+
+
+def _makes(action: GroundAction) -> Iterable[Fact]:
+    yield from ((fact, True) for fact in action.add)
+    yield from ((fact, False) for fact in action.delete)

@@ -1,0 +1,61 @@
+"""What a grounded task shows: goals, and agents that have nothing to do with them."""
+
+from collections.abc import Iterator, Sequence
+
+from serendipity.lint.reach import Fact, relevant, unreachable
+from serendipity.lint.report import Finding
+from serendipity.model import Task
+
+_LISTED = 3
+
+
+def task_findings(task: Task) -> Iterator[Finding]:
+    """All findings for which no file is needed."""
+    for text in task.warnings:
+        yield Finding("warning", "reading", text)
+    yield from _goals(task)
+    yield from _agents(task)
+
+
+def _goals(task: Task) -> Iterator[Finding]:
+    human = task.agents[task.human]
+    if not task.goal:
+        yield Finding("warning", "goal-missing", f"{human} has no goal, so there is nothing to help with")
+    elif task.goal.holds(task.init):
+        yield Finding("warning", "goal-holds", f"{human}'s goal holds from the beginning")
+    for whose, goal in ((f"{human}'s goal", task.goal), ("the robots' goal", task.robot_goal)):
+        never = unreachable(task, goal, task.actions)
+        if never:
+            text = f"{whose} can't be reached by all agents together: {_listed(task, never)}"
+            yield Finding("error", "goal-unreachable", text)
+    yield from _alone(task)
+
+
+def _alone(task: Task) -> Iterator[Finding]:
+    own = [task.actions[i] for i in task.human_actions]
+    alone = unreachable(task, task.goal, own)
+    if alone and not unreachable(task, task.goal, task.actions):
+        human = task.agents[task.human]
+        text = f"{human} can't reach the goal alone: {_listed(task, alone)}; there is no plan to preserve"
+        yield Finding("warning", "goal-needs-help", text)
+
+
+def _agents(task: Task) -> Iterator[Finding]:
+    matters = relevant(task)
+    for agent, name in enumerate(task.agents):
+        own = [i for i, action in enumerate(task.actions) if agent in action.participants]
+        if not own:
+            yield Finding("warning", "agent-idle", f"{name} can do nothing")
+        elif agent != task.human and (task.goal or task.robot_goal) and not any(matters[i] for i in own):
+            yield Finding("warning", "agent-irrelevant", f"nothing that {name} can do matters for a goal")
+
+
+def _listed(task: Task, literals: Sequence[Fact]) -> str:
+    names = [task.facts[fact] if true else f"not {task.facts[fact]}" for fact, true in literals]
+    return listed(names)
+
+
+def listed(names: Sequence[str]) -> str:
+    """Some names, and how many more there are."""
+    more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+    return ", ".join(names[:_LISTED]) + more
