@@ -5,7 +5,6 @@ cursor, that turn the direction of writing round, or that nobody sees.
 """
 
 import re
-from html import escape
 from typing import Final
 
 LONGEST: Final = 300
@@ -32,6 +31,8 @@ def message(text: str, longest: int = LONGEST) -> str:
 
 def markup(text: str) -> str:
     """A text for a page or an SVG: printable, and without any meaning in HTML."""
+    from html import escape
+
     return escape(printable(text))
 
 

@@ -1,1 +1,1 @@
-"""The command line; ``serendipity.cli.app:main`` is its entry point."""
+"""The command line; ``serendipity.cli.entry:run`` is its entry point."""

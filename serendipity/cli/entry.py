@@ -7,7 +7,6 @@ but what Python has loaded anyway, or nearly so.
 import gc
 import os
 import signal
-import sys
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 """What asks a process to end: Ctrl-C; and ``kill``, ``timeout``, containers and schedulers."""
@@ -25,12 +24,12 @@ def run() -> None:
     _fill_closed_streams()
     gc.set_threshold(_OBJECTS)
     from serendipity.cli.app import main
+    from serendipity.cli.leaving import leave
 
     _on_signals(_interrupt)
     code = main()
     _on_signals(signal.SIG_DFL)  # all is said and done
-    gc.freeze()  # or Python would look through everything once more
-    sys.exit(code)
+    leave(code)
 
 
 def _fill_closed_streams() -> None:
