@@ -235,7 +235,9 @@ class _Certifier:
             )
             verdict = "proved" if right and self._gains_alone(least) else "refuted"
             reason = (
-                "he can't reach his goal alone" if least is None else f"his least cost alone is {least:.12g}"
+                "the goal can't be reached alone"
+                if least is None
+                else f"the least cost alone is {least:.12g}"
             )
         for name in wanted:
             yield Claim(name, verdict, reason, seconds=perf_counter() - started)

@@ -33,7 +33,7 @@ class HumanExaminer(Examiner):
         if found is not None:
             return "refuted", "a better plan" if self.call.robots_goal else "an opportunity", found
         if self.call.robots_goal and (self._alone is None or cost < self._alone):
-            return "refuted", "leaving him alone costs more", None
+            return "refuted", "leaving the human alone costs more", None
         return "proved", self._played(cost), None
 
     def opportunity_is_cheaper(self) -> Verdict | None:

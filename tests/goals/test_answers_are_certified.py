@@ -170,7 +170,7 @@ DOCTORED: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "an action too late": (_edit("statistics.goals.0.plan.0.epoch", 2), "replay", "precondition"),
     "an action lost": (_edit("statistics.goals.1.plan", lambda old: old[1:]), "replay", "goal does not hold"),
     "help for one goal only": (_only_for_one, "replay", "robots do something else"),
-    "his action in the plan": (_shared_help, "replay", "what robots do without him"),
+    "his action in the plan": (_shared_help, "replay", "what robots do without the human"),
     "a window lost": (_edit("statistics.goals.0.window", None), "replay", "left alone"),
     "a step's cost": (_edit("statistics.goals.0.plan.1.cost", 0.5), "cost", "step-cost"),
     "a cost of one goal": (_edit("statistics.goals.0.cost", 1.0), "cost", "goal 'p': cost"),

@@ -59,7 +59,7 @@ def faults(task: Task, recognised: Recognised) -> Iterator[Fault]:
     """Everything that is wrong with a recognition, in order."""
     for name in recognised.observed:
         if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
-            yield f"observed: '{name}' is not an action that he does alone"
+            yield f"observed: '{name}' is not an action that the human does alone"
             return
     if not recognised.goals or not _close(sum(goal.prior for goal in recognised.goals), 1.0):
         yield "the priors do not add up to 1"

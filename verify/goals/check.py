@@ -127,7 +127,7 @@ def _header_fault(task: Task, result: Result, chosen: Sequence[Believed]) -> str
     ) or task.robot_goal:
         return "ties, human models, max_cost and robots' goals are for a single goal"
     if result.status not in ("optimal", "feasible") or result.plan is None:
-        return "leaving him alone is always an answer"
+        return "leaving the human alone is always an answer"
     longest = max(len(goal.plan or ()) for goal in chosen)
     expected = longest if options.horizon is None else options.horizon
     if result.horizon != expected or longest > int(expected):

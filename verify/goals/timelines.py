@@ -107,7 +107,7 @@ def together_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     human = result.human
     for step in result.plan or ():
         if human in step.agents:
-            return f"epoch {step.epoch}: '{step.action}': the plan is what robots do without him"
+            return f"epoch {step.epoch}: '{step.action}': the plan is what robots do without the human"
     for line in lines:
         theirs = [step for step in line.case.result.plan or () if human not in step.agents]
         if sorted(map(_as_key, theirs)) != sorted(map(_as_key, result.plan or ())):
@@ -124,7 +124,7 @@ def _deviations(lines: Sequence[Timeline]) -> Iterator[str]:
     for line in lines:
         case = line.case
         if case.result.window is None and case.human_does() != dict(enumerate(case.pi_h, start=1)):
-            yield f"goal '{line.name}': his plan is left alone, but he does something else"
+            yield f"goal '{line.name}': the plan is left alone, but the human does something else"
 
 
 def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:

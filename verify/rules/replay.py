@@ -76,14 +76,14 @@ def replay_human(task: Task, names: Iterable[str]) -> tuple[int, ...]:
     for number, name in enumerate(names, start=1):
         own = [i for i in task.named.get(name, ()) if task.actions[i].participants == (task.human,)]
         if not own:
-            raise PlanError(f"step {number}, '{name}', is not an action that he does alone")
+            raise PlanError(f"step {number}, '{name}', is not an action that the human does alone")
         chosen = next((i for i in own if applicable(task.actions[i], state)), None)
         if chosen is None:
             raise PlanError(f"step {number}, '{name}', is not applicable: {_unmet(task, own[0], state)}")
         plan.append(chosen)
         state = _after(state, [task.actions[chosen]])
     if not task.goal.holds(state):
-        raise PlanError("his goal does not hold at its end")
+        raise PlanError("the goal does not hold at its end")
     return tuple(plan)
 
 

@@ -97,7 +97,7 @@ def suffix_replan(case: Case) -> Found | None:
     rest = list(_between(case, window.end, None))
     for expected, (epoch, i) in enumerate(rest, start=window.end):
         if epoch != expected:
-            return Found(f"the human waits in epoch {expected} before he is done", epoch, case.name(i))
+            return Found(f"the human waits in epoch {expected} before all is done", epoch, case.name(i))
     try:
         optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
     except UNDECIDED:
@@ -107,7 +107,7 @@ def suffix_replan(case: Case) -> Found | None:
         return None
     return Found(
         f"from epoch {window.end} the human spends {float(done[0]):g} in {done[1]} actions; "
-        f"alone he needs {float(optimum[0]):g} in {optimum[1]}",
+        f"alone it takes {float(optimum[0]):g} in {optimum[1]}",
         window.end,
     )
 
