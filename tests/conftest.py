@@ -1,10 +1,13 @@
 """Profiles of hypothesis (``HYPOTHESIS_PROFILE=fuzz`` for the long one), data that may be absent."""
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from serendipity.cli import progress_lines
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
@@ -13,6 +16,14 @@ settings.register_profile("ci", derandomize=True, max_examples=100, database=Non
 settings.register_profile("dev", max_examples=50, **_CALM)
 settings.register_profile("fuzz", max_examples=1000, print_blob=True, **_CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _patience() -> Iterator[None]:
+    """Commands say nothing of their progress, however busy the machine is; tests of it set their own."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(progress_lines.PlainLines, "first", 3600.0)
+        yield
 
 
 def _data(name: str) -> Path:

@@ -24,9 +24,10 @@ def run() -> None:
     _fill_closed_streams()
     gc.set_threshold(_OBJECTS)
     from serendipity.cli.app import main
+    from serendipity.cli.interrupts import interrupt
     from serendipity.cli.leaving import leave
 
-    _on_signals(_interrupt)
+    _on_signals(interrupt)
     code = main()
     _on_signals(signal.SIG_DFL)  # all is said and done
     leave(code)
@@ -53,8 +54,3 @@ def _leave(_number: int, _frame: object) -> None:
         os.write(2, b"Interrupted.\n")
     finally:
         os._exit(INTERRUPTED)
-
-
-def _interrupt(_number: int, _frame: object) -> None:
-    """While commands work: they tidy up, and write what they have."""
-    raise KeyboardInterrupt

@@ -10,8 +10,8 @@ import typer
 import serendipity
 from serendipity.cli import goals as goal_options
 from serendipity.cli import naming, output, plan_options, progress
-from serendipity.cli.cancelling import cancelling
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
+from serendipity.cli.interrupts import cancelling
 from serendipity.model import Certificate, Result, Task, UsageError
 from serendipity.model.numbers import plain
 
@@ -96,10 +96,7 @@ def plan(
         result = _last(serendipity.plan_anytime(task, cancelled=cancelled, **options), on_news, cancelled)
     if result is None:
         return ExitCode.INTERRUPTED
-    interrupted = cancelled.is_set()
-    certify = certify and not interrupted  # who interrupts does not want to wait for a proof
-    with progress.working("verifying", quiet=quiet):
-        certificate = serendipity.verify(task, result) if certify else serendipity.check(task, result)
+    certificate, certify = _certificate(task, result, cancelled, certify=certify, quiet=quiet)
     answers = [output.Answer(_shown(task, result, certificate, form, claims=certify), output_file)]
     if save_plan is not None and result.plan is not None:
         from serendipity.cli.plan_file import plan_file
@@ -110,7 +107,20 @@ def plan(
     output.write_answers(answers)
     if certificate.verdict == "refuted":
         return ExitCode.REFUTED
-    return ExitCode.INTERRUPTED if interrupted else OF_STATUS[result.status]
+    return ExitCode.INTERRUPTED if cancelled.is_set() else OF_STATUS[result.status]
+
+
+def _certificate(
+    task: Task, result: Result, cancelled: threading.Event, *, certify: bool, quiet: bool
+) -> tuple[Certificate, bool]:
+    """What the checker says, and whether by a proof: whoever interrupts need not wait for one."""
+    with progress.working("verifying", quiet=quiet):
+        if certify and not cancelled.is_set():
+            try:
+                return serendipity.verify(task, result), True
+            except KeyboardInterrupt:
+                cancelled.set()
+        return serendipity.check(task, result), False
 
 
 def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, claims: bool) -> str:

@@ -95,7 +95,7 @@ def _summary(result: Result) -> str:
 
 def _gap(result: Result) -> str:
     known = f": {_least_cost(result)}" if result.lower_bound else ""
-    return f"the limit came before the proof{known}"
+    return f"not proved to be the best{known}"
 
 
 def _least_cost(result: Result) -> str:

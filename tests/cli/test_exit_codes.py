@@ -86,6 +86,19 @@ def test_an_interrupt_writes_the_incumbent_and_is_130(
     assert json.loads(Path("answer.json").read_text())["status"] == "feasible"
 
 
+def test_an_interrupted_proof_does_not_lose_the_answer(
+    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(task: Task, result: Result) -> serendipity.Certificate:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(serendipity, "verify", interrupted)
+    done = run("plan --example room2 --discount 0.6 --verify -o answer.json")
+    assert done.code == 130
+    written = json.loads(Path("answer.json").read_text())
+    assert (written["cost"], "certificate" in written) == (12.6, False)
+
+
 def test_an_interrupt_before_any_plan_is_130_too(
     run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from serendipity.cli import entry
-from serendipity.cli.cancelling import cancelling
 from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.interrupts import cancelling
 
 WORKING = """
 import sys
@@ -46,6 +46,22 @@ entry.run()
 """
 
 
+SWALLOWED = """
+import sys, time
+from serendipity.cli import app, entry
+
+def main():
+    try:
+        import interrupted
+    except BaseException:  # as libraries do where a module is optional
+        sys.exit("swallowed")
+    time.sleep(60)
+
+app.main = main
+entry.run()
+"""
+
+
 @pytest.mark.parametrize("number", entry.SIGNALS)
 def test_a_signal_while_planning_writes_the_incumbent(number: signal.Signals, tmp_path: Path) -> None:
     running = subprocess.Popen(
@@ -68,6 +84,15 @@ def test_a_signal_while_loading_is_one_line(number: signal.Signals) -> None:
         [sys.executable, "-c", LOADING, str(int(number))], capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stdout, done.stderr) == (ExitCode.INTERRUPTED, "", "Interrupted.\n")
+
+
+def test_no_library_takes_a_signal_for_a_missing_module(tmp_path: Path) -> None:
+    (tmp_path / "interrupted.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    program = [sys.executable, "-c", SWALLOWED]
+    done = subprocess.run(program, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode != 0
+    assert "swallowed" not in done.stderr
+    assert "KeyboardInterrupt" in done.stderr
 
 
 def test_the_first_signal_cancels_and_the_second_interrupts() -> None:

@@ -109,7 +109,7 @@ def test_what_is_not_proved_is_said_in_costs(changes: dict[str, object], words: 
     task = serendipity.example("room2")
     result = answer(**changes)
     text = plan_report(task, result, serendipity.check(task, result))
-    assert f"the limit came before the proof: {words}" in text
+    assert f"not proved to be the best: {words}" in text
     assert "100" not in text.splitlines()[1]
 
 
