@@ -41,7 +41,10 @@ def test_completions(
     assert set(done.out.split()) == expected
 
 
-def test_the_script_for_a_shell_is_printed(run: Callable[[str], Run]) -> None:
-    done = run("--show-completion bash")
+def test_the_script_for_a_shell_is_printed(
+    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("shellingham.detect_shell", lambda: ("bash", "/bin/bash"))
+    done = run("--show-completion")
     assert done.code == 0
     assert "_SERENDIPITY_COMPLETE=complete_bash" in done.out
