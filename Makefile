@@ -17,7 +17,7 @@ $(READY): requirements-dev.txt pyproject.toml
 	@if command -v uv >/dev/null 2>&1; then \
 	  set -e; \
 	  uv venv --quiet --clear --python "$$(command -v $(PYTHON))" .venv; \
-	  uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-dev.txt; \
+	  uv pip install --quiet --compile-bytecode --python $(BIN)/python --require-hashes -r requirements-dev.txt; \
 	  uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation -e .; \
 	else \
 	  set -e; \
@@ -25,6 +25,7 @@ $(READY): requirements-dev.txt pyproject.toml
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.txt; \
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .; \
 	fi
+	@$(BIN)/python -m compileall -q serendipity search verify  # as an installed package is: the first start counts
 	@touch $@
 
 demo: $(READY)  ## the paper's example III-C: plan, proof, what the person will really do, picture
