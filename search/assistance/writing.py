@@ -4,8 +4,8 @@ from typing import Final
 
 from search.assistance.game import INFINITE, NOOP, Game, Move
 from search.assistance.solution import Costs, Solution
+from serendipity.model.actions import NOOP as NOOP_NAME
 from serendipity.model.plans import Step
-from serendipity.model.policy import NOOP as NOOP_NAME
 from serendipity.model.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.task import HumanPlan
 

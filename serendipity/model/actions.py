@@ -3,8 +3,15 @@
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Final
 
 from serendipity.model.errors import InputError
+
+NOOP: Final = "noop"
+"""Waiting, as plans and policies call it: always possible, free, without effect.
+
+No ground action that asks for something or changes something may have the name.
+"""
 
 State = AbstractSet[int]
 """A state is the set of the fact ids that are true in it."""
@@ -49,6 +56,8 @@ class GroundAction:
     cost: Fraction = field(default=Fraction(1))
 
     def __post_init__(self) -> None:
+        if self.name == NOOP and (self.pre or self.neg or self.add or self.delete):
+            raise InputError(f"action '{NOOP}': that name means waiting; give what does more another name")
         if not self.participants:
             raise InputError(f"action '{self.name}': expected at least one participating agent")
         if self.cost.numerator < 0:  # three times as fast as comparing rationals

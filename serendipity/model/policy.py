@@ -2,12 +2,11 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any
 
+from serendipity.model.actions import NOOP
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.numbers import exact
-
-NOOP: Final = "noop"
 
 Costs = tuple[Fraction, Fraction]
 """The human's total and the supporter's, compared in this order."""

@@ -7,7 +7,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from serendipity.model.actions import Condition, GroundAction
+from serendipity.model.actions import NOOP, Condition, GroundAction
+from serendipity.model.deadline import Deadline
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.variables import Variable, find_variables
 
@@ -39,6 +40,8 @@ class Task:
             No ``noop`` among them.  Several may share one name (disjunctive
             preconditions, conditional effects).
         warnings: lines for the user about the input.
+        waiting: names of actions of the input that only wait, each with the agent who
+            does: a given plan may name them.
     """
 
     name: str
@@ -50,6 +53,7 @@ class Task:
     actions: tuple[GroundAction, ...]
     robot_goal: Condition = field(default_factory=Condition)
     warnings: tuple[str, ...] = ()
+    waiting: frozenset[tuple[str, int]] = frozenset()
 
     def __post_init__(self) -> None:
         if not 0 <= self.human < len(self.agents):
@@ -77,6 +81,15 @@ class Task:
     def variables(self) -> tuple[Variable, ...]:
         """Finite-domain variables behind the facts; each fact is in exactly one."""
         return find_variables(len(self.facts), self.init, self.actions)
+
+    def settle(self, deadline: Deadline) -> None:
+        """Find the variables now, within a deadline.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        if "variables" not in self.__dict__:
+            self.__dict__["variables"] = find_variables(len(self.facts), self.init, self.actions, deadline)
 
     @cached_property
     def _derived(self) -> dict[Any, Any]:
@@ -132,7 +145,7 @@ class Task:
             raise PlanError(f"human plan: the goal does not hold {last}")
 
     def plan_from_names(self, names: Iterable[str]) -> HumanPlan:
-        """The human plan that a list of action names writes down; noops are skipped.
+        """The human plan that a list of action names writes down; waiting is skipped.
 
         A name shared by several actions is read as the first that is applicable there.
 
@@ -144,13 +157,16 @@ class Task:
         state = self.init
         for step, text in enumerate(names, start=1):
             name = canonical_name(text)
-            if name == "noop":
+            if name == NOOP:
                 continue
-            ids = self.named.get(name)
-            if ids is None:
+            ids = self.named.get(name, ())
+            chosen = next((i for i in ids if self.actions[i].applicable(state)), None)
+            if chosen is None and (name, self.human) in self.waiting:
+                continue
+            if not ids:
                 message = f"human plan, step {step}: there is no action '{name}' in the task"
                 raise PlanError(message, step=step)
-            chosen = next((i for i in ids if self.actions[i].applicable(state)), ids[0])
+            chosen = ids[0] if chosen is None else chosen
             plan.append(chosen)
             state = self._after(state, chosen, len(plan))
         self._require_goal(state, tuple(plan))
@@ -183,7 +199,10 @@ class Task:
         name = canonical_name(human)
         if name not in self.agents:
             raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human}'")
-        return replace(self, human=self.agents.index(name))
+        other = replace(self, human=self.agents.index(name))
+        if "variables" in self.__dict__:  # they are the same for every human
+            other.__dict__["variables"] = self.variables
+        return other
 
     def _first_unmet(self, action: GroundAction, state: frozenset[int]) -> str:
         missing = next((f for f in action.pre if f not in state), None)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from itertools import chain
 
 from serendipity.model.actions import GroundAction
+from serendipity.model.deadline import Deadline
 
 _MAX_ATTEMPTS = 64
 
@@ -36,14 +37,17 @@ class Variable:
 
 
 def find_variables(
-    n_facts: int, init: frozenset[int], actions: Sequence[GroundAction]
+    n_facts: int, init: frozenset[int], actions: Sequence[GroundAction], deadline: Deadline | None = None
 ) -> tuple[Variable, ...]:
     """Partition facts ``0 .. n_facts - 1`` into variables, ascending in their first fact.
 
     Sound for every input: a group that is not exactly-one under each action is not
     reported.  Not complete: some groups that exist may be missed.
+
+    Raises:
+        LimitReachedError: the deadline came first.
     """
-    finder = _GroupFinder(n_facts, init, actions)
+    finder = _GroupFinder(n_facts, init, actions, deadline or Deadline())
     groups = finder.groups()
     grouped = set(chain.from_iterable(groups))
     singles = ((fact,) for fact in range(n_facts) if fact not in grouped)
@@ -76,7 +80,10 @@ class _GroupFinder:
     Everything is linear in the number of actions that touch a group.
     """
 
-    def __init__(self, n_facts: int, init: frozenset[int], actions: Sequence[GroundAction]) -> None:
+    def __init__(
+        self, n_facts: int, init: frozenset[int], actions: Sequence[GroundAction], deadline: Deadline
+    ) -> None:
+        self.deadline = deadline
         self.init = init
         self.actions = actions
         self.adds = [action.add for action in actions]
@@ -88,6 +95,7 @@ class _GroupFinder:
         self.strayers: dict[int, list[int]] = {}  # delete it without need
         self.sources: dict[int, list[set[int]]] = {}
         for i, action in enumerate(actions):
+            deadline.tick()
             pre, add = action.pre, action.add
             for fact in add:
                 self.adders[fact].append(i)
@@ -135,6 +143,7 @@ class _GroupFinder:
             return set()
         barred = set(self.blocked)
         for _ in range(_MAX_ATTEMPTS):
+            self.deadline.check()
             group = self._closure(seed, barred)
             misfits = self._misfits(group)
             if not misfits:
@@ -148,6 +157,7 @@ class _GroupFinder:
         group = {seed}
         wave = group
         while wave:
+            self.deadline.tick()
             wave = {*_joined(self.adds, _joined(self.consumers, wave))} - group - barred
             wave -= {fact for fact in wave & self.sources.keys() if self._appears_otherwise(fact, seed)}
             group |= wave
