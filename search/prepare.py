@@ -10,7 +10,7 @@ from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
 
-def prepare(task: Task, *, afresh: bool = False) -> None:
+def prepare(task: Task, *, afresh: bool = False, deadline: Deadline | None = None) -> None:
     """Pack a task, and find what every call needs of it and what takes time linear in the files.
 
     That is what robots' actions do to what they share with the human, and the human's private
@@ -20,10 +20,14 @@ def prepare(task: Task, *, afresh: bool = False) -> None:
     Args:
         task: the task.
         afresh: forget first what earlier calls have left with it.
+        deadline: asked for time and memory.
+
+    Raises:
+        LimitReachedError: the deadline came first; what is ready by then stays with the task.
     """
     if afresh:
         task.forget_derived()
-    deadline = Deadline()
+    deadline = deadline or Deadline()
     packed = encoding(task, deadline)
     acts = packed.derived(AllActs, deadline)
     for field in shared_fields(packed, deadline):

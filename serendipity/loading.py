@@ -11,16 +11,39 @@ from typing import Final
 
 from search import prepare
 from serendipity import pddl
+from serendipity.model import Deadline
+from serendipity.model.collection import no_collection
+from serendipity.model.options import limit_of
 from serendipity.model.task import Task
-from serendipity.pddl.layouts import Pair, PathArgument
+from serendipity.pddl.files import PathArgument
+from serendipity.pddl.layouts import Pair
+from serendipity.pddl.work import OnProgress, Work, within_limits
 
 _LARGE: Final = 1_000
 """Ground actions: that many take some 5 ms to prepare, the shortest time limit that is kept."""
 
 
-def load(path: PathArgument, human: str | None = None) -> Task:
-    """Load a directory: a folder per agent and ``superagent/`` (see :func:`serendipity.pddl.load`)."""
-    return _ready(pddl.load(path, human))
+def load(
+    path: PathArgument,
+    human: str | None = None,
+    *,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+    on_progress: OnProgress | None = None,
+) -> Task:
+    """Load a directory: a folder per agent and ``superagent/`` (see :func:`serendipity.pddl.load`).
+
+    Args:
+        path: the directory.
+        human: name of the human, or None for the only agent with a goal.
+        time_limit: seconds for this call, or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
+        deadline: one that other work shares, such as planning; it holds beside the two limits.
+        on_progress: is told what is being done.
+    """
+    limits = _limits(deadline, time_limit, memory_limit)
+    return _ready(pddl.load(path, human, deadline=limits, on_progress=on_progress), limits, on_progress)
 
 
 def load_agents(
@@ -29,24 +52,54 @@ def load_agents(
     human: str | None = None,
     *,
     name: str | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Task:
-    """Load one pair of files per agent (see :func:`serendipity.pddl.load_agents`)."""
-    return _ready(pddl.load_agents(agents, team, human, name=name))
+    """Load one pair of files per agent.
+
+    See :func:`serendipity.pddl.load_agents`; limits as in :func:`load`.
+    """
+    limits = _limits(deadline, time_limit, memory_limit)
+    task = pddl.load_agents(agents, team, human, name=name, deadline=limits, on_progress=on_progress)
+    return _ready(task, limits, on_progress)
 
 
 def load_pddl(
     domain: PathArgument,
     problem: PathArgument,
     human: str,
-    robots: Sequence[str],
+    robots: Sequence[str] = (),
     *,
     name: str | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Task:
-    """Load one PDDL task whose agents are objects (see :func:`serendipity.pddl.load_pddl`)."""
-    return _ready(pddl.load_pddl(domain, problem, human, robots, name=name))
+    """Load one PDDL task whose agents are objects.
+
+    See :func:`serendipity.pddl.load_pddl`; limits as in :func:`load`.
+    """
+    limits = _limits(deadline, time_limit, memory_limit)
+    task = pddl.load_pddl(domain, problem, human, robots, name=name, deadline=limits, on_progress=on_progress)
+    return _ready(task, limits, on_progress)
 
 
-def _ready(task: Task) -> Task:
+def _limits(deadline: Deadline | None, time_limit: float | None, memory_limit: float | None) -> Deadline:
+    seconds = None if time_limit is None else limit_of("time_limit", time_limit, "seconds")
+    size = None if memory_limit is None else limit_of("memory_limit", memory_limit, "MiB")
+    return (deadline or Deadline()).within(seconds, size)
+
+
+def _ready(task: Task, limits: Deadline, on_progress: OnProgress | None) -> Task:
     if len(task.actions) > _LARGE:
-        prepare(task)
+        within_limits(lambda work: _prepare(task, work), limits, on_progress)
     return task
+
+
+def _prepare(task: Task, work: Work) -> None:
+    work.stage(f"preparing {len(task.actions):,} ground actions")
+    with no_collection():  # beside a large task a collection takes longer than a short limit
+        prepare(task, deadline=work.deadline)

@@ -43,3 +43,9 @@ def usar200() -> Path:
 def spa() -> Path:
     """The problems of silent proactive assistance."""
     return _data("spa")
+
+
+@pytest.fixture(scope="session")
+def codmap15() -> Path:
+    """Domains of the multi-agent planning competition of 2015, in MA-PDDL."""
+    return _data("codmap15")

@@ -31,7 +31,12 @@ Human = Annotated[
     str | None, typer.Option("--human", metavar="H", help="The human; by default the only agent with a goal.")
 ]
 Robots = Annotated[
-    list[str] | None, typer.Option("--robot", metavar="R", help="A robot (with DOMAIN PROBLEM; repeat it).")
+    list[str] | None,
+    typer.Option(
+        "--robot",
+        metavar="R",
+        help="A robot (with DOMAIN PROBLEM; repeat it). In MA-PDDL all other agents, if none is named.",
+    ),
 ]
 Agents = Annotated[
     list[str] | None,
@@ -140,7 +145,7 @@ class TaskName:
         domain, problem, *more = self.files
         if more:
             raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(self.files)} paths")
-        if self.human is None or not self.robots:
+        if self.human is None:
             raise UsageError("task: with DOMAIN PROBLEM, name the agents: --human H --robot R ...")
         return load_pddl(domain, problem, human=self.human, robots=self.robots)
 

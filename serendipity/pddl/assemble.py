@@ -1,19 +1,28 @@
 """United files to a task: ground once, prune, number the facts."""
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
+from typing import Final
 
-from serendipity.model import InputError, Task
+from serendipity.model import GroundAction, InputError, Task
+from serendipity.model.actions import NOOP
 from serendipity.model.collection import no_collection
 from serendipity.pddl.blocks import Block
+from serendipity.pddl.disjunctive import NotExactError, with_disjunctions
+from serendipity.pddl.goals import Goal, read_goal
 from serendipity.pddl.instantiate import Instantiator, Participants
 from serendipity.pddl.join import Relations
-from serendipity.pddl.lifted import EQUALITY, Key, Literal, Schema, Unit
-from serendipity.pddl.normal import Decide, TooManyCasesError, clauses, operator
-from serendipity.pddl.numbering import Numbering
+from serendipity.pddl.lifted import Key, Schema, Unit
+from serendipity.pddl.numbering import Changes, Numbering
 from serendipity.pddl.prune import executable
+from serendipity.pddl.tree import quoted
+from serendipity.pddl.work import Work
+
+BYTES: Final = 640
+"""Of a ground action of a task, besides what it took as part of a block; measured."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +51,7 @@ class Blueprint:
         sources: the files.
         goals: the unit that states the human's goal.
         robot_goals: units that state goals beyond his.
+        left_out: why an action in which nobody takes part is left out.
         warnings: about the input.
     """
 
@@ -51,94 +61,124 @@ class Blueprint:
     sources: list[Source]
     goals: Unit
     robot_goals: list[Unit] = field(default_factory=list)
+    left_out: Callable[[Key], str] = " ".join
     warnings: list[str] = field(default_factory=list)
 
 
-def assemble(blueprint: Blueprint) -> Task:
+def assemble(blueprint: Blueprint, work: Work) -> Task:
     """Ground a blueprint.
 
     Raises:
         InputError: costs, goals or conditions that are not supported.
+        LimitReachedError: a limit came first, or memory is used up.
     """
     with no_collection():  # grounding makes many tuples
-        return _assemble(blueprint)
+        relations = _relations(blueprint.sources)
+        goal = read_goal(blueprint.goals, relations, work)
+        robot_goals = [read_goal(unit, relations, work) for unit in blueprint.robot_goals]
+        if not goal:
+            blueprint.warnings.append(_no_goal(blueprint))
+        facts, blocks = _grounded(blueprint, relations, work)
+        for literal in chain.from_iterable(one.named() for one in (goal, *robot_goals)):
+            _ = facts[literal.key]  # has an id from here on
+        init = {facts[key] for key in relations.init if key in facts}
+        work.stage("finding out which actions can be executed")
+        blocks = executable(blocks, init, work)
+        count = sum(map(len, blocks))
+        work.require(count * BYTES, f"reading the task ({count:,} ground actions)")
+        changes = Changes(facts, init, blocks, work)
+        for one in (goal, *robot_goals):
+            one.simplify(lambda literal: changes.truth(facts[literal.key], literal.positive))
+        for one in robot_goals:
+            one.leave_out(goal)
+        named = [facts[literal.key] for one in (goal, *robot_goals) for literal in one.named()]
+        numbering = Numbering(facts, init, blocks, changes, named, work)
+        task = Task(
+            name=blueprint.name,
+            agents=blueprint.agents,
+            human=blueprint.human,
+            facts=numbering.names,
+            init=numbering.init,
+            goal=numbering.condition(goal.literals),
+            actions=tuple(_actions(numbering, blueprint)),
+            robot_goal=numbering.condition(chain.from_iterable(one.literals for one in robot_goals)),
+            warnings=tuple(blueprint.warnings),
+            waiting=frozenset(numbering.waiting),
+        )
+        return _settled(task, numbering, goal, robot_goals, work)
 
 
-def _assemble(blueprint: Blueprint) -> Task:
-    units = [source.unit for source in blueprint.sources]
-    relations = _relations(blueprint.sources, units)
-    instantiator = Instantiator(relations, _values(units))
-    for source in blueprint.sources:
-        for schema in source.schemas:
-            instantiator.ground(operator(schema, source.unit), source.unit, source.participants)
-    blocks = _owned(instantiator.blocks(), blueprint.warnings)
-    facts = instantiator.facts
-    goal = _goal(blueprint.goals, relations)
-    robot_goal = [g for unit in blueprint.robot_goals for g in _goal(unit, relations) if g not in goal]
-    ids = [facts[literal.key] for literal in chain(goal, robot_goal)]
-    init = {facts[key] for key in relations.init if key in facts}
-    numbering = Numbering(facts, init, executable(blocks, init), ids)
-    task = Task(
-        name=blueprint.name,
-        agents=blueprint.agents,
-        human=blueprint.human,
-        facts=numbering.names,
-        init=numbering.init,
-        goal=numbering.condition(goal),
-        actions=tuple(numbering.actions()),
-        robot_goal=numbering.condition(robot_goal),
-        warnings=tuple(blueprint.warnings),
-    )
-    _ = task.variables  # part of grounding: found here, so that no planning call's deadline pays for it
-    return task
-
-
-def _owned(blocks: Iterable[Block], warnings: list[str]) -> list[Block]:
-    """The actions in which somebody takes part; a warning for the others, noops aside."""
-    nobody: set[str] = set()
-    for block in blocks:
-        if not all(block.participants):
-            nobody.update(r.key[0] for r in block.records() if not r.participants and any(r[2:6]))
-    for name in sorted(nobody):
-        warnings.append(f"action '{name}': left out where no agent is among its arguments")
-    return [block.only(block.participants) for block in blocks]
-
-
-def _relations(sources: Iterable[Source], units: Iterable[Unit]) -> Relations:
+def _relations(sources: Iterable[Source]) -> Relations:
     effects = [effect.literal for source in sources for schema in source.schemas for effect in schema.effects]
     fluent = frozenset([literal.key[0] for literal in effects])
     added = frozenset([literal.key[0] for literal in effects if literal.positive])
-    return Relations(chain.from_iterable(unit.problem.init for unit in units), fluent, added)
+    return Relations(chain.from_iterable(source.unit.problem.init for source in sources), fluent, added)
 
 
-def _values(units: Iterable[Unit]) -> dict[Key, Fraction]:
+def _no_goal(blueprint: Blueprint) -> str:
+    unit = blueprint.goals
+    line = "" if unit.problem.goal_line is None else f":{unit.problem.goal_line}"
+    human = quoted(blueprint.agents[blueprint.human])
+    return f"{unit.problem_file}{line}: there is no goal: {human} has nothing to do"
+
+
+def _grounded(blueprint: Blueprint, relations: Relations, work: Work) -> tuple[dict[Key, int], list[Block]]:
+    """Ids of facts, and the ground actions in which somebody takes part."""
+    instantiator = Instantiator(relations, _values(blueprint.sources), work)
+    for source in blueprint.sources:
+        for schema in work.each(source.schemas):
+            instantiator.ground(schema, source.unit, source.participants)
+    return instantiator.facts, _owned(instantiator.blocks(), blueprint, work)
+
+
+def _values(sources: Iterable[Source]) -> dict[Key, Fraction]:
     values: dict[Key, Fraction] = {}
-    for unit in units:
-        for key, value in unit.problem.values.items():
+    for source in sources:
+        for key, value in source.unit.problem.values.items():
             if values.setdefault(key, value) != value:
                 other = f"{float(values[key]):g} in another agent's file"
-                raise InputError(f"'{' '.join(key)}' is {float(value):g} here, {other}", unit.problem_file)
+                message = f"{quoted(' '.join(key))} is {float(value):g} here, {other}"
+                raise InputError(message, source.unit.problem_file)
     return values
 
 
-def _goal(unit: Unit, relations: Relations) -> list[Literal]:
-    """The goal as literals, without equalities.
+def _owned(blocks: Iterable[Block], blueprint: Blueprint, work: Work) -> list[Block]:
+    """The actions in which somebody takes part; a warning for the others, those that only wait aside."""
+    reasons: Counter[str] = Counter()
+    owned = []
+    for block in work.each(blocks):
+        if not all(block.participants):
+            others = (r.key for r in block.records() if not r.participants and any(r[2:6]))
+            reasons.update(map(blueprint.left_out, others))
+        owned.append(block.only(block.participants))
+    for reason, number in sorted(reasons.items()):
+        blueprint.warnings.append(f"{reason}; {number:,} action{'s' * (number > 1)} left out")
+    return owned
 
-    Static facts stay in it, so that an impossible goal is one that can't be reached;
-    they decide only what would be a disjunction without them.
-    """
 
-    def equalities(literal: Literal) -> bool | None:
-        return relations.holds(literal, literal.key) if literal.key[0] == EQUALITY else None
+def _actions(numbering: Numbering, blueprint: Blueprint) -> list[GroundAction]:
+    try:
+        return numbering.actions()
+    except InputError as error:
+        if error.file is not None:
+            raise
+        message = error.message  # of the one that is called as waiting is: nothing else can be wrong by now
+    units = (source.unit for source in blueprint.sources for s in source.schemas if s.name == NOOP)
+    unit = next(units)
+    raise unit.domain_error(message, next(s.line for s in unit.domain.schemas if s.name == NOOP))
 
-    attempts: tuple[Decide, ...] = (equalities, relations.decide)
-    found = []
-    for decide in attempts:
-        try:
-            found = clauses(unit.problem.goal, unit, decide)
-        except TooManyCasesError:
-            continue
-        if len(found) == 1:
-            return sorted(found[0])
-    what = "disjunctive goals are not supported" if found else "the goal can never hold"
-    raise unit.problem_error(what, unit.problem.goal_line)
+
+def _settled(task: Task, numbering: Numbering, goal: Goal, robot_goals: Iterable[Goal], work: Work) -> Task:
+    """The task with its disjunctive goals, and with its variables."""
+    for one in (goal, *robot_goals):
+        if one.disjunctions:
+            work.stage("compiling disjunctive goals")
+            found = [tuple(map(numbering.literal, disjunction)) for disjunction in sorted(one.disjunctions)]
+            try:
+                task = with_disjunctions(task, found, work, robots=one is not goal)
+            except NotExactError as error:
+                raise one.error(f"goal: {error}") from None
+    # Part of grounding: found here, so that no planning call's deadline pays for it.
+    work.stage(f"finding variables of {len(task.facts):,} facts")
+    task.settle(work.deadline)
+    return task

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import chain, compress
 from typing import NamedTuple
 
+from serendipity.pddl.costs import Cost
 from serendipity.pddl.lifted import Key
 
 Ids = tuple[int, ...]
@@ -40,7 +40,7 @@ class Record(NamedTuple):
     neg: Ids
     add: Ids
     delete: Ids
-    cost: Fraction
+    cost: Cost
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Block:
         neg: what must be false.
         add: what they make true.
         delete: what they make false, where they don't make it true as well.
-        costs: undiscounted.
+        costs: undiscounted, or what is wrong with them.
     """
 
     keys: list[Key]
@@ -63,7 +63,7 @@ class Block:
     neg: Column
     add: Column
     delete: Column
-    costs: list[Fraction]
+    costs: list[Cost]
 
     def __len__(self) -> int:
         return len(self.keys)

@@ -6,17 +6,11 @@ from collections.abc import Iterable, Iterator
 from serendipity.model import InputError
 from serendipity.pddl.blocks import Record
 from serendipity.pddl.join import Relations
-from serendipity.pddl.lifted import Formula, Key, Literal, Unit
-from serendipity.pddl.normal import (
-    MAX_CASES,
-    Clause,
-    Operator,
-    TooManyCasesError,
-    clauses,
-    conjunction,
-    ground_key,
-    substitute,
-)
+from serendipity.pddl.lifted import Key, Literal, Unit
+from serendipity.pddl.normal import MAX_CASES, Clause, Disjuncts, Operator, TooManyCasesError
+from serendipity.pddl.quantifiers import ground_key, substitute
+from serendipity.pddl.tree import quoted
+from serendipity.pddl.work import Work
 
 Values = dict[str, str]
 """Of an operator's variables."""
@@ -30,12 +24,12 @@ class Cases:
     """
 
     def __init__(
-        self, operator: Operator, unit: Unit, relations: Relations, facts: defaultdict[Key, int]
+        self, operator: Operator, unit: Unit, relations: Relations, facts: defaultdict[Key, int], work: Work
     ) -> None:
         self.operator = operator
         self.unit = unit
-        self.relations = relations
         self.facts = facts
+        self.disjuncts = Disjuncts(unit, relations.decide, work)
 
     def expanded(self, records: Iterable[Record], bindings: Iterable[Values]) -> Iterator[Record]:
         """The cases of records and the values of their variables.
@@ -50,21 +44,18 @@ class Cases:
                 raise self._error(record, "conditions") from None
 
     def _cases(self, record: Record, values: Values) -> list[Record]:
-        choices = conjunction(self._clauses(choice, values) for choice in self.operator.choices)
+        choices = self.disjuncts.of_all(substitute(choice, values) for choice in self.operator.choices)
         cases = [case for choice in choices if (case := self._with(record, choice)) is not None]
         effects: dict[Clause, list[Literal]] = {}
         for condition, literal in self.operator.conditional:
             ground = Literal(ground_key(literal.key, values), literal.positive)
-            for clause in self._clauses(condition, values):
+            for clause in self.disjuncts.of(substitute(condition, values)):
                 effects.setdefault(clause, []).append(ground)
         for clause, literals in effects.items():
             cases = [new for case in cases for new in self._split(case, clause, literals)]
             if len(cases) > MAX_CASES:
                 raise self._error(record, "conditional effects")
         return cases
-
-    def _clauses(self, formula: Formula, values: Values) -> list[Clause]:
-        return clauses(substitute(formula, values), self.unit, self.relations.decide)
 
     def _with(self, record: Record, clause: Clause) -> Record | None:
         case: Record | None = record
@@ -88,9 +79,8 @@ class Cases:
         yield case._replace(add=case.add + add, delete=case.delete + delete)
 
     def _error(self, record: Record, what: str) -> InputError:
-        message = (
-            f"action '{' '.join(record.key)}': more than {MAX_CASES} cases of its {what} are not supported"
-        )
+        name = quoted(" ".join(record.key))
+        message = f"action {name}: more than {MAX_CASES} cases of its {what} are not supported"
         return self.unit.domain_error(message, self.operator.schema.line)
 
 

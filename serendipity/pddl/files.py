@@ -1,5 +1,6 @@
 """Files to units: reading text, and putting file names into errors."""
 
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
@@ -10,31 +11,44 @@ from typing import Final
 from serendipity.model import InputError
 from serendipity.pddl.lifted import Unit
 from serendipity.pddl.resolve import read_domain, read_problem
+from serendipity.pddl.work import Work
 
-_CONTROL: Final = regex(r"[\x00-\x08\x0e-\x1f\x7f]")
+_CONTROL: Final = regex(r"[\x00-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ufeff]")
+"""Characters that are no text, and those that turn the direction in which others are shown."""
+
+_CHUNK: Final = 2**16
+
+_MANY: Final = 16
+"""Chunks between two looks at how much memory there is."""
+
+_BYTES_PER_CHARACTER: Final = 30
+"""What is made of a file's text before any action is grounded, measured."""
 
 
-def read_unit(owner: str | None, domain: str | PathLike[str], problem: str | PathLike[str]) -> Unit:
+PathArgument = str | PathLike[str]
+
+
+def read_unit(owner: str | None, domain: PathArgument, problem: PathArgument, work: Work) -> Unit:
     """Read and check a domain file and its problem file.
 
     Raises:
         InputError: with file, line and what was expected.
     """
-    with _errors_in(domain):
-        checked_domain = read_domain(read_text(domain))
-    with _errors_in(problem):
-        checked_problem = read_problem(read_text(problem), checked_domain)
+    with _reading(domain, work):
+        checked_domain = read_domain(read_text(domain, work), work)
+    with _reading(problem, work):
+        checked_problem = read_problem(read_text(problem, work), checked_domain, work)
     return Unit(owner, str(domain), str(problem), checked_domain, checked_problem)
 
 
-def read_text(path: str | PathLike[str]) -> str:
-    """The text of a file.
+def read_text(path: PathArgument, work: Work | None = None) -> str:
+    """The text of a file; all its lines end as in Unix.
 
     Raises:
         InputError: it is missing, can't be read, or is not text.
     """
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
+        text = _decoded(_read(path, work or Work()))
     except FileNotFoundError:
         raise InputError("there is no such file", path) from None
     except UnicodeDecodeError:
@@ -43,6 +57,8 @@ def read_text(path: str | PathLike[str]) -> str:
         raise InputError(f"the file can't be read: {(error.strerror or str(error)).lower()}", path) from None
     except ValueError as error:
         raise InputError(f"not the name of a file: {error}", path) from None
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
     control = _CONTROL.search(text)
     if control is not None:
         line = text.count("\n", 0, control.start()) + 1
@@ -50,8 +66,26 @@ def read_text(path: str | PathLike[str]) -> str:
     return text
 
 
+def _read(path: PathArgument, work: Work) -> bytes:
+    """The bytes of a file, as long as what is made of them fits into memory."""
+    parts = []
+    with Path(path).open("rb", buffering=0) as file:
+        while part := file.read(_CHUNK):
+            parts.append(part)
+            work.deadline.check()
+            if not len(parts) % _MANY:
+                work.require(len(parts) * _CHUNK * _BYTES_PER_CHARACTER, f"reading {path}")
+    return b"".join(parts)
+
+
+def _decoded(data: bytes) -> str:
+    """The text of some bytes: UTF-8, or with a byte order mark UTF-16, as Windows' shells write it."""
+    return data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+
+
 @contextmanager
-def _errors_in(path: str | PathLike[str]) -> Iterator[None]:
+def _reading(path: PathArgument, work: Work) -> Iterator[None]:
+    work.stage(f"reading {path}")
     try:
         yield
     except InputError as error:

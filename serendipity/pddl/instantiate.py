@@ -6,87 +6,136 @@ for each would cost seconds.
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, count
 from typing import Final
 
 from serendipity.pddl.blocks import Block, Column, Ids, Record, block_of
 from serendipity.pddl.cases import Cases
+from serendipity.pddl.costs import Costs
 from serendipity.pddl.join import Relations, bindings
-from serendipity.pddl.lifted import Expression, FunctionValue, Key, Operation, Unit
-from serendipity.pddl.normal import Operator, ground_key
+from serendipity.pddl.lifted import Key, Schema, Unit
+from serendipity.pddl.normal import Operator, operator
 from serendipity.pddl.product import Product
-from serendipity.pddl.resolve import calculate
-
-ONE: Final = Fraction(1)
-NOTHING: Final = Fraction(0)
+from serendipity.pddl.quantifiers import ground_key
+from serendipity.pddl.work import Work, about
 
 Participants = Callable[[Sequence[Key]], Iterable[tuple[int, ...]]]
 """From ground names ``(name, arguments...)`` to the ids of the agents that take part."""
 
+BYTES: Final = 300
+"""Of a ground action in a block, without what it asks for and changes; measured."""
+
+_BYTES_PER_FACT: Final = 8
+
+_SLICE: Final = 50_000
+"""Fact ids, arguments and the like in ground actions that are made at once: some milliseconds of them."""
+
+_FEW: Final = 1_000
+"""Ground actions that nobody need ask memory for."""
+
+_LARGE: Final = 5_000
+"""Ground actions of a block that is made of single ones."""
+
 
 class Instantiator:
-    """Grounds operators over one united initial state.
+    """Grounds schemas over one united initial state.
+
+    Args:
+        relations: what holds initially.
+        values: of function terms.
+        work: limits and progress.
 
     Attributes:
         facts: ids of the ground atoms so far, in the order of first use.
     """
 
-    def __init__(self, relations: Relations, values: dict[Key, Fraction]) -> None:
+    def __init__(self, relations: Relations, values: dict[Key, Fraction], work: Work) -> None:
         self.relations = relations
         self.values = values
+        self.work = work
         self.facts: defaultdict[Key, int] = defaultdict(count().__next__)
         self._blocks: list[Block] = []
         self._records: list[Record] = []
+        self._count = 0
 
-    def ground(self, operator: Operator, unit: Unit, participants: Participants) -> None:
-        """Make the ground actions of an operator whose static preconditions hold.
+    def ground(self, schema: Schema, unit: Unit, participants: Participants) -> None:
+        """Make the ground actions of a schema whose static preconditions hold.
 
         Args:
-            operator: the operator.
+            schema: the action.
             unit: the files that it is from; its parameters range over their objects.
             participants: who takes part in the ground actions of given names.
 
         Raises:
-            InputError: a cost is missing or negative, or there are too many cases.
+            InputError: there are too many cases.
+            LimitReachedError: there are more ground actions than fit into memory.
         """
-        product = bindings(operator, unit, self.relations)
-        if not product.size:
-            return
-        records: Iterable[Record]
-        if product.everything:
-            block = self._block(operator, unit, participants, product)
-            if not operator.conditional and not operator.choices:
-                self._blocks.append(block)
-                return
-            records = block.records()
-        else:  # in files that are ground already, there is nothing else
-            records = [self._record(operator, unit, participants, product)]
+        lifted = operator(schema, unit, self.work)
+        product = bindings(lifted, unit, self.relations, self.work)
+        if lifted.choices:  # static ones have been decided
+            open_ = tuple(c for c in lifted.choices if not self.relations.static(c))
+            lifted = replace(lifted, choices=open_)
+        size = 10 + len(lifted.precondition) + len(lifted.effects) + len(lifted.conditional)
+        if product.size > _FEW:
+            what = f"reading {unit.place(schema)} comes to {about(product.size)} ground actions"
+            self.work.require(product.size * (BYTES + _BYTES_PER_FACT * size), what)
+        costs = Costs(schema, unit, self.values)
+        for part in product.slices(max(1, _SLICE // size)):
+            self._tell(part.size)
+            self._ground(lifted, unit, participants, part, costs)
+
+    def _tell(self, more: int) -> None:
+        before, self._count = self._count, self._count + more
+        if not before or before // _LARGE < self._count // _LARGE:
+            self.work.stage(f"grounding, {self._count:,} ground actions so far")
+
+    def _ground(
+        self, operator: Operator, unit: Unit, participants: Participants, product: Product, costs: Costs
+    ) -> None:
         if operator.conditional or operator.choices:
-            cases = Cases(operator, unit, self.relations, self.facts)
-            records = cases.expanded(records, product)
-        self._records += records
+            cases = Cases(operator, unit, self.relations, self.facts, self.work)
+            records = self._block(operator, participants, product, costs).records()
+            for record in self.work.polled(cases.expanded(records, product)):
+                self._add(record)
+        elif product.everything:
+            self._blocks.append(self._block(operator, participants, product, costs))
+        elif product.size:  # in files that are ground already, there is nothing else
+            self._add(self._record(operator, participants, product, costs))
+
+    def _add(self, record: Record) -> None:
+        self._records.append(record)
+        if len(self._records) >= _LARGE:
+            self._make_block()
+
+    def _make_block(self) -> None:
+        self._blocks.append(block_of(self._records))
+        self._records = []
+        self.work.require(_LARGE * BYTES, f"grounding cases, {self._count:,} ground actions so far")
 
     def blocks(self) -> list[Block]:
         """All ground actions so far."""
         return [*self._blocks, block_of(self._records)]
 
-    def _block(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Block:
+    def _block(self, operator: Operator, participants: Participants, product: Product, costs: Costs) -> Block:
         atoms = _Atoms(product, self.facts)
         keys = atoms.of(schema_key(operator), product.everything)
         pre, neg, add, delete = map(atoms.column, self._conditions(operator))
         who = [*participants(keys)]
-        return Block(keys, who, pre, neg, add, delete, self._costs(operator, unit, product, keys))
+        return Block(keys, who, pre, neg, add, delete, costs.of(product))
 
-    def _record(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Record:
-        (values,) = product
+    def _record(
+        self, operator: Operator, participants: Participants, product: Product, costs: Costs
+    ) -> Record:
+        values = product.fixed
         key = ground_key(schema_key(operator), values)
         pre, neg, add, delete = (
             tuple([self.facts[ground_key(atom, values)] for atom in atoms])
             for atoms in self._conditions(operator)
         )
         (who,) = participants([key])
-        (cost,) = self._costs(operator, unit, product, [key])
+        (cost,) = costs.of(product)
         return Record(key, who, pre, neg, add, delete, cost)
 
     def _conditions(self, operator: Operator) -> tuple[list[Key], list[Key], list[Key], list[Key]]:
@@ -99,41 +148,6 @@ class Instantiator:
             [literal.key for literal in operator.effects if literal.positive],
             [literal.key for literal in operator.effects if not literal.positive],
         )
-
-    def _costs(self, operator: Operator, unit: Unit, product: Product, keys: Sequence[Key]) -> list[Fraction]:
-        increases = operator.schema.increases
-        if not unit.priced:
-            return [ONE] * len(keys)
-        constant = [value for value in increases if isinstance(value, Fraction)]
-        if len(constant) == len(increases):
-            return [constant[0] if len(constant) == 1 else sum(constant, NOTHING)] * len(keys)
-        return list(self._computed_costs(operator, unit, product, keys))
-
-    def _computed_costs(
-        self, operator: Operator, unit: Unit, product: Product, keys: Sequence[Key]
-    ) -> Iterator[Fraction]:
-        for key, values in zip(keys, product, strict=True):
-            try:
-                cost = sum((self._value(e, values) for e in operator.schema.increases), NOTHING)
-            except ZeroDivisionError:
-                message = f"action '{' '.join(key)}': division by zero in its cost"
-                raise unit.domain_error(message, operator.schema.line) from None
-            except KeyError as missing:
-                function = " ".join(missing.args[0])
-                message = f"action '{' '.join(key)}': no initial value of '{function}' for its cost"
-                raise unit.domain_error(message, operator.schema.line) from None
-            if cost < 0:
-                message = f"action '{' '.join(key)}': expected a cost of at least 0, got {float(cost):g}"
-                raise unit.domain_error(message, operator.schema.line)
-            yield cost
-
-    def _value(self, expression: Expression, values: dict[str, str]) -> Fraction:
-        match expression:
-            case FunctionValue(key):
-                return self.values[ground_key(key, values)]
-            case Operation(operator, left, right):
-                return calculate(operator, self._value(left, values), self._value(right, values))
-        return expression
 
 
 class _Atoms:

@@ -10,13 +10,17 @@ from math import prod
 from operator import itemgetter
 from typing import Any, Final
 
-from serendipity.model import InputError
-from serendipity.pddl.lifted import EQUALITY, Key, Literal, Unit
-from serendipity.pddl.normal import Operator
+from serendipity.pddl.lifted import EQUALITY, Formula, Key, Literal, Unit
+from serendipity.pddl.normal import Disjuncts, Operator
 from serendipity.pddl.product import Product, Row, Table, united
+from serendipity.pddl.quantifiers import literals, substitute, variables
+from serendipity.pddl.work import Work, about
 
-MAX_ROWS: Final = 5_000_000
-"""The most ground actions of one operator, some gigabytes of them."""
+_MANY: Final = 100_000
+"""Rows of a table that memory is asked for before they are made."""
+
+_BYTES: Final = (72, 8)
+"""Of a row, and of each value in it, measured."""
 
 
 def picker(positions: Sequence[int]) -> Callable[[Any], tuple[Any, ...]]:
@@ -39,7 +43,7 @@ class Relations:
     """
 
     def __init__(self, init: Iterable[Key], fluent: frozenset[str], added: frozenset[str]) -> None:
-        self.init = frozenset(init)
+        self.init = dict.fromkeys(init)  # in this order, so that what is made of it is in one order, too
         self.fluent = fluent
         self.added = added
         self._tables: dict[str, list[Key]] = {}
@@ -58,6 +62,10 @@ class Relations:
         """Whether a precondition is decided by its arguments alone, once they are bound."""
         return literal.key[0] == EQUALITY or (not literal.positive and literal.key[0] not in self.fluent)
 
+    def static(self, formula: Formula) -> bool:
+        """Whether a condition is decided by its arguments alone."""
+        return self.fluent.isdisjoint([literal.key[0] for literal in literals(formula)])
+
     def holds(self, literal: Literal, key: Key) -> bool:
         """The truth of a static literal or an equality whose ground atom is ``key``."""
         truth = key[1] == key[2] if key[0] == EQUALITY else key in self.init
@@ -71,20 +79,25 @@ class Relations:
         return self.holds(literal, literal.key)
 
 
-def bindings(operator: Operator, unit: Unit, relations: Relations) -> Product:
-    """All bindings under which the preconditions that can't change hold."""
-    return _Join(operator, unit, relations).run()
+def bindings(operator: Operator, unit: Unit, relations: Relations, work: Work) -> Product:
+    """All bindings under which the preconditions that can't change hold.
+
+    Raises:
+        LimitReachedError: tables of them don't fit into memory.
+    """
+    return _Join(operator, unit, relations, work).run()
 
 
 class _Join:
-    def __init__(self, operator: Operator, unit: Unit, relations: Relations) -> None:
+    def __init__(self, operator: Operator, unit: Unit, relations: Relations, work: Work) -> None:
         self.relations = relations
+        self.work = work
         self.unit = unit
         self.schema = operator.schema
-        self.parameters = operator.parameters
         self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in operator.parameters}
         self.joins = [lit for lit in operator.precondition if relations.joined(lit)]
-        self.filters = [lit for lit in operator.precondition if relations.filtered(lit)]
+        self.filters: list[Formula] = [lit for lit in operator.precondition if relations.filtered(lit)]
+        self.filters += [choice for choice in operator.choices if relations.static(choice)]
         self.bound: set[str] = set()
         self.tables: list[Table] = []
 
@@ -93,12 +106,9 @@ class _Join:
         while self.joins and self._size():
             self._join(self._next())
             self._filter()
-        for parameter in self.parameters:
-            if parameter.name not in self.bound:
-                values: list[Row] = [(value,) for value in self.domains[parameter.name]]
-                if self._size() * len(values) > MAX_ROWS:
-                    raise self._too_many()
-                self._add(Table((parameter.name,), values))
+        for name, domain in self.domains.items():
+            if name not in self.bound:
+                self._add(Table((name,), [(value,) for value in domain]))
                 self._filter()
         return Product(self.tables)
 
@@ -109,19 +119,21 @@ class _Join:
         self.tables.append(table)
         self.bound.update(table.variables)
 
-    def _taken(self, terms: Sequence[str]) -> Table:
+    def _taken(self, terms: Iterable[str]) -> Table:
         """The tables that some terms are in, taken out and made one."""
-        taken: list[Table] = []
-        kept: list[Table] = []
-        for table in self.tables:
-            (kept if set(terms).isdisjoint(table.variables) else taken).append(table)
-        self.tables = kept
-        return united(taken)
+        wanted = frozenset(terms)
+        taken = [table for table in self.tables if not wanted.isdisjoint(table.variables)]
+        self.tables = [table for table in self.tables if wanted.isdisjoint(table.variables)]
+        width = sum(len(table.variables) for table in taken)
+        if len(taken) > 1:
+            self._require(prod(len(table.rows) for table in taken), width)
+        return united(taken, self.work.polled)
 
-    def _too_many(self) -> InputError:
-        schema = self.schema
-        message = f"action '{schema.name}': more than {MAX_ROWS} ground actions are not supported"
-        return self.unit.domain_error(message, schema.line)
+    def _require(self, rows: int, width: int) -> None:
+        if rows > _MANY:
+            fixed, each = _BYTES
+            what = f"reading {self.unit.place(self.schema)} comes to {about(rows)} bindings"
+            self.work.require(rows * (fixed + each * width), what)
 
     def _next(self) -> Key:
         """The join that grows the rows least, as far as sizes tell."""
@@ -156,27 +168,42 @@ class _Join:
         before, after = picker(old), picker(tuple(new.values()))
         checks = [(i, self.domains[term]) for term, i in new.items()]
         index: dict[Row, list[Row]] = {}
-        for atom in self.relations.table(pattern[0]):
+        for atom in self.work.polled(self.relations.table(pattern[0])):
             if (
                 all(atom[i] in domain for i, domain in checks)
                 and all(atom[i] == value for i, value in fixed)
                 and all(atom[i] == atom[j] for i, j in same)
             ):
                 index.setdefault(before(atom), []).append(after(atom))
-        look_up = picker(source)
-        rows = [row + more for row in table.rows for more in index.get(look_up(row), ())]
-        self._add(Table((*table.variables, *new), rows))
+        self._add(self._looked_up(table, picker(source), index, tuple(new)))
+
+    def _looked_up(
+        self, table: Table, look_up: Callable[[Row], Row], index: dict[Row, list[Row]], new: tuple[str, ...]
+    ) -> Table:
+        """The rows of a table, each with all that an index has for it."""
+        polled = self.work.polled
+        if len(table.rows) * max(map(len, index.values()), default=0) > _MANY:
+            number = sum(len(index.get(look_up(row), ())) for row in polled(table.rows))
+            self._require(number, len(table.variables) + len(new))
+        rows = (row + more for row in polled(table.rows) for more in index.get(look_up(row), ()))
+        return Table((*table.variables, *new), list(polled(rows)))
 
     def _filter(self) -> None:
         """Apply the filters whose variables are all bound by now."""
-        for literal in list(self.filters):
-            terms = literal.key[1:]
-            if all(term[0] != "?" or term in self.bound for term in terms):
-                self.filters.remove(literal)
-                variables, rows = self._taken(terms)
-                places = [(variables.index(term) if term in variables else -1, term) for term in terms]
-                self._add(Table(variables, [row for row in rows if self._passes(literal, row, places)]))
+        for formula in list(self.filters):
+            terms = variables(formula)
+            if terms <= self.bound:
+                self.filters.remove(formula)
+                names, rows = self._taken(terms)
+                passes = self._test(formula, names)
+                self._add(Table(names, [row for row in self.work.polled(rows) if passes(row)]))
 
-    def _passes(self, literal: Literal, row: Row, places: list[tuple[int, str]]) -> bool:
-        key = (literal.key[0], *(row[i] if i >= 0 else term for i, term in places))
-        return self.relations.holds(literal, key)
+    def _test(self, formula: Formula, names: tuple[str, ...]) -> Callable[[Row], bool]:
+        """Whether a static condition holds for the values of some variables."""
+        if not isinstance(formula, Literal):
+            disjuncts = Disjuncts(self.unit, self.relations.decide, self.work).of
+            return lambda row: bool(disjuncts(substitute(formula, dict(zip(names, row, strict=True)))))
+        predicate, *terms = formula.key
+        places = [(names.index(term) if term in names else -1, term) for term in terms]
+        holds = self.relations.holds
+        return lambda row: holds(formula, (predicate, *[row[i] if i >= 0 else term for i, term in places]))

@@ -1,38 +1,48 @@
 """The three layouts of PDDL input."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from os import PathLike
 from pathlib import Path
 from typing import Final
 
-from serendipity.model import InputError, Task, UsageError
+from serendipity.model import Deadline, InputError, Task, UsageError
 from serendipity.model.task import canonical_name
 from serendipity.pddl.assemble import Blueprint, Source, assemble
-from serendipity.pddl.files import read_unit
-from serendipity.pddl.lifted import And, Unit
-from serendipity.pddl.participants import by_arguments, by_name_parts, by_owner
-from serendipity.pddl.shared import check_objects, missing_facts, other_domains
+from serendipity.pddl.files import PathArgument, read_unit
+from serendipity.pddl.lifted import And, Key, Unit
+from serendipity.pddl.participants import by_arguments, by_first_argument, by_name_parts, by_owner
+from serendipity.pddl.shared import check_initial, check_objects, missing_facts, other_domains
+from serendipity.pddl.tree import listed, quoted
+from serendipity.pddl.work import OnProgress, Work, within_limits
 
-PathArgument = str | PathLike[str]
 Pair = tuple[PathArgument, PathArgument]
 
 TEAM: Final = "superagent"
 
 
-def load(path: PathArgument, human: str | None = None) -> Task:
+def load(
+    path: PathArgument,
+    human: str | None = None,
+    *,
+    deadline: Deadline | None = None,
+    on_progress: OnProgress | None = None,
+) -> Task:
     """Load a directory: a folder per agent and ``superagent/``, each with two files.
 
     Args:
         path: the directory; agents are called as their folders.
         human: name of the human, or None for the only agent with a goal.
+        deadline: how long it may take, and in how much memory.
+        on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
         UsageError: nobody, or more than one agent, could be the human.
+        LimitReachedError: the deadline came first, or there is not enough memory.
     """
     root = Path(path)
     if not root.is_dir():
-        raise InputError("expected a directory with a folder for each agent", root)
+        what = "there is no such folder" if not root.exists() else "this is a file"
+        raise InputError(f"{what}: expected a folder with a folder for each agent", root)
     pairs: dict[str, Pair] = {}
     for folder in sorted(root.iterdir()):
         domain, problem = folder / "domain.pddl", folder / "problem.pddl"
@@ -40,8 +50,8 @@ def load(path: PathArgument, human: str | None = None) -> Task:
             pairs[folder.name] = (domain, problem)
     team = next((pairs.pop(name) for name in list(pairs) if name.lower() == TEAM), None)
     if not pairs:
-        raise InputError("no agent's folder with 'domain.pddl' and 'problem.pddl' in this directory", root)
-    return load_agents(pairs, team, human, name=root.name)
+        raise InputError("no agent's folder with 'domain.pddl' and 'problem.pddl' in this folder", root)
+    return load_agents(pairs, team, human, name=root.name, deadline=deadline, on_progress=on_progress)
 
 
 def load_agents(
@@ -50,6 +60,8 @@ def load_agents(
     human: str | None = None,
     *,
     name: str | None = None,
+    deadline: Deadline | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Task:
     """Load one pair of files per agent; facts are shared by name.
 
@@ -62,22 +74,37 @@ def load_agents(
         team: domain and problem file of the joint actions, or None.
         human: name of the human, or None for the only agent with a goal.
         name: of the task; default is that of the human's problem.
+        deadline: how long it may take, and in how much memory.
+        on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
         UsageError: nobody, or more than one agent, could be the human.
+        LimitReachedError: the deadline came first, or there is not enough memory.
     """
     names = _unique_names(agents)
-    units = {who: read_unit(who, *pair) for who, pair in zip(names, agents.values(), strict=True)}
-    team_unit = None if team is None else read_unit(None, *team)
-    everyone = [*units.values(), *([] if team_unit is None else [team_unit])]
+
+    def read(work: Work) -> Task:
+        units = {who: read_unit(who, *pair, work) for who, pair in zip(names, agents.values(), strict=True)}
+        team_unit = None if team is None else read_unit(None, *team, work)
+        return _united(units, team_unit, human, name, work)
+
+    return within_limits(read, deadline, on_progress)
+
+
+def _united(
+    units: Mapping[str, Unit], team: Unit | None, human: str | None, name: str | None, work: Work
+) -> Task:
+    names = [*units]
+    everyone = [*units.values(), *([] if team is None else [team])]
     check_objects(everyone)
+    check_initial(everyone)
     human_name = _choose_human(units, human)
     sources = [Source(unit, unit.domain.schemas, by_owner(names.index(who))) for who, unit in units.items()]
-    if team_unit is not None:
+    if team is not None:
         owned = {schema.name for unit in units.values() for schema in unit.domain.schemas}
-        joint = tuple(schema for schema in team_unit.domain.schemas if schema.name not in owned)
-        sources.append(Source(team_unit, joint, by_name_parts(names, team_unit)))
+        joint = tuple(schema for schema in team.domain.schemas if schema.name not in owned)
+        sources.append(Source(team, joint, by_name_parts(names, team)))
     blueprint = Blueprint(
         name=name or units[human_name].problem.name,
         agents=tuple(names),
@@ -85,45 +112,99 @@ def load_agents(
         sources=sources,
         goals=units[human_name],
         robot_goals=[unit for unit in everyone if unit.owner != human_name],
-        warnings=[*other_domains(everyone), *missing_facts(everyone)],
+        warnings=[*other_domains(everyone), *missing_facts(everyone, work)],
     )
-    return assemble(blueprint)
+    return assemble(blueprint, work)
 
 
 def load_pddl(
     domain: PathArgument,
     problem: PathArgument,
     human: str,
-    robots: Sequence[str],
+    robots: Sequence[str] = (),
     *,
     name: str | None = None,
+    deadline: Deadline | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Task:
     """Load one PDDL task whose agents are objects.
 
-    The participants of a ground action are the agents among its arguments.  An action
-    without any of them is nobody's: it is left out, with a warning.
+    The participants of a ground action are the agents among its arguments; of an action with
+    ``:agent`` (MA-PDDL) it is that agent alone.  An action in which nobody takes part is left
+    out, with a warning.
 
     Args:
         domain: the domain file.
         problem: the problem file; its goal is the human's.
         human: the object that is the human.
-        robots: the objects that are robots, at least one.
+        robots: the objects that are robots, at least one; with MA-PDDL none means all the
+            other objects that can be an ``:agent``.
         name: of the task; default is that of the problem.
+        deadline: how long it may take, and in how much memory.
+        on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
         UsageError: an agent is not an object of the task, or is named twice.
+        LimitReachedError: the deadline came first, or there is not enough memory.
     """
-    if not human or not robots:
-        raise UsageError("one PDDL task: expected a human and at least one robot among its objects")
-    names = _unique_names([human, *robots])
-    unit = read_unit(None, domain, problem)
+    if not human:
+        raise UsageError("one PDDL task: expected a human among its objects")
+
+    def read(work: Work) -> Task:
+        unit = read_unit(None, domain, problem, work)
+        names = _unique_names([human, *(robots or _other_agents(unit, canonical_name(human)))])
+        return _one(unit, names, name, work)
+
+    return within_limits(read, deadline, on_progress)
+
+
+def _other_agents(unit: Unit, human: str) -> list[str]:
+    """The other objects that can be an ``:agent``."""
+    kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
+    found = sorted({name for kind in kinds for name in unit.objects_of(kind)} - {human})
+    if not found:
+        raise UsageError("one PDDL task: expected at least one robot among its objects")
+    return found
+
+
+def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task:
     for agent in names:
         if agent not in unit.problem.objects:
-            raise UsageError(f"agent '{agent}' is not an object of {unit.problem_file}")
-    source = Source(unit, unit.domain.schemas, by_arguments(names))
-    warnings = other_domains([unit])
-    return assemble(Blueprint(name or unit.problem.name, tuple(names), 0, [source], unit, warnings=warnings))
+            raise UsageError(f"agent {quoted(agent)} is not an object of {unit.problem_file}")
+    alone = tuple(schema for schema in unit.domain.schemas if schema.agent)
+    others = tuple(schema for schema in unit.domain.schemas if not schema.agent)
+    sources = [
+        Source(unit, alone, by_first_argument(names)),
+        Source(unit, others, by_arguments(names)),
+    ]
+    blueprint = Blueprint(
+        name=name or unit.problem.name,
+        agents=tuple(names),
+        human=0,
+        sources=sources,
+        goals=unit,
+        left_out=_Outsiders(unit, names).reason,
+        warnings=other_domains([unit]),
+    )
+    return assemble(blueprint, work)
+
+
+class _Outsiders:
+    """Who takes part in actions in which no agent of the call does, as far as that can be known."""
+
+    def __init__(self, unit: Unit, agents: Sequence[str]) -> None:
+        self._alone = {schema.name for schema in unit.domain.schemas if schema.agent}
+        kinds = {unit.problem.objects[agent] for agent in agents}
+        fits = unit.domain.types.is_subtype
+        self._alike = {n for n, own in unit.problem.objects.items() if any(fits(own, k) for k in kinds)}
+
+    def reason(self, key: Key) -> str:
+        """Why an action is left out."""
+        likely = key[1:2] if key[0] in self._alone else [word for word in key[1:] if word in self._alike]
+        if likely:
+            return f"{quoted(likely[0])} is no agent of this call"
+        return f"action {quoted(key[0])}: no agent is among its arguments"
 
 
 def _unique_names(names: Iterable[str]) -> list[str]:
@@ -132,7 +213,7 @@ def _unique_names(names: Iterable[str]) -> list[str]:
         if not name:
             raise UsageError("an agent's name is empty")
         if name in unique:
-            raise UsageError(f"agent '{name}' is named twice")
+            raise UsageError(f"agent {quoted(name)} is named twice")
         unique.append(name)
     return unique
 
@@ -141,11 +222,11 @@ def _choose_human(units: Mapping[str, Unit], human: str | None) -> str:
     if human is not None:
         name = canonical_name(human)
         if name not in units:
-            raise UsageError(f"human: expected one of {', '.join(units)}, got '{human}'")
+            raise UsageError(f"human: expected one of {listed(units)}, got {quoted(human)}")
         return name
     candidates = [name for name, unit in units.items() if unit.problem.goal != And()]
     if len(candidates) == 1:
         return candidates[0]
     if not candidates:
-        raise UsageError(f"no agent has a goal: say which one is the human ({', '.join(units)})")
-    raise UsageError(f"{', '.join(candidates)} have goals: say which one is the human")
+        raise UsageError(f"no agent has a goal: say which one is the human ({listed(units)})")
+    raise UsageError(f"{listed(candidates)} have goals: say which one is the human")

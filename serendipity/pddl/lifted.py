@@ -6,11 +6,13 @@ negation normal form.
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import NamedTuple
 
 from serendipity.model import InputError
+from serendipity.pddl.tree import quoted
+from serendipity.pddl.types import Type, Types
 
-OBJECT = "object"
 EQUALITY = "="
 
 Key = tuple[str, ...]
@@ -23,12 +25,17 @@ class Literal(NamedTuple):
     key: Key
     positive: bool = True
 
+    @property
+    def opposite(self) -> "Literal":
+        """Its negation."""
+        return Literal(self.key, not self.positive)
+
 
 class Parameter(NamedTuple):
     """A typed variable."""
 
     name: str
-    type: str
+    type: Type
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +103,8 @@ class Schema:
         precondition: in negation normal form.
         effects: on facts.
         increases: what is added to the total cost.
+        agent: whether the first parameter is the agent that acts, by itself (MA-PDDL's ``:agent``).
+        quantified: whether there are quantifiers in it.
     """
 
     name: str
@@ -104,48 +113,25 @@ class Schema:
     precondition: Formula
     effects: tuple[Effect, ...]
     increases: tuple[Expression, ...]
-
-
-class Types:
-    """A type hierarchy: who is a subtype of whom."""
-
-    def __init__(self, parents: dict[str, str]) -> None:
-        self._ancestors: dict[str, frozenset[str]] = {OBJECT: frozenset({OBJECT})}
-        for name in parents:
-            chain = [name]
-            while (parent := parents.get(chain[-1], OBJECT)) not in chain:
-                chain.append(parent)
-            self._ancestors[name] = frozenset((*chain, OBJECT))
-
-    def __contains__(self, name: str) -> bool:
-        return name in self._ancestors
-
-    def is_subtype(self, name: str, ancestor: str) -> bool:
-        """Whether every object of type ``name`` is of type ``ancestor``."""
-        return ancestor in self._ancestors[name]
-
-    def comparable(self, a: str, b: str) -> bool:
-        """Whether one of the two is a subtype of the other."""
-        return b in self._ancestors[a] or a in self._ancestors[b]
-
-    def ancestors(self, name: str) -> frozenset[str]:
-        """The type, its supertypes and ``object``."""
-        return self._ancestors[name]
+    agent: bool = False
+    quantified: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Domain:
     """A checked domain file.
 
-    ``predicates`` and ``functions`` map a name to the types of its parameters.
+    ``predicates`` and ``functions`` map a name to the types of its parameters; ``factored`` says
+    whether ``:private`` in the files of this domain names no agent (MA-PDDL).
     """
 
     name: str
     types: Types
-    constants: dict[str, str]
-    predicates: dict[str, tuple[str, ...]]
-    functions: dict[str, tuple[str, ...]]
+    constants: dict[str, Type]
+    predicates: dict[str, tuple[Type, ...]]
+    functions: dict[str, tuple[Type, ...]]
     schemas: tuple[Schema, ...]
+    factored: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +142,8 @@ class Problem:
         name: of the problem.
         domain_name: the domain it says it belongs to, or None.
         objects: type of each object.
-        init: the atoms that are true.
+        init: the atoms that are true, in the order of the file, each once.
+        denied: the atoms that it says are false, with their lines.
         values: values of function terms.
         goal: in negation normal form; an empty ``And`` where there is none.
         goal_line: where the goal is, or None.
@@ -165,15 +152,16 @@ class Problem:
 
     name: str
     domain_name: str | None
-    objects: dict[str, str]
-    init: frozenset[Key]
+    objects: dict[str, Type]
+    init: dict[Key, None]
+    denied: dict[Key, int]
     values: dict[Key, Fraction]
     goal: Formula
     goal_line: int | None
     metric: bool
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Unit:
     """A domain and a problem that belong together: one task, one agent's files, or the team's.
 
@@ -196,10 +184,22 @@ class Unit:
         """Whether actions cost what they say (0 if nothing), not 1 each."""
         return self.problem.metric or any(schema.increases for schema in self.domain.schemas)
 
-    def objects_of(self, type_name: str) -> list[str]:
+    @cached_property
+    def _extensions(self) -> dict[Type, tuple[str, ...]]:
+        return {}
+
+    def objects_of(self, kind: Type) -> tuple[str, ...]:
         """Names of the objects of a type, sorted."""
-        fits = self.domain.types.is_subtype
-        return sorted(name for name, kind in self.problem.objects.items() if fits(kind, type_name))
+        known = self._extensions.get(kind)
+        if known is None:
+            fits = self.domain.types.is_subtype
+            found = sorted(name for name, own in self.problem.objects.items() if fits(own, kind))
+            known = self._extensions[kind] = tuple(found)
+        return known
+
+    def place(self, schema: Schema) -> str:
+        """An action for messages: the file, the line and the name."""
+        return f"{self.domain_file}:{schema.line}: action {quoted(schema.name)}"
 
     def domain_error(self, message: str, line: int | None) -> InputError:
         """An error in the domain file."""

@@ -6,26 +6,32 @@ name does not show.  Disjunctions stay formulas; they are expanded for each grou
 action, when static facts have decided most of them.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
-from itertools import count, product
+from itertools import count
 from typing import Final
 
-from serendipity.pddl.lifted import (
-    And,
-    Effect,
-    Formula,
-    Key,
-    Literal,
-    Or,
-    Parameter,
-    Quantified,
-    Schema,
-    Unit,
+from serendipity.pddl.lifted import And, Effect, Formula, Literal, Or, Parameter, Quantified, Schema, Unit
+from serendipity.pddl.quantifiers import (
+    assignments,
+    ground_key,
+    how_many,
+    instances,
+    simplified,
+    simplified_effect,
+    substitute,
 )
+from serendipity.pddl.work import Work, about
 
 MAX_CASES: Final = 256
 """The most cases that one ground action's conditions, or its effects, may have."""
+
+_BYTES: Final = 200
+"""Of a literal in a condition or an effect, measured."""
+
+_FEW: Final = 10_000
+"""Literals that nobody need ask memory for."""
 
 Clause = frozenset[Literal]
 """A conjunction of literals that contradict neither each other nor static facts."""
@@ -59,11 +65,25 @@ class Operator:
     conditional: tuple[tuple[Formula, Literal], ...] = ()
 
 
-def operator(schema: Schema, unit: Unit) -> Operator:
-    """The operator of a schema over the objects of its own files."""
-    needs = _Needs(unit)
-    needs.collect(schema.precondition)
-    simple, conditional = _expand_effects(schema.effects, unit)
+def operator(schema: Schema, unit: Unit, work: Work) -> Operator:
+    """The operator of a schema over the objects of its own files.
+
+    Raises:
+        LimitReachedError: its quantifiers stand for more than fits into memory.
+    """
+    precondition: Formula = schema.precondition
+    effects: Sequence[Effect] = schema.effects
+    if schema.quantified:
+        precondition = simplified(precondition, unit)
+        effects = [e for effect in effects if (e := simplified_effect(effect, unit)) is not None]
+        number = _expanded(precondition, unit)
+        number += sum(
+            how_many(e.parameters, unit) * instances(e.condition or e.literal, unit) for e in effects
+        )
+        require_literals(number, unit.place(schema), work)
+    needs = _Needs(unit, work)
+    needs.collect(precondition)
+    simple, conditional = _expand_effects(effects, unit, work)
     return Operator(
         schema,
         (*schema.parameters, *needs.hidden),
@@ -74,17 +94,43 @@ def operator(schema: Schema, unit: Unit) -> Operator:
     )
 
 
+def require_literals(number: int, place: str, work: Work) -> None:
+    """Check that so many literals fit into memory.
+
+    Raises:
+        LimitReachedError: they don't; it names the place and the number.
+    """
+    if number > _FEW:
+        work.require(
+            number * _BYTES, f"reading {place} comes to {about(number)} literals without quantifiers"
+        )
+
+
+def _expanded(formula: Formula, unit: Unit) -> int:
+    """How many literals a precondition comes to; what exists becomes a parameter."""
+    match formula:
+        case And(parts) | Or((_,) as parts):
+            return sum(_expanded(part, unit) for part in parts)
+        case Quantified(False, _, body):
+            return _expanded(body, unit)
+        case Quantified(True, parameters, body):
+            return how_many(parameters, unit) * _expanded(body, unit)
+    return instances(formula, unit)
+
+
 @dataclass(slots=True)
 class _Needs:
     """What a condition needs in every case, and the choices that it leaves."""
 
     unit: Unit
+    work: Work
     literals: list[Literal] = field(default_factory=list)
     choices: list[Formula] = field(default_factory=list)
     hidden: list[Parameter] = field(default_factory=list)
     fresh: Iterator[int] = field(default_factory=count)
 
     def collect(self, formula: Formula) -> None:
+        self.work.deadline.tick()
         match formula:
             case Literal():
                 self.literals.append(formula)
@@ -105,7 +151,7 @@ class _Needs:
 
 
 def _expand_effects(
-    effects: tuple[Effect, ...], unit: Unit
+    effects: Iterable[Effect], unit: Unit, work: Work
 ) -> tuple[tuple[Literal, ...], tuple[tuple[Formula, Literal], ...]]:
     """The unconditional effects, and the others with their conditions, without ``forall``."""
     simple: list[Literal] = []
@@ -114,7 +160,7 @@ def _expand_effects(
         if effect.condition is None and not effect.parameters:
             simple.append(effect.literal)
             continue
-        for values in assignments(effect.parameters, unit):
+        for values in work.polled(assignments(effect.parameters, unit)):
             literal = Literal(ground_key(effect.literal.key, values), effect.literal.positive)
             if effect.condition is None:
                 simple.append(literal)
@@ -123,97 +169,80 @@ def _expand_effects(
     return tuple(simple), tuple(conditional)
 
 
-def clauses(formula: Formula, unit: Unit, decide: Decide) -> list[Clause]:
-    """The disjuncts of a ground condition: none if it is false, an empty one if it is true.
+class Disjuncts:
+    """Disjunctive normal forms of ground conditions.
 
-    Raises:
-        TooManyCasesError: there are more than ``MAX_CASES``.
+    Args:
+        unit: whose objects quantifiers range over.
+        decide: the truth of what does not depend on the state.
+        work: its deadline is asked.
     """
-    match formula:
-        case Literal():
-            truth = decide(formula)
-            if truth is None:
-                return [frozenset((formula,))]
-            return [frozenset()] if truth else []
-        case And(parts):
-            return conjunction(clauses(part, unit, decide) for part in parts)
-        case Or(parts):
-            return _disjunction(clauses(part, unit, decide) for part in parts)
-        case Quantified(universal, parameters, body):
-            instances = (
-                clauses(substitute(body, values), unit, decide) for values in assignments(parameters, unit)
-            )
-            return conjunction(instances) if universal else _disjunction(instances)
+
+    def __init__(self, unit: Unit, decide: Decide, work: Work) -> None:
+        self._unit = unit
+        self._decide = decide
+        self._tick = work.deadline.tick
+
+    def of(self, formula: Formula) -> list[Clause]:
+        """The disjuncts of a ground condition: none if it is false, an empty one if it is true.
+
+        Raises:
+            TooManyCasesError: there are more than ``MAX_CASES``.
+        """
+        self._tick()
+        match formula:
+            case Literal():
+                truth = self._decide(formula)
+                if truth is None:
+                    return [frozenset((formula,))]
+                return [frozenset()] if truth else []
+            case And(parts):
+                return self.of_all(parts)
+            case Or(parts):
+                return self._minimal(clause for part in parts for clause in self.of(part))
+            case Quantified(universal, parameters, body):
+                instances = (substitute(body, values) for values in assignments(parameters, self._unit))
+                if universal:
+                    return self.of_all(instances)
+                return self._minimal(clause for part in instances for clause in self.of(part))
+
+    def of_all(self, parts: Iterable[Formula]) -> list[Clause]:
+        """The disjuncts of the conjunction of some ground conditions.
+
+        Raises:
+            TooManyCasesError: there are more than ``MAX_CASES``.
+        """
+        certain: set[Literal] = set()
+        choices: list[list[Clause]] = []
+        for part in parts:
+            found = self.of(part)
+            if not found:
+                return []
+            if len(found) == 1:
+                certain |= found[0]
+            else:
+                choices.append(found)
+        merged = [frozenset(certain)] if consistent(certain) else []
+        for choice in choices:
+            both = (a | b for a in merged for b in choice)
+            merged = self._minimal(clause for clause in both if consistent(clause))
+        return merged
+
+    def _minimal(self, found: Iterable[Clause]) -> list[Clause]:
+        """The clauses that no other one is part of, in order of first occurrence."""
+        kept: list[Clause] = []
+        for clause in found:
+            self._tick()
+            if not any(other <= clause for other in kept):
+                kept = [other for other in kept if not clause <= other]
+                kept.append(clause)
+                if len(kept) > MAX_CASES:
+                    raise TooManyCasesError
+                if not clause:
+                    break
+        return kept
 
 
-def conjunction(parts: Iterable[list[Clause]]) -> list[Clause]:
-    """The disjuncts of the conjunction of some disjunctions.
-
-    Raises:
-        TooManyCasesError: there are more than ``MAX_CASES``.
-    """
-    certain: set[Literal] = set()
-    choices: list[list[Clause]] = []
-    for part in parts:
-        if len(part) == 1:
-            certain |= part[0]
-        else:
-            choices.append(part)
-    merged = [frozenset(certain)] if consistent(certain) else []
-    for choice in choices:
-        both = (a | b for a in merged for b in choice)
-        merged = _minimal(clause for clause in both if consistent(clause))
-    return merged
-
-
-def consistent(literals: Iterable[Literal]) -> bool:
+def consistent(literals: AbstractSet[Literal]) -> bool:
     """Whether no literal's negation is among the others."""
-    literals = set(literals)
-    return not any(Literal(key, not positive) in literals for key, positive in literals)
-
-
-def _disjunction(parts: Iterable[list[Clause]]) -> list[Clause]:
-    return _minimal(clause for part in parts for clause in part)
-
-
-def _minimal(found: Iterable[Clause]) -> list[Clause]:
-    """The clauses that no other one is part of, in order of first occurrence."""
-    kept: list[Clause] = []
-    for clause in found:
-        if not any(other <= clause for other in kept):
-            kept = [other for other in kept if not clause <= other]
-            kept.append(clause)
-            if len(kept) > MAX_CASES:
-                raise TooManyCasesError
-    return kept
-
-
-def assignments(parameters: tuple[Parameter, ...], unit: Unit) -> Iterator[dict[str, str]]:
-    """Every assignment of objects to parameters."""
-    domains = [unit.objects_of(p.type) for p in parameters]
-    for objects in product(*domains):
-        yield dict(zip((p.name for p in parameters), objects, strict=True))
-
-
-def substitute(formula: Formula, values: dict[str, str]) -> Formula:
-    """The formula with variables replaced; an inner quantifier shadows."""
-    if not values:
-        return formula
-    match formula:
-        case Literal(key, positive):
-            return Literal(ground_key(key, values), positive)
-        case And(parts):
-            return And(tuple([substitute(part, values) for part in parts]))
-        case Or(parts):
-            return Or(tuple([substitute(part, values) for part in parts]))
-        case Quantified(universal, parameters, body):
-            own = {p.name for p in parameters}
-            outer = {name: value for name, value in values.items() if name not in own}
-            return Quantified(universal, parameters, substitute(body, outer))
-
-
-def ground_key(key: Key, values: dict[str, str]) -> Key:
-    """The atom with variables replaced."""
-    if not values:
-        return key
-    return (key[0], *[values.get(term, term) for term in key[1:]])
+    return not any(literal.opposite in literals for literal in literals)

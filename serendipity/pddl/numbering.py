@@ -1,12 +1,50 @@
 """Final ids: facts that matter in the order of their names, actions in that of theirs."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import chain, repeat
 from operator import attrgetter
+from typing import cast
 
 from serendipity.model import Condition, GroundAction
 from serendipity.pddl.blocks import Block, Column
+from serendipity.pddl.costs import BadCost
 from serendipity.pddl.lifted import Key, Literal
+from serendipity.pddl.work import Work
+
+
+class Changes:
+    """Which facts the actions that can be executed change.
+
+    Args:
+        facts: ids of ground atoms, in ascending order.
+        init: ids of those that are true initially.
+        blocks: the actions that can be executed.
+        work: its deadline is asked.
+
+    Attributes:
+        always: facts that are true in every state.
+        never: facts that are true in none.
+        relevant: facts that are neither, or that some action asks for or deletes.
+    """
+
+    def __init__(self, facts: Mapping[Key, int], init: set[int], blocks: Sequence[Block], work: Work) -> None:
+        added: set[int] = set()
+        deleted: set[int] = set()
+        asked: set[int] = set()
+        for block in work.each(blocks):
+            added.update(block.add.facts())
+            deleted.update(block.delete.facts())
+            asked.update(block.pre.facts(), block.neg.facts())
+        self.always = init - deleted
+        self.never = set(range(len(facts))) - init - added
+        self.relevant = (added | deleted | asked) - self.always - (self.never - deleted)
+
+    def truth(self, fact: int, positive: bool) -> bool | None:
+        """The truth of a literal if it is the same in every state."""
+        if fact in self.always:
+            return positive
+        return not positive if fact in self.never else None
 
 
 class Numbering:
@@ -16,50 +54,62 @@ class Numbering:
         facts: ids of ground atoms, in ascending order.
         init: ids of those that are true initially.
         blocks: the actions that can be executed.
+        changes: what they change.
         goals: ids of atoms that goals name; they stay facts in any case.
+        work: its deadline is asked.
 
     Attributes:
         names: of the facts that matter, ascending.
+        init: ids of those that are true initially.
+        waiting: names of the actions that only wait, each with the agent who does.
     """
 
     def __init__(
-        self, facts: Mapping[Key, int], init: set[int], blocks: Sequence[Block], goals: Iterable[int]
+        self,
+        facts: Mapping[Key, int],
+        init: set[int],
+        blocks: Sequence[Block],
+        changes: Changes,
+        goals: Iterable[int],
+        work: Work,
     ) -> None:
-        added = set(chain.from_iterable(block.add.facts() for block in blocks))
-        deleted = set(chain.from_iterable(block.delete.facts() for block in blocks))
-        always = init - deleted
-        never = set(range(len(facts))) - init - added
-        relevant = added | deleted
-        for block in blocks:
-            relevant.update(block.pre.facts(), block.neg.facts())
-        relevant -= always | (never - deleted)
-        relevant.update(goals)
         keys = list(facts)
-        named = {" ".join(keys[old]): old for old in relevant}
+        named = {" ".join(keys[old]): old for old in work.polled(changes.relevant.union(goals))}
         self.names = tuple(sorted(named))
         self.facts = facts
         self.blocks = blocks
+        self.waiting: set[tuple[str, int]] = set()
+        self._work = work
         self._ids = {named[name]: new for new, name in enumerate(self.names)}
-        self._changing = {old: new for old, new in self._ids.items() if old not in always}
-        self._possible = {old: new for old, new in self._ids.items() if old not in never}
+        self._changing = {old: new for old, new in self._ids.items() if old not in changes.always}
+        self._possible = {old: new for old, new in self._ids.items() if old not in changes.never}
         self.init = frozenset(self._ids[old] for old in init if old in self._ids)
 
-    def condition(self, literals: Sequence[Literal]) -> Condition:
+    def literal(self, literal: Literal) -> tuple[int, bool]:
+        """The final id of a literal's fact, and whether it is positive."""
+        return self._ids[self.facts[literal.key]], literal.positive
+
+    def condition(self, literals: Iterable[Literal]) -> Condition:
         """The condition that some literals make up."""
+        found = {*map(self.literal, literals)}
         return Condition(
-            tuple(sorted({self._ids[self.facts[lit.key]] for lit in literals if lit.positive})),
-            tuple(sorted({self._ids[self.facts[lit.key]] for lit in literals if not lit.positive})),
+            tuple(sorted(fact for fact, positive in found if positive)),
+            tuple(sorted(fact for fact, positive in found if not positive)),
         )
 
     def actions(self) -> list[GroundAction]:
-        """The actions without noops, ascending in name, then in all the rest; each once.
+        """The actions without those that only wait, ascending in name, then in all the rest; each once.
 
         A blank is less than any character of a word, so this is the order of ``key``.
+
+        Raises:
+            InputError: an action's cost is not what it should be.
         """
-        actions = [*chain.from_iterable(map(self._ground, self.blocks))]
-        if len({action.name for action in actions}) == len(actions):
-            return sorted(actions, key=attrgetter("name"))
-        return sorted(set(actions), key=attrgetter(*GroundAction.__slots__))
+        actions: list[GroundAction] = []
+        for block in self._work.each(self.blocks):
+            actions += self._ground(block)
+        self._work.stage(f"sorting {len(actions):,} ground actions")
+        return in_order(actions)
 
     def _ground(self, block: Block) -> Iterator[GroundAction]:
         add = _renumbered(block.add, self._changing)
@@ -73,9 +123,32 @@ class Numbering:
             block.costs,
         )
         if all(() in column.table for column in block.conditions):
-            block = block.only([any(record[2:6]) for record in block.records()])
+            block = self._without_waiting(block)
         columns = [column.rows() for column in block.conditions]
-        return map(GroundAction, map(" ".join, block.keys), block.participants, *columns, block.costs)
+        names = map(" ".join, block.keys)
+        return map(GroundAction, names, block.participants, *columns, _checked(block))
+
+    def _without_waiting(self, block: Block) -> Block:
+        """The actions that ask for something, or change something; names of the others are noted."""
+        for record in block.records():
+            if not any(record[2:6]) and len(record.participants) == 1:
+                self.waiting.add((" ".join(record.key), record.participants[0]))
+        return block.only([any(record[2:6]) for record in block.records()])
+
+
+def in_order(actions: Sequence[GroundAction]) -> list[GroundAction]:
+    """Actions ascending in name, then in all the rest; each once."""
+    if len({action.name for action in actions}) == len(actions):
+        return sorted(actions, key=attrgetter("name"))
+    return sorted(set(actions), key=attrgetter(*GroundAction.__slots__))
+
+
+def _checked(block: Block) -> list[Fraction]:
+    """The costs of a block's actions."""
+    for key, cost in zip(block.keys, block.costs, strict=True):
+        if isinstance(cost, BadCost):
+            raise cost.error(key)
+    return cast(list[Fraction], block.costs)
 
 
 def _renumbered(column: Column, ids: Mapping[int, int]) -> Column:

@@ -6,6 +6,7 @@ from itertools import chain, repeat
 
 from serendipity.pddl.instantiate import Participants
 from serendipity.pddl.lifted import Key, Unit
+from serendipity.pddl.tree import listed, quoted
 
 
 def by_owner(agent: int) -> Participants:
@@ -22,6 +23,12 @@ def by_arguments(agents: Sequence[str]) -> Participants:
         return tuple([i for i, name in enumerate(agents) if name in present])
 
     return lambda keys: [ids(everyone.intersection(key[1:])) for key in keys]
+
+
+def by_first_argument(agents: Sequence[str]) -> Participants:
+    """The first argument alone (MA-PDDL's ``:agent``); nobody where that is none of the agents."""
+    ids = {name: (i,) for i, name in enumerate(agents)}
+    return lambda keys: [ids.get(key[1], ()) for key in keys]
 
 
 def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
@@ -41,8 +48,8 @@ def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:
             found = finder.named(telling.intersection(key))
             if not found:
                 line = next(s.line for s in unit.domain.schemas if s.name == key[0])
-                message = f"no agent's name ({', '.join(agents)}) occurs in its name"
-                raise unit.domain_error(f"joint action '{' '.join(key)}': {message}", line)
+                message = f"no agent's name ({listed(agents)}) occurs in its name"
+                raise unit.domain_error(f"joint action {quoted(' '.join(key))}: {message}", line)
             yield found
 
     return participants

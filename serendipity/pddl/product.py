@@ -4,7 +4,7 @@ A literal that has only some of the variables stands for few ground atoms, howev
 bindings there are: each is made once and then looked up.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import repeat
 from math import prod
 from typing import NamedTuple
@@ -23,13 +23,13 @@ class Table(NamedTuple):
     rows: list[Row]
 
 
-def united(tables: Iterable[Table]) -> Table:
-    """One table of all combinations of the rows of several."""
+def united(tables: Iterable[Table], polled: Callable[[Iterable[Row]], Iterable[Row]] = iter) -> Table:
+    """One table of all combinations of the rows of several; ``polled`` passes rows on, as long as it may."""
     variables: tuple[str, ...] = ()
     rows: list[Row] = [()]
     for table in tables:
         variables += table.variables
-        rows = [row + more for row in rows for more in table.rows]
+        rows = list(polled(row + more for row in rows for more in table.rows))
     return Table(variables, rows)
 
 
@@ -42,18 +42,20 @@ class Product:
     Attributes:
         size: how many bindings there are.
         everything: all tables that leave a choice.
+        fixed: values of the variables that are in none of those.
     """
 
     def __init__(self, tables: Sequence[Table]) -> None:
+        self._tables = tables
         self.size = prod([len(table.rows) for table in tables])
         self._sizes: list[int] = []
         self._home: dict[str, int] = {}  # of a variable with a choice: the number of its table
         self._columns: dict[str, list[str]] = {}
-        self._fixed: dict[str, str] = {}  # values of the others
+        self.fixed: dict[str, str] = {}
         self._indices: dict[tuple[Part, Part], Sequence[int]] = {}
         for variables, rows in tables:
             if len(rows) == 1:
-                self._fixed.update(zip(variables, rows[0], strict=True))
+                self.fixed.update(zip(variables, rows[0], strict=True))
             else:
                 self._home.update(dict.fromkeys(variables, len(self._sizes)))
                 self._columns.update({v: [row[i] for row in rows] for i, v in enumerate(variables)})
@@ -62,10 +64,22 @@ class Product:
 
     def __iter__(self) -> Iterator[dict[str, str]]:
         """The values of all variables, binding by binding."""
-        names = [*self._fixed, *self._home]
+        names = [*self.fixed, *self._home]
         columns = [self.column(name, self.everything) for name in names]
         for _, *values in zip(range(self.size), *columns, strict=True):
             yield dict(zip(names, values, strict=True))
+
+    def slices(self, most: int) -> Iterator["Product"]:
+        """The same bindings in the same order, at most so many at a time."""
+        if self.size <= most:
+            yield self
+            return
+        first = next(n for n, table in enumerate(self._tables) if len(table.rows) > 1)
+        variables, rows = self._tables[first]
+        step = max(1, most * len(rows) // self.size)
+        for start in range(0, len(rows), step):
+            part = Table(variables, rows[start : start + step])
+            yield from Product([*self._tables[:first], part, *self._tables[first + 1 :]]).slices(most)
 
     def part(self, terms: Iterable[str]) -> Part:
         """The tables on which the values of some terms depend."""
@@ -75,7 +89,7 @@ class Product:
         """The values of a term, for each binding of a part that it depends on."""
         if term in self._home:
             return map(self._columns[term].__getitem__, self.index((self._home[term],), part))
-        return repeat(self._fixed.get(term, term), prod([self._sizes[n] for n in part]))
+        return repeat(self.fixed.get(term, term), prod([self._sizes[n] for n in part]))
 
     def index(self, part: Part, whole: Part) -> Sequence[int]:
         """For each binding of ``whole``, the number of the binding of ``part`` within it."""

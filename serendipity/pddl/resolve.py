@@ -1,385 +1,186 @@
-"""Syntax trees to checked lifted values: names, arities and types are right afterwards.
+"""Files' sections to checked lifted values.
 
 Errors carry the line; the caller adds the file.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from functools import lru_cache
-from sys import intern
-from typing import Any, Final
-
-from plado import pddl
+from typing import Final
 
 from serendipity.model import InputError
-from serendipity.model.numbers import fraction
-from serendipity.pddl.lifted import (
-    EQUALITY,
-    OBJECT,
-    And,
-    Domain,
-    Effect,
-    Expression,
-    Formula,
-    FunctionValue,
-    Key,
-    Literal,
-    Operation,
-    Or,
-    Parameter,
-    Problem,
-    Quantified,
-    Schema,
-    Types,
-)
-from serendipity.pddl.syntax import DomainSyntax, ProblemSyntax, parse_domain, parse_problem
+from serendipity.pddl.initial import read_initial
+from serendipity.pddl.lifted import And, Domain, Formula, Problem, Schema
+from serendipity.pddl.scope import TOTAL_COST, Scope, check_type
+from serendipity.pddl.sections import Form, read_form
+from serendipity.pddl.syntax import VARIABLE, Typed, read_action, signatures, typed_list
+from serendipity.pddl.tree import Node, expected, name_at, naming, node_at, quoted, refuse_more
+from serendipity.pddl.types import OBJECT, Type, Types, type_text
+from serendipity.pddl.work import Work
 
-TOTAL_COST: Final = "total-cost"
+_KEPT: Final = 64
 
-_OPERATORS: Final = {pddl.Sum: "+", pddl.Subtraction: "-", pddl.Product: "*", pddl.Division: "/"}
+_domains: Final[dict[str, Domain]] = {}  # a cache: those read last, by their texts
 
 
-@lru_cache(maxsize=64)
-def read_domain(text: str) -> Domain:
+def read_domain(text: str, work: Work) -> Domain:
     """The checked domain that a text defines; equal texts are read once.
 
     Raises:
         InputError: with the line, without the file.
     """
-    return _DomainResolver(parse_domain(text)).domain()
+    domain = _domains.pop(text, None) or _domain(read_form(text, "domain", work), work)
+    _domains[text] = domain
+    if len(_domains) > _KEPT:
+        _domains.pop(next(iter(_domains)), None)
+    return domain
 
 
-def read_problem(text: str, domain: Domain) -> Problem:
+def forget_parsed() -> None:
+    """Forget the domains that were read, for measurements; equal texts are read once else."""
+    _domains.clear()
+
+
+def read_problem(text: str, domain: Domain, work: Work) -> Problem:
     """The checked problem that a text defines for a domain.
 
     Raises:
         InputError: with the line, without the file.
     """
-    return _resolve_problem(parse_problem(text), domain)
+    form = read_form(text, "problem", work)
+    listed = typed_list(form.section(":objects"), 1, "an object", private=1 if domain.factored else 2)
+    objects = _objects(listed, domain.types, domain.constants)
+    scope = Scope(domain.types, domain.predicates, domain.functions, objects, work)
+    with naming("initial state"):
+        initial = read_initial(form.section(":init"), scope, work)
+    goal = form.sections.get(":goal")
+    return Problem(
+        form.name,
+        _domain_name(form),
+        objects,
+        initial.true,
+        initial.false,
+        initial.values,
+        And() if goal is None else _goal(goal, scope),
+        None if goal is None else goal.line,
+        _minimises_cost(form.sections.get(":metric")),
+    )
 
 
-class _Scope:
-    """What names may occur in a place: predicates, functions, objects, variables."""
-
-    def __init__(
-        self,
-        types: Types,
-        predicates: dict[str, tuple[str, ...]],
-        functions: dict[str, tuple[str, ...]],
-        objects: dict[str, str],
-    ) -> None:
-        self.types = types
-        self.predicates = predicates
-        self.functions = functions
-        self.objects = objects
-        self.variables: dict[str, str] = {}
-        self.where = ""
-
-    def error(self, message: str, name: object) -> InputError:
-        return InputError(f"{self.where}{message}", line=getattr(name, "line", None))
-
-    def parameters(self, definitions: Iterable[Any]) -> tuple[Parameter, ...]:
-        """Typed variables; from here on they are in scope."""
-        found: dict[str, str] = {}
-        for definition in definitions:
-            name, kind = definition.name, definition.type_name
-            if name in found:
-                raise self.error(f"parameter '{name}' is declared twice", name)
-            if kind not in self.types:
-                raise self.error(f"unknown type '{kind}'", kind if hasattr(kind, "line") else name)
-            found[intern(str(name))] = intern(str(kind))
-        self.variables = self.variables | found
-        return tuple(Parameter(name, kind) for name, kind in found.items())
-
-    def key(self, node: Any, known: dict[str, tuple[str, ...]], what: str) -> Key:
-        """The atom or function term of a node, its name, arity and types checked."""
-        name = node.name
-        expected = known.get(name)
-        if expected is None:
-            raise self.error(f"unknown {what} '{name}'", name)
-        arguments = node.arguments
-        if len(arguments) != len(expected):
-            raise self.error(f"{what} '{name}' takes {len(expected)} arguments, got {len(arguments)}", name)
-        if not arguments:
-            return (intern(str(name)),)
-        return (intern(str(name)), *map(self.term, (a.name for a in arguments), expected))
-
-    def term(self, name: str, expected: str = OBJECT) -> str:
-        """A variable or object, its type checked."""
-        if name[0] == "?":
-            kind = self.variables.get(name)
-            if kind is None:
-                raise self.error(f"variable '{name}' is not declared", name)
-            fits = self.types.comparable(kind, expected)
-        else:
-            kind = self.objects.get(name)
-            if kind is None:
-                raise self.error(f"object '{name}' is not declared", name)
-            fits = self.types.is_subtype(kind, expected)
-        if not fits:
-            raise self.error(f"'{name}' is of type '{kind}', expected type '{expected}'", name)
-        return intern(str(name))
-
-    def condition(self, node: Any, positive: bool = True) -> Formula:
-        """A condition in negation normal form; ``positive`` is False below a negation."""
-        kind = type(node)
-        if kind is pddl.Atom:
-            if node.name == EQUALITY:
-                return Literal((EQUALITY, *(self.term(a.name) for a in node.arguments)), positive)
-            return Literal(self.key(node, self.predicates, "predicate"), positive)
-        if kind is pddl.Conjunction or kind is pddl.Disjunction:
-            parts = tuple([self.condition(part, positive) for part in node.sub_formulas])
-            return And(parts) if (kind is pddl.Conjunction) == positive else Or(parts)
-        if kind is pddl.Negation:
-            return self.condition(node.sub_formula, not positive)
-        if kind is pddl.Truth or node is None:
-            return And() if positive else Or()
-        if kind is pddl.Forall or kind is pddl.Exists:
-            outer = self.variables
-            parameters = self.parameters(node.parameters)
-            body = self.condition(node.sub_formula, positive)
-            self.variables = outer
-            return Quantified((kind is pddl.Forall) == positive, parameters, body)
-        raise self.error("numeric conditions are not supported", _first_name(node))
-
-    def effects(self, node: Any) -> tuple[list[Effect], list[Expression]]:
-        """Effects on facts, and what is added to the total cost."""
-        kind = type(node)
-        if kind is pddl.AtomEffect:
-            return [Effect(Literal(self.key(node, self.predicates, "predicate")))], []
-        if kind is pddl.NegativeEffect:
-            return [Effect(Literal(self.key(node.atom, self.predicates, "predicate"), positive=False))], []
-        if kind is pddl.ConjunctiveEffect:
-            found: list[Effect] = []
-            costs: list[Expression] = []
-            for part in node.effects:
-                inner, more = self.effects(part)
-                found += inner
-                costs += more
-            return found, costs
-        if kind is pddl.IncreaseEffect and node.variable.name == TOTAL_COST:
-            self.key(node.variable, self.functions, "function")
-            return [], [self.expression(node.expression, node.variable.name)]
-        if kind is pddl.UniversalEffect:
-            outer = self.variables
-            parameters = self.parameters(node.parameters)
-            found = self._facts_only(node.effect, parameters)
-            self.variables = outer
-            return [replace(e, parameters=parameters + e.parameters) for e in found], []
-        if kind is pddl.ConditionalEffect:
-            condition = self.condition(node.condition)
-            found = self._facts_only(node.effect, ())
-            return [replace(e, condition=_both(condition, e.condition)) for e in found], []
-        if kind is pddl.ProbabilisticEffect:
-            raise self.error("probabilistic effects are not supported", _first_name(node))
-        name = _first_name(node)
-        raise self.error(f"numeric effects are not supported, except 'increase ({TOTAL_COST})'", name)
-
-    def _facts_only(self, node: Any, parameters: Sequence[Parameter]) -> list[Effect]:
-        found, costs = self.effects(node)
-        if costs:
-            kind = "quantified" if parameters else "conditional"
-            raise self.error(f"{kind} action costs are not supported", _first_name(node))
-        return found
-
-    def expression(self, node: Any, near: str) -> Expression:
-        """A cost expression over numbers and functions."""
-        if type(node) is pddl.NumericConstant:
-            return _number(node.value_str)
-        if type(node) is pddl.FunctionCall:
-            return FunctionValue(self.key(node, self.functions, "function"))
-        operator = _OPERATORS.get(type(node))
-        if operator is None:
-            raise self.error("cost expression is not supported", near)
-        left, right = self.expression(node.lhs, near), self.expression(node.rhs, near)
-        if isinstance(left, Fraction) and isinstance(right, Fraction):
-            return self.calculate(operator, left, right, near)
-        return Operation(operator, left, right)
-
-    def calculate(self, operator: str, left: Fraction, right: Fraction, near: str) -> Fraction:
-        """The value of an operation on numbers."""
-        if operator == "/" and right == 0:
-            raise self.error("division by zero in a cost", near)
-        return calculate(operator, left, right)
+def _domain(form: Form, work: Work) -> Domain:
+    types = _types(typed_list(form.section(":types"), 1, "a type"))
+    factored = ":factored-privacy" in form.requirements
+    private = 1 if factored else 2
+    constants = _objects(typed_list(form.section(":constants"), 1, "an object", private), types, {})
+    predicates = _signatures(form.section(":predicates"), "predicate", types, work)
+    functions = _signatures(form.section(":functions"), "function", types, work)
+    schemas: dict[str, Schema] = {}
+    for section in work.polled(form.actions):
+        schema = _schema(section, Scope(types, predicates, functions, constants, work))
+        first = schemas.setdefault(schema.name, schema)
+        if first is not schema:
+            message = f"action {quoted(schema.name)} is defined already in line {first.line}"
+            raise InputError(message, line=schema.line)
+    return Domain(form.name, types, constants, predicates, functions, tuple(schemas.values()), factored)
 
 
-def calculate(operator: str, left: Fraction, right: Fraction) -> Fraction:
-    """``left operator right``, exactly."""
-    match operator:
-        case "+":
-            return left + right
-        case "-":
-            return left - right
-        case "*":
-            return left * right
-        case _:
-            return left / right
+def _signatures(section: Node, what: str, types: Types, work: Work) -> dict[str, tuple[Type, ...]]:
+    found: dict[str, tuple[Type, ...]] = {}
+    for name, line, parameters in work.polled(signatures(section, what)):
+        with naming(f"{what} {quoted(name)}"):
+            signature = tuple(p.type for p in Scope(types, {}, {}, {}, work).parameters(parameters))
+        if found.setdefault(name, signature) != signature:
+            raise InputError(f"{what} {quoted(name)} is declared twice, in different ways", line=line)
+    return found
 
 
-class _DomainResolver:
-    def __init__(self, syntax: DomainSyntax) -> None:
-        self.syntax = syntax
-        self.types = _resolve_types(syntax.types)
-        self.constants = _resolve_objects(syntax.constants, self.types, {})
-        self.predicates = self._signatures(syntax.predicates, "predicate")
-        self.functions = self._signatures(syntax.functions, "function")
-
-    def domain(self) -> Domain:
-        schemas: dict[str, Schema] = {}
-        for action in self.syntax.actions:
-            if action.name in schemas:
-                first = schemas[action.name].line
-                raise InputError(
-                    f"action '{action.name}' is defined already in line {first}", line=action.name.line
-                )
-            schemas[str(action.name)] = self._schema(action)
-        return Domain(
-            str(self.syntax.name),
-            self.types,
-            self.constants,
-            self.predicates,
-            self.functions,
-            tuple(schemas.values()),
-        )
-
-    def _signatures(self, definitions: Iterable[Any], what: str) -> dict[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
-        for definition in definitions:
-            name = definition.name
-            scope = _Scope(self.types, {}, {}, {})
-            scope.where = f"{what} '{name}': "
-            signature = tuple(p.type for p in scope.parameters(definition.parameters))
-            if found.setdefault(intern(str(name)), signature) != signature:
-                raise InputError(f"{what} '{name}' is declared twice, in different ways", line=name.line)
-        return found
-
-    def _schema(self, action: Any) -> Schema:
-        scope = _Scope(self.types, self.predicates, self.functions, self.constants)
-        scope.where = f"action '{action.name}': "
-        parameters = scope.parameters(action.parameters)
-        precondition = scope.condition(action.precondition)
-        effects, increases = scope.effects(action.effect)
+def _schema(section: Node, scope: Scope) -> Schema:
+    text = read_action(section)
+    agent = [] if text.agent is None else [text.agent]
+    nothing = Node(text.line)
+    with naming(f"action {quoted(text.name)}"):
+        own = typed_list(text.parts.get(":parameters", nothing), 0, VARIABLE)
+        parameters = scope.parameters([*agent, *own])
+        precondition = scope.condition(text.parts.get(":precondition", nothing))
+        effects, increases = scope.effects(text.parts[":effect"])
         for value in increases:
             if isinstance(value, Fraction) and value < 0:
-                raise scope.error(f"expected a cost of at least 0, got {float(value):g}", action.name)
-        return Schema(
-            intern(str(action.name)),
-            action.name.line,
-            parameters,
-            precondition,
-            tuple(effects),
-            tuple(increases),
-        )
+                raise InputError(f"expected a cost of at least 0, got {float(value):g}", line=text.line)
+    return Schema(
+        text.name,
+        text.line,
+        parameters,
+        precondition,
+        tuple(effects),
+        tuple(increases),
+        text.agent is not None,
+        scope.quantified,
+    )
 
 
-def _resolve_types(definitions: Iterable[Any]) -> Types:
-    parents: dict[str, str] = {}
-    lines: dict[str, Any] = {}
-    for definition in definitions:
-        name, parent = str(definition.name), str(definition.parent_type_name)
-        if name in lines and parents.get(name, OBJECT) != parent:
-            raise InputError(f"type '{name}' is declared twice, in different ways", line=definition.name.line)
-        lines[name] = definition.name
+def _types(listed: Iterable[Typed]) -> Types:
+    parents: dict[str, Type] = {}
+    lines: dict[str, int] = {}
+    for name, parent, line in listed:
+        if name in lines and parents.get(name, parent) != parent:
+            raise InputError(f"type {quoted(name)} is declared twice, in different ways", line=line)
+        lines[name] = line
         if name != OBJECT:
             parents[name] = parent
-    for parent in list(parents.values()):
-        parents.setdefault(parent, OBJECT)
-    for name in lines:
-        _refuse_cycle(name, parents, lines)
+    for above in list(parents.values()):
+        for name in above:
+            if name != OBJECT:
+                parents.setdefault(name, (OBJECT,))
+    _refuse_circles(parents, lines)
     return Types(parents)
 
 
-def _refuse_cycle(name: str, parents: dict[str, str], lines: dict[str, Any]) -> None:
-    above = parents.get(name, OBJECT)
-    for _ in parents:
-        if above == name:
-            raise InputError(f"type '{name}' is its own supertype", line=lines[name].line)
-        above = parents.get(above, OBJECT)
+def _refuse_circles(parents: Mapping[str, Type], lines: Mapping[str, int]) -> None:
+    """Take away types all of whose supertypes are gone; what stays is on a circle, or below one."""
+    rest = {name: set(above) & parents.keys() for name, above in parents.items()}
+    while gone := {name for name, above in rest.items() if not above}:
+        rest = {name: above - gone for name, above in rest.items() if name not in gone}
+    while below := rest.keys() - {name for above in rest.values() for name in above}:
+        rest = {name: above for name, above in rest.items() if name not in below}
+    if rest:
+        name = min(rest, key=lambda name: (lines.get(name, 0), name))
+        raise InputError(f"type {quoted(name)} is its own supertype", line=lines.get(name))
 
 
-def _resolve_objects(definitions: Iterable[Any], types: Types, known: dict[str, str]) -> dict[str, str]:
+def _objects(listed: Iterable[Typed], types: Types, known: Mapping[str, Type]) -> dict[str, Type]:
     objects = dict(known)
-    for definition in definitions:
-        name, kind = intern(str(definition.name)), intern(str(definition.type_name))
-        if kind not in types:
-            line = getattr(definition.type_name, "line", definition.name.line)
-            raise InputError(f"object '{name}': unknown type '{kind}'", line=line)
+    for name, kind, line in listed:
+        with naming(f"object {quoted(name)}"):
+            check_type(kind, types, line)
         before = objects.get(name, kind)
         if not types.comparable(before, kind):
-            raise InputError(
-                f"object '{name}' is declared as '{before}' and as '{kind}'", line=definition.name.line
-            )
+            both = f"'{type_text(before)}' and as '{type_text(kind)}'"
+            raise InputError(f"object {quoted(name)} is declared as {both}", line=line)
         objects[name] = kind if types.is_subtype(kind, before) else before
     return objects
 
 
-def _resolve_problem(syntax: ProblemSyntax, domain: Domain) -> Problem:
-    objects = _resolve_objects(syntax.objects, domain.types, domain.constants)
-    scope = _Scope(domain.types, domain.predicates, domain.functions, objects)
-    scope.where = "initial state: "
-    init: set[Key] = set()
-    values: dict[Key, Fraction] = {}
-    functions = {TOTAL_COST: (), **domain.functions}
-    for item in syntax.init:
-        if type(item) is pddl.Atom:
-            init.add(scope.key(item, domain.predicates, "predicate"))
-            continue
-        key = scope.key(item.variable, functions, "function")
-        value = _number(item.expression.value_str)
-        if values.setdefault(key, value) != value:
-            raise scope.error(f"'{' '.join(key)}' is given two values", item.variable.name)
-    scope.where = "goal: "
-    goal = scope.condition(syntax.goal)
-    return Problem(
-        str(syntax.name),
-        None if syntax.domain is None else str(syntax.domain),
-        objects,
-        frozenset(init),
-        values,
-        goal,
-        syntax.goal_line,
-        _minimises_cost(syntax),
-    )
+def _domain_name(form: Form) -> str | None:
+    section = form.sections.get(":domain")
+    if section is None:
+        return None
+    refuse_more(section, 2)
+    return name_at(section, 1, "the name of the domain")
 
 
-def _minimises_cost(syntax: ProblemSyntax) -> bool:
-    metric = syntax.metric
-    if metric is None:
+def _goal(section: Node, scope: Scope) -> Formula:
+    refuse_more(section, 2)
+    with naming("goal"):
+        return And() if len(section.items) < 2 else scope.condition(node_at(section, 1, "a condition"))
+
+
+def _minimises_cost(section: Node | None) -> bool:
+    if section is None:
         return False
-    expression = metric.expression
-    total = type(expression) is pddl.FunctionCall and expression.name == TOTAL_COST
-    if metric.direction != pddl.Metric.MINIMIZE or not total:
-        raise InputError(f"the only metric supported is 'minimize ({TOTAL_COST})'", line=syntax.metric_line)
+    if section.items[1:2] not in (["minimize"], ["maximize"]):
+        raise expected("'minimize'", section, 1)
+    refuse_more(section, 3)
+    total = node_at(section, 2, f"'({TOTAL_COST})'")
+    if section.items[1] != "minimize" or total.items != [TOTAL_COST]:
+        message = f"the only metric supported is 'minimize ({TOTAL_COST})'"
+        raise InputError(message, line=section.line)
     return True
-
-
-def _number(text: str) -> Fraction:
-    try:
-        return _fraction(str(text))
-    except (ValueError, ZeroDivisionError):
-        raise InputError(f"expected a number, got '{text:.50}'", line=getattr(text, "line", None)) from None
-
-
-def _both(a: Formula, b: Formula | None) -> Formula:
-    return a if b is None else And((a, b))
-
-
-def _first_name(node: Any) -> str:
-    """Some word of a node, for its line."""
-    pending = [node]
-    while pending:
-        item = pending.pop()
-        if hasattr(item, "line"):
-            return item  # type: ignore[no-any-return]
-        if isinstance(item, (tuple, list)):
-            pending.extend(reversed(item))
-        elif hasattr(item, "__dict__"):
-            pending.extend(reversed(list(vars(item).values())))
-    return ""
-
-
-@lru_cache(maxsize=1024)
-def _fraction(text: str) -> Fraction:
-    """One object per number, so that costs can be told apart by identity."""
-    return fraction(text)

@@ -4,7 +4,10 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 from serendipity.model import InputError
-from serendipity.pddl.lifted import OBJECT, Key, Types, Unit
+from serendipity.pddl.lifted import Key, Unit
+from serendipity.pddl.tree import quoted
+from serendipity.pddl.types import ANYTHING, Type, Types, type_text
+from serendipity.pddl.work import Work
 
 _LISTED = 3
 
@@ -15,39 +18,54 @@ def check_objects(units: Sequence[Unit]) -> None:
     Raises:
         InputError: naming the later file of two that disagree.
     """
-    objects: dict[str, tuple[str, Unit]] = {}
+    objects: dict[str, tuple[Type, Unit]] = {}
     predicates: dict[str, tuple[int, Unit]] = {}
     for unit in units:
         for name, kind in unit.problem.objects.items():
             before, other = objects.setdefault(name, (kind, unit))
             if not (_fits(unit.domain.types, before, kind) or _fits(other.domain.types, before, kind)):
-                there = f"of type '{before}' in {other.problem_file}"
-                raise InputError(f"object '{name}' is of type '{kind}' here, {there}", unit.problem_file)
+                here = f"object {quoted(name)} is of type '{type_text(kind)}' here"
+                there = f"of type '{type_text(before)}' in {other.problem_file}"
+                raise InputError(f"{here}, {there}", unit.problem_file)
         for name, signature in unit.domain.predicates.items():
             arity, other = predicates.setdefault(name, (len(signature), unit))
             if arity != len(signature):
                 there = f"{arity} in {other.domain_file}"
-                message = f"predicate '{name}' takes {len(signature)} arguments here, {there}"
+                message = f"predicate {quoted(name)} takes {len(signature)} arguments here, {there}"
                 raise InputError(message, unit.domain_file)
+
+
+def check_initial(units: Sequence[Unit]) -> None:
+    """Check that no file says that something is false which another says is true.
+
+    Raises:
+        InputError: naming the file and line that say it is false.
+    """
+    for unit in units:
+        for key, line in unit.problem.denied.items():
+            other = next((other for other in units if key in other.problem.init), None)
+            if other is not None:
+                message = f"{quoted(' '.join(key))} is false here, true in {other.problem_file}"
+                raise unit.problem_error(message, line)
 
 
 def other_domains(units: Iterable[Unit]) -> list[str]:
     """Warnings for problems that say they belong to another domain than they came with."""
     return [
-        f"{unit.problem_file} is for domain '{unit.problem.domain_name}', "
-        f"but {unit.domain_file} defines '{unit.domain.name}'"
+        f"{unit.problem_file} is for domain {quoted(str(unit.problem.domain_name))}, "
+        f"but {unit.domain_file} defines {quoted(unit.domain.name)}"
         for unit in units
         if unit.problem.domain_name not in (None, unit.domain.name)
     ]
 
 
-def _fits(types: Types, a: str, b: str) -> bool:
-    if a == b or OBJECT in (a, b):
+def _fits(types: Types, a: Type, b: Type) -> bool:
+    if a == b or ANYTHING in (a, b):
         return True
-    return a in types and b in types and types.comparable(a, b)
+    return all(name in types for name in (*a, *b)) and types.comparable(a, b)
 
 
-def missing_facts(units: Sequence[Unit]) -> list[str]:
+def missing_facts(units: Sequence[Unit], work: Work) -> list[str]:
     """Warnings for facts that two domains share but only one initial state holds.
 
     Shared means: both domains have the predicate, and both problems the arguments.
@@ -58,8 +76,8 @@ def missing_facts(units: Sequence[Unit]) -> list[str]:
     found: dict[tuple[str, str, str], list[Key]] = {}
     for a, b in combinations([unit for unit in units if unit.problem.init], 2):
         for holder, other in ((a, b), (b, a)):
-            for key in holder.problem.init - other.problem.init:
-                if key[0] in changed and _could_hold(other, key):
+            for key in work.polled(holder.problem.init):
+                if key[0] in changed and key not in other.problem.init and _could_hold(other, key):
                     place = (key[0], holder.problem_file, other.problem_file)
                     found.setdefault(place, []).append(key)
     return [_warning(keys, *place[1:]) for place, keys in sorted(found.items())]
@@ -71,7 +89,7 @@ def _could_hold(unit: Unit, key: Key) -> bool:
 
 def _warning(keys: Iterable[Key], holder: str, other: str) -> str:
     names = sorted(" ".join(key) for key in keys)
-    listed = ", ".join(f"'{name}'" for name in names[:_LISTED])
+    listed = ", ".join(map(quoted, names[:_LISTED]))
     more = f" and {len(names) - _LISTED} more like it" if len(names) > _LISTED else ""
     verb = "holds" if len(names) == 1 else "hold"
     return f"{listed}{more} {verb} initially in {holder} but not in {other}, whose domain knows the predicate"

@@ -1,176 +1,161 @@
-"""PDDL text to plado's syntax tree, section by section.
+"""What stands in sections: typed lists, signatures of predicates and functions, actions."""
 
-The sections are walked here, since plado insists on a goal, on predicates and on
-actions, which an agent's file may lack; what is inside a section is plado's.
-"""
-
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import Any, Final, TypeVar
-
-from plado.parser import parser as plado
-from plado.parser.tokenizer import Category
+from typing import Final, NamedTuple
 
 from serendipity.model import InputError
-from serendipity.pddl.tokens import TokenStream, Word, tokenize
+from serendipity.pddl.tree import Node, expected, name_at, naming, node_at, quoted
+from serendipity.pddl.types import ANYTHING, Type
 
-_UNSUPPORTED: Final = {
-    ":derived": "derived predicates",
-    ":axiom": "axioms",
-    ":durative-action": "durative actions",
-    ":process": "processes",
-    ":event": "events",
-    ":constraints": "trajectory constraints",
-    ":goal-reward": "goal rewards",
-}
+PRIVATE: Final = ":private"
+VARIABLE: Final = "a variable, as ?x"
 
-_UNSUPPORTED_WORDS: Final = ("either", "preference", "probabilistic", "at-end", "always", "sometime")
-
-T = TypeVar("T", bound="DomainSyntax | ProblemSyntax")
+_PARTS: Final = (":parameters", ":precondition", ":effect")
 
 
-@dataclass(slots=True)
-class DomainSyntax:
-    """The sections of a domain file; names carry their lines."""
+class Typed(NamedTuple):
+    """A name or variable, its type, and its line."""
 
-    name: Word
-    types: list[Any] = field(default_factory=list)
-    constants: list[Any] = field(default_factory=list)
-    predicates: list[Any] = field(default_factory=list)
-    functions: list[Any] = field(default_factory=list)
-    actions: list[Any] = field(default_factory=list)
+    name: str
+    type: Type
+    line: int
+
+
+class Signature(NamedTuple):
+    """A predicate or function, its line, and its parameters."""
+
+    name: str
+    line: int
+    parameters: list[Typed]
 
 
 @dataclass(slots=True)
-class ProblemSyntax:
-    """The sections of a problem file; no goal is a conjunction of nothing."""
+class ActionText:
+    """What stands in a section ``(:action ...)``.
 
-    name: Word
-    domain: Word | None = None
-    objects: list[Any] = field(default_factory=list)
-    init: list[Any] = field(default_factory=list)
-    goal: Any = None
-    goal_line: int | None = None
-    metric: Any = None
-    metric_line: int | None = None
+    Attributes:
+        name: of the action.
+        line: of the section.
+        agent: what stands behind ``:agent``.
+        parts: what stands behind ``:parameters``, ``:precondition`` and ``:effect``.
+    """
+
+    name: str
+    line: int
+    agent: Typed | None = None
+    parts: dict[str, Node] = field(default_factory=dict)
 
 
-@lru_cache(maxsize=64)
-def parse_domain(text: str) -> DomainSyntax:
-    """The syntax tree of a domain's text.
+def typed_list(node: Node, start: int, what: str, private: int = 0) -> list[Typed]:
+    """``a b - type c``, from item ``start`` of a node.
+
+    Args:
+        node: what it stands in.
+        start: its first item.
+        what: how an error calls its names; ``a variable`` if they begin with ``?``.
+        private: where the names in ``(:private ...)`` start; 0 if there may be none.
 
     Raises:
-        InputError: with the line, without the file.
+        InputError: it is not of that form; with the line.
     """
-    return _parse(text, "domain", DomainSyntax, _domain_section)
+    found: list[Typed] = []
+    untyped = 0
+    i = start
+    while i < len(node.items):
+        item = node.items[i]
+        if item == "-" and untyped:
+            kind = _type_at(node, i + 1)
+            found[-untyped:] = [typed._replace(type=kind) for typed in found[-untyped:]]
+            untyped, i = 0, i + 2
+        elif private and isinstance(item, Node) and item.head == PRIVATE:
+            found += typed_list(item, private, what)
+            untyped, i = 0, i + 1
+        else:
+            name = _variable_at(node, i) if what == VARIABLE else name_at(node, i, what)
+            found.append(Typed(name, ANYTHING, node.line_of(i)))
+            untyped, i = untyped + 1, i + 1
+    return found
 
 
-def parse_problem(text: str) -> ProblemSyntax:
-    """The syntax tree of a problem's text.
+def _variable_at(node: Node, i: int) -> str:
+    item = node.items[i] if i < len(node.items) else None
+    if isinstance(item, str) and item[0] == "?" and len(item) > 1:
+        return item
+    raise expected(VARIABLE, node, i)
+
+
+def _type_at(node: Node, i: int) -> Type:
+    item = node.items[i] if i < len(node.items) else None
+    if not isinstance(item, Node):
+        return (name_at(node, i, "a type"),)
+    if item.head != "either" or len(item.items) < 2:
+        raise expected("a type or '(either TYPE ...)'", node, i)
+    return tuple(dict.fromkeys(name_at(item, j, "a type") for j in range(1, len(item.items))))
+
+
+def signatures(section: Node, what: str) -> Iterator[Signature]:
+    """The predicates or functions of a section, private ones among them, functions without results.
 
     Raises:
-        InputError: with the line, without the file.
+        InputError: it is not of that form, or has object fluents; with the line.
     """
-    return _parse(text, "problem", ProblemSyntax, _problem_section)
+    i = 1
+    while i < len(section.items):
+        if section.items[i] == "-" and what == "function":
+            if section.items[i + 1 : i + 2] != ["number"]:
+                message = "object fluents are not supported: expected '- number'"
+                raise InputError(message, line=section.line_of(i))
+            i += 2
+            continue
+        item = node_at(section, i, f"a {what} in brackets")
+        if item.head == PRIVATE:  # then, unless the files are factored, an agent: '?a - agent'
+            yield from signatures(_without_words(item), what)
+        else:
+            name = name_at(item, 0, f"the name of a {what}")
+            with naming(f"{what} {quoted(name)}"):
+                parameters = typed_list(item, 1, VARIABLE)
+            yield Signature(name, item.line, parameters)
+        i += 1
 
 
-def _parse(text: str, kind: str, make: type[T], section: Callable[[T, Word, TokenStream], None]) -> T:
-    tokens = TokenStream(tokenize(text))
-    if not tokens.tokens:
-        raise InputError(f"the file is empty: expected '(define ({kind} ...'")
-    try:
-        for expected in ("(", "define", "(", kind):
-            tokens.expect(expected)
-        syntax = make(tokens.expect_name(f"the name of the {kind}"))
-        tokens.expect(")")
-        seen: dict[str, int] = {}
-        while next(tokens).cat is Category.LBRACK:
-            keyword = next(tokens).tok
-            if keyword != ":action" and seen.setdefault(keyword, keyword.line) != keyword.line:
-                before = seen[keyword]
-                raise InputError(f"'{keyword}' was given already in line {before}", line=keyword.line)
-            _refuse_unsupported(keyword)
-            section(syntax, keyword, tokens)
-    except plado.ParseError as error:
-        raise _syntax_error(error, tokens) from None
-    except RecursionError:
-        raise InputError("brackets are nested too deeply", line=tokens.last().tok.line) from None
-    if tokens.last().cat is not Category.RBRACK:
-        raise InputError(f"expected '(' or ')', got '{tokens.last().tok}'", line=tokens.last().tok.line)
-    if tokens.position < len(tokens.tokens):
-        rest = tokens[0].tok
-        raise InputError(f"expected the end of the file after the last ')', got '{rest}'", line=rest.line)
-    return syntax
+def _without_words(private: Node) -> Node:
+    nodes = Node(private.line)
+    nodes.items = [PRIVATE, *(item for item in private.items if isinstance(item, Node))]
+    return nodes
 
 
-def _domain_section(domain: DomainSyntax, keyword: Word, tokens: TokenStream) -> None:
-    match str(keyword):
-        case ":requirements":
-            _skip_names(tokens)
-        case ":types":
-            domain.types = plado.parse_types(tokens)
-        case ":constants":
-            domain.constants = plado.parse_constants(tokens)
-        case ":predicates":
-            domain.predicates = plado.parse_predicates(tokens)
-        case ":functions":
-            domain.functions = plado.parse_functions(tokens)
-        case ":action":
-            domain.actions.append(plado.parse_action(tokens))
-        case _:
-            raise InputError(f"expected a section of a domain, got '{keyword}'", line=keyword.line)
+def read_action(section: Node) -> ActionText:
+    """The parts of a section ``(:action ...)``.
+
+    Raises:
+        InputError: something else is in it, or no effect; with the line.
+    """
+    action = ActionText(name_at(section, 1, "the name of an action"), section.line)
+    with naming(f"action {quoted(action.name)}"):
+        i = 2
+        while i < len(section.items):
+            i = _read_part(action, section, i)
+        if ":effect" not in action.parts:
+            raise InputError("expected an ':effect'", line=section.line)
+    return action
 
 
-def _problem_section(problem: ProblemSyntax, keyword: Word, tokens: TokenStream) -> None:
-    match str(keyword):
-        case ":requirements":
-            _skip_names(tokens)
-        case ":domain":
-            problem.domain = tokens.expect_name("the name of the domain")
-            tokens.expect(")")
-        case ":objects":
-            problem.objects = plado.parse_constants(tokens)
-        case ":init":
-            problem.init = plado.parse_initial(tokens)
-        case ":goal":
-            problem.goal_line = keyword.line
-            if tokens[0].cat is not Category.RBRACK:
-                problem.goal = plado._parse_condition(tokens)
-            tokens.expect(")")
-        case ":metric":
-            problem.metric_line = keyword.line
-            problem.metric = plado.parse_metric(tokens)
-            tokens.expect(")")
-        case _:
-            raise InputError(f"expected a section of a problem, got '{keyword}'", line=keyword.line)
-
-
-def _skip_names(tokens: TokenStream) -> None:
-    while next(tokens).cat is not Category.RBRACK:
-        pass
-
-
-def _refuse_unsupported(keyword: Word) -> None:
-    if keyword in _UNSUPPORTED:
-        raise InputError(f"{_UNSUPPORTED[keyword]} ('{keyword}') are not supported", line=keyword.line)
-
-
-def _syntax_error(error: Exception, tokens: TokenStream) -> InputError:
-    """Plado's complaint with the place, and the action that it is in."""
-    got = tokens.last().tok
-    nearby = tokens.tokens[max(0, tokens.position - 3) : tokens.position + 1]
-    for token in nearby:
-        if token.tok in _UNSUPPORTED_WORDS:
-            raise InputError(f"'{token.tok}' is not supported", line=token.tok.line) from None
-    action = next(
-        (
-            tokens.tokens[i + 1].tok
-            for i in range(min(tokens.position, len(tokens.tokens) - 1) - 1, 0, -1)
-            if tokens.tokens[i].tok == ":action"
-        ),
-        None,
-    )
-    text = str(error).replace("Received unexpected token", "unexpected").strip()
-    where = f"action '{action}': " if action is not None else ""
-    return InputError(f"{where}syntax error near '{got}': {text}", line=got.line)
+def _read_part(action: ActionText, section: Node, i: int) -> int:
+    """Read the part at item ``i``; returns where the next one starts."""
+    keyword = section.items[i]
+    if not isinstance(keyword, str) or keyword not in (":agent", *_PARTS):
+        raise expected(f"{', '.join(map(repr, _PARTS))}", section, i)
+    if keyword in action.parts or (keyword == ":agent" and action.agent is not None):
+        raise InputError(f"'{keyword}' was given already", line=section.line_of(i))
+    if keyword != ":agent":
+        action.parts[keyword] = node_at(section, i + 1, f"brackets behind '{keyword}'")
+        return i + 2
+    end = i + 4 if section.items[i + 2 : i + 3] == ["-"] else i + 2
+    words = Node(section.line_of(i))
+    words.items = section.items[i + 1 : end]
+    found = typed_list(words, 0, VARIABLE)
+    if not found:
+        raise expected(VARIABLE, section, i + 1)
+    action.agent = found[0]
+    return end

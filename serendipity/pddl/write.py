@@ -16,7 +16,7 @@ from typing import Final
 
 from serendipity.model import GroundAction, Task
 from serendipity.pddl.participants import agents_named
-from serendipity.pddl.tokens import HEADS
+from serendipity.pddl.scope import RESERVED
 
 TEAM: Final = "superagent"
 _ILLEGAL: Final = re.compile(r"[^a-z0-9_-]")
@@ -176,7 +176,7 @@ def _joint_name(action: GroundAction, agents: Sequence[str], fallback: str) -> s
 def _legal(name: str) -> str:
     """The name as a single word that is no keyword and no number."""
     word = _ILLEGAL.sub("_", name.lower())
-    return word if word[:1].isalpha() and word not in HEADS else f"x_{word}"
+    return word if word[:1].isalpha() and word not in RESERVED else f"x_{word}"
 
 
 def _unique(name: str, used: set[str]) -> str:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from serendipity.model import Task, UsageError
+from serendipity.model import Deadline, Task, UsageError
 from serendipity.pddl import load_pddl
 
 DATA: Final = Path(__file__).parent / "data"
@@ -30,9 +30,14 @@ class Example:
     human: str
     robots: tuple[str, ...]
 
-    def load(self) -> Task:
-        """The task."""
-        return load_pddl(DATA / self.domain, DATA / self.problem, human=self.human, robots=self.robots)
+    def load(self, deadline: Deadline | None = None) -> Task:
+        """The task.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        domain, problem = DATA / self.domain, DATA / self.problem
+        return load_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
 
 
 def _usar(name: str, summary: str) -> Example:
@@ -50,12 +55,13 @@ EXAMPLES: Final = {
 """By name, in the order in which they are listed."""
 
 
-def example(name: str) -> Task:
+def example(name: str, *, deadline: Deadline | None = None) -> Task:
     """A task shipped with the program; ``serendipity examples`` lists them.
 
     Raises:
         UsageError: there is no example of that name.
+        LimitReachedError: the deadline came first.
     """
     if name not in EXAMPLES:
         raise UsageError(f"example: expected one of {', '.join(EXAMPLES)}, got '{name}'")
-    return EXAMPLES[name].load()
+    return EXAMPLES[name].load(deadline)

@@ -57,4 +57,4 @@ def test_nothing_heavy_loads_for(command: list[str]) -> None:
 
 def test_importing_the_package_imports_nothing_else() -> None:
     loaded = loaded_after("import serendipity; serendipity.__version__; dir(serendipity)")
-    assert not loaded & {*SOLVERS, "search", "verify", "plado", "typer", "rich", "networkx", "numpy"}
+    assert not loaded & {*SOLVERS, "search", "verify", "typer", "rich", "networkx", "numpy"}

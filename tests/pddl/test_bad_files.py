@@ -50,7 +50,13 @@ def spoilt(text: str, old: str, new: str) -> tuple[str, int]:
         ("(has ?who ?what) (not (in", "(probabilistic 0.5 (read ?what)) (not (in", "probabilistic"),
         ("(:requirements", "(:wishes", "expected a section of a domain, got ':wishes'"),
         ("(:constants", "(:types", "':types' was given already in line 4"),
-        ("?from ?to - room", "?from ?to - (either room thing)", "'either' is not supported"),
+        ("?from ?to - room", "?from ?to - (either room hall)", "unknown type 'hall'"),
+        (
+            "?from ?to - room",
+            "?from ?to - (or room thing)",
+            "expected a type or '(either TYPE ...)', got '(or",
+        ),
+        ("?from ?to - room", "?from ?to -", "expected a type, got ')'"),
         ("?who - agent ?from", "?to - agent ?from", "parameter '?to' is declared twice"),
         ("lift - room", "lift - hall hall - lift", "is its own supertype"),
         ("(read ?what - thing)", "(read ?what - thing) (read)", "predicate 'read' is declared twice"),
@@ -74,16 +80,23 @@ def test_bad_domain(tmp_path: Path, old: str, new: str, message: str) -> None:
         ("domain - room", "domain - rooom", "object 'room': unknown type 'rooom'"),
         ("(read problem)", "(red problem)", "goal: unknown predicate 'red'"),
         ("(read problem)", "(read book)", "goal: object 'book' is not declared"),
-        ("(read problem)", "(or (read problem) (read either))", "disjunctive goals are not supported"),
-        ("(read problem)", "(preference p1 (read problem))", "'preference' is not supported"),
+        ("(read problem)", "(preference p1 (read problem))", "preferences ('preference') are not supported"),
+        ("(read problem)", "(always (read problem))", "trajectory constraints ('always') are not supported"),
+        ("(read problem)", "(read problem) (at ann room)", "expected ')', got '(at ann room)'"),
         (
             "(:goal",
             "(:constraints (and)) (:goal",
             "trajectory constraints (':constraints') are not supported",
         ),
-        ("(at bot domain)", "(at 5 (door room room))", "syntax error near '5'"),
+        (
+            "(at bot domain)",
+            "(at 5 (door room room))",
+            "timed initial literals ('(at 5 (...))') are not supported",
+        ),
+        ("(at bot domain)", "(= (at bot) domain)", "object fluents ('(= (...) domain)') are not supported"),
+        ("(at bot domain)", "(and (at bot domain))", "initial state: 'and' is not possible here"),
         ("(:goal", ") (:goal", "expected the end of the file"),
-        ("(= (steps room) 2)", "(= (steps room) two)", "syntax error near 'two'"),
+        ("(= (steps room) 2)", "(= (steps room) two)", "expected a number, got 'two'"),
     ],
 )
 def test_bad_problem(tmp_path: Path, old: str, new: str, message: str) -> None:
@@ -126,9 +139,9 @@ def test_a_directory_in_place_of_a_file(tmp_path: Path) -> None:
 def test_directories_that_are_none(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no agent's folder"):
         load(tmp_path)
-    with pytest.raises(InputError, match="expected a directory"):
+    with pytest.raises(InputError, match="nowhere: there is no such folder"):
         load(tmp_path / "nowhere")
-    with pytest.raises(InputError, match="expected a directory"):
+    with pytest.raises(InputError, match="this is a file: expected a folder"):
         load(OFFICE[0])
 
 
@@ -155,13 +168,6 @@ def test_too_many_cases_of_a_condition(tmp_path: Path) -> None:
     )
     with pytest.raises(InputError, match=r":5: action 'go h': more than 256 cases of its conditions"):
         one(tmp_path, text, problem())
-
-
-def test_too_many_ground_actions(tmp_path: Path) -> None:
-    parameters = " ".join(f"?x{i} - thing" for i in range(30))
-    text = domain(action("go", "(q)", "(p)", f"?who - agent {parameters}"))
-    with pytest.raises(InputError, match=r":5: action 'go': more than 5000000 ground actions"):
-        one(tmp_path, text, problem(init="(q)"))
 
 
 def test_too_many_conditional_effects(tmp_path: Path) -> None:

@@ -71,6 +71,10 @@ def test_several_increases_add_up(tmp_path: Path) -> None:
         ("(p) (increase (far) 1)", "(q)", "numeric effects are not supported"),
         ("(p) (when (q) (increase (total-cost) 1))", "(q)", "conditional action costs are not supported"),
         ("(p) (increase (total-cost) 1e999999999)", "(q)", "expected a number"),
+        ("(p) (increase (total-cost) (total-cost))", "(q)", "depends on the total cost so far is not supp"),
+        ("(p) (increase (total-cost) (+ 1 (* 2 (total-cost))))", "(q)", "depends on the total cost"),
+        ("(p) (increase (total-cost))", "(q)", "expected a number or a function, got '\\)'"),
+        ("(p) (increase (total-cost) (- (far)))", "(q) (= (far) 1)", "expected two values to -, got '\\)'"),
     ],
 )
 def test_bad_costs(tmp_path: Path, effect: str, init: str, message: str) -> None:
@@ -99,3 +103,71 @@ def test_files_that_disagree_on_a_value(tmp_path: Path) -> None:
 def test_other_metrics(tmp_path: Path, metric: str) -> None:
     with pytest.raises(InputError, match=r"problem.pddl:6: the only metric supported"):
         costs(tmp_path, "(p)", more=metric)
+
+
+def test_where_the_total_cost_starts_has_no_effect(tmp_path: Path) -> None:
+    assert costs(tmp_path, "(p) (increase (total-cost) 2)", init="(q) (= (total-cost) 7)") == {2}
+    text = domain(action("go", "(q)", "(p) (increase (total-cost) 2)"))
+    first, second = problem("(q) (= (total-cost) 1)"), problem("(q) (= (total-cost) 2)", goal="")
+    assert {a.cost for a in two(tmp_path, (text, first), (text, second)).actions} == {2}
+
+
+LINKS = "(link ?x ?y) (at ?who ?x) (open ?x)"
+MOVE = "(not (at ?who ?x)) (at ?who ?y) (increase (total-cost) (dist ?x ?y))"
+OBJECTS = "h r - agent a b c - thing"
+DISTANCES = "(= (dist a b) 1) (= (dist b a) 2) (= (dist b c) 3) (= (dist c b) 4)"
+PLACE = f"(at h a) (at r b) (link a b) (link b c) {DISTANCES}"
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        "(and (at ?who ?x) (or (link ?x ?y) (link ?y ?x)))",
+        "(and (at ?who ?x) (not (and (not (link ?x ?y)) (not (link ?y ?x)))))",
+        "(and (at ?who ?x) (exists (?z - thing) (and (= ?y ?z) (or (link ?x ?z) (link ?z ?x)))))",
+    ],
+)
+def test_no_cost_is_asked_for_where_static_conditions_exclude_the_action(
+    tmp_path: Path, condition: str
+) -> None:
+    text = domain(
+        action("move", condition, MOVE, "?who - agent ?x ?y - thing"),
+        predicates=LINKS,
+        functions="(dist ?x ?y)",
+    )
+    task = one(tmp_path, text, problem(PLACE, "(at h c)", OBJECTS))
+    assert {a.name.removeprefix("move h "): a.cost for a in task.actions if " h " in a.name} == {
+        "a b": 1,
+        "b a": 2,
+        "b c": 3,
+        "c b": 4,
+    }
+
+
+def test_no_cost_is_asked_for_where_an_action_is_out_of_reach(tmp_path: Path) -> None:
+    text = domain(
+        action("move", "(and (at ?who ?x) (open ?y))", MOVE, "?who - agent ?x ?y - thing"),
+        action("unlock", "(and (at ?who ?x) (link ?x ?y))", "(open ?y)", "?who - agent ?x ?y - thing"),
+        predicates=LINKS,
+        functions="(dist ?x ?y)",
+    )
+    distances = "(= (dist a b) 1) (= (dist a a) 1) (= (dist b a) 1) (= (dist b b) 1)"
+    known = f"(at h a) (at r a) (open a) (link a b) {distances}"
+    task = one(tmp_path, text, problem(known, "(at h b)", OBJECTS))
+    assert len([a for a in task.actions if a.name.startswith("move")]) == 8
+    less = known.replace("(= (dist b a) 1)", "")
+    with pytest.raises(
+        InputError, match=r"domain.pddl:5: action 'move h b a': no initial value of 'dist b a'"
+    ):
+        one(tmp_path, text, problem(less, "(at h b)", OBJECTS))
+
+
+def test_waiting_and_what_nobody_does_need_no_cost(tmp_path: Path) -> None:
+    text = domain(
+        action("wait", "(and)", "(increase (total-cost) (far))"),
+        "(:action rain :parameters () :precondition (q) :effect (and (p) (increase (total-cost) (far))))",
+        action("go", "(q)", "(p) (increase (total-cost) 1)"),
+        functions="(far)",
+    )
+    task = one(tmp_path, text, problem("(q)"))
+    assert {a.name: a.cost for a in task.actions} == {"go h": 1, "go r": 1}

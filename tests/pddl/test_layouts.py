@@ -75,7 +75,7 @@ def test_an_action_without_any_agent_is_left_out_with_a_warning(tmp_path: Path) 
     rain = "(:action rain :parameters () :precondition () :effect (p))"
     task = one(tmp_path, domain(rain, action("dig", "(p)", "(q)")), problem(init="(p)"))
     assert names(task) == ["dig h", "dig r"]
-    assert task.warnings == ("action 'rain': left out where no agent is among its arguments",)
+    assert task.warnings == ("action 'rain': no agent is among its arguments; 1 action left out",)
 
 
 def test_human_can_be_chosen_and_others_goals_are_the_robots_own() -> None:

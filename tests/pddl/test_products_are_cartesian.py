@@ -46,5 +46,12 @@ def test_a_part_is_found_again_in_the_whole(found: list[Table]) -> None:
             assert large == [tuple(b.get(term, term) for term in terms) for b in enumerated(found)]
 
 
+@given(tables(), st.integers(1, 5))
+def test_slices_are_the_whole_in_order(found: list[Table], most: int) -> None:
+    slices = [*Product(found).slices(most)]
+    assert all(part.size <= most for part in slices)
+    assert [binding for part in slices for binding in part] == enumerated(found)
+
+
 def test_an_empty_table_leaves_nothing() -> None:
     assert Product([Table(("?x",), [("a",), ("b",)]), Table(("?y",), [])]).size == 0

@@ -1,0 +1,59 @@
+"""Types: a name, or ``either`` of several names."""
+
+from collections.abc import Mapping
+from typing import Final
+
+OBJECT: Final = "object"
+
+Type = tuple[str, ...]
+"""One of these names: an object of the type is of one of them."""
+
+ANYTHING: Final[Type] = (OBJECT,)
+
+
+class Types:
+    """A type hierarchy: who is a subtype of whom.
+
+    Args:
+        parents: by name, the type above it; ``object`` is above those that are not in it.
+    """
+
+    def __init__(self, parents: Mapping[str, Type]) -> None:
+        self._parents = parents
+        self._subtypes: dict[tuple[Type, Type], bool] = {}
+        self._above: dict[str, frozenset[str]] = {OBJECT: frozenset(ANYTHING)}
+        for name in parents:
+            self._climb(name)
+
+    def _climb(self, name: str) -> frozenset[str]:
+        if name not in self._above:
+            self._above[name] = frozenset((name, OBJECT))  # ends a circle, which is refused elsewhere
+            above = [self._climb(parent) for parent in self._parents.get(name, ANYTHING)]
+            self._above[name] = self._above[name].union(*above)
+        return self._above[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._above
+
+    def is_subtype(self, kind: Type, expected: Type) -> bool:
+        """Whether every object of type ``kind`` is of type ``expected``."""
+        known = self._subtypes.get((kind, expected))
+        if known is None:
+            known = all(self._within(name, expected) for name in kind)
+            self._subtypes[kind, expected] = known
+        return known
+
+    def _within(self, name: str, expected: Type) -> bool:
+        if name in expected or OBJECT in expected:
+            return True
+        parents = self._parents.get(name)
+        return parents is not None and self.is_subtype(parents, expected)
+
+    def comparable(self, a: Type, b: Type) -> bool:
+        """Whether an object may be of both: a name of one is above a name of the other."""
+        return any(x in self._above[y] or y in self._above[x] for x in a for y in b)
+
+
+def type_text(kind: Type) -> str:
+    """A type as PDDL writes it."""
+    return kind[0] if len(kind) == 1 else f"(either {' '.join(kind)})"

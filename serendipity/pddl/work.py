@@ -1,0 +1,91 @@
+"""What all stages of loading a task share: its limits, and what is being done, for people."""
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
+from typing import Final, TypeVar
+
+from serendipity.model import Deadline, LimitReachedError
+from serendipity.model.errors import LIMITS, limit_reason
+
+T = TypeVar("T")
+
+OnProgress = Callable[[str], None]
+"""Is told what is being done whenever that changes, and every few thousand ground actions."""
+
+_SLICE: Final = 2_048
+"""Items between two looks at the deadline: a few milliseconds of them."""
+
+_LONG: Final = 10**15
+"""Numbers from here on are told by their size only."""
+
+
+class Work:
+    """One task being loaded.
+
+    Args:
+        deadline: what it may take; None for no limit.
+        on_progress: is told what is being done.
+
+    Attributes:
+        deadline: to be asked by every stage.
+        doing: what is being done, for people.
+    """
+
+    def __init__(self, deadline: Deadline | None = None, on_progress: OnProgress | None = None) -> None:
+        self.deadline = Deadline() if deadline is None else deadline
+        self.doing = ""
+        self._on_progress = on_progress
+
+    def stage(self, doing: str) -> None:
+        """Say what is done from here on, and ask the deadline."""
+        self.doing = doing
+        if self._on_progress is not None:
+            self._on_progress(doing)
+        self.deadline.check()
+
+    def polled(self, items: Iterable[T]) -> Iterator[T]:
+        """The items, while the deadline lasts."""
+        rest = iter(items)
+        while part := list(islice(rest, _SLICE)):
+            yield from part
+            self.deadline.check()
+
+    def each(self, parts: Iterable[T]) -> Iterator[T]:
+        """The items, each of which takes a few milliseconds itself, while the deadline lasts."""
+        for part in parts:
+            self.deadline.check()
+            yield part
+
+    def require(self, size: float, what: str) -> None:
+        """Return if ``size`` bytes more fit into memory; ``what`` says whose they are.
+
+        Raises:
+            LimitReachedError: they don't.
+        """
+        try:
+            self.deadline.require(size)
+        except LimitReachedError as error:
+            raise LimitReachedError(error.reason, what) from None
+
+
+def within_limits(
+    load: Callable[[Work], T], deadline: Deadline | None = None, on_progress: OnProgress | None = None
+) -> T:
+    """What ``load`` makes.
+
+    Raises:
+        LimitReachedError: a limit came first, or memory is used up; it says what was being done.
+    """
+    work = Work(deadline, on_progress)
+    try:
+        return load(work)
+    except LIMITS as error:
+        reason = limit_reason(error)
+        doing = error.doing if isinstance(error, LimitReachedError) else None
+    # Raised out here, where nothing refers to what was made so far, and all of it can go.
+    raise LimitReachedError(reason, doing or f"reading the task ({work.doing})")
+
+
+def about(number: int) -> str:
+    """An estimate for people: ``4,477,456``, or ``10^28`` where it is longer than a line."""
+    return f"{number:,}" if number < _LONG else f"10^{len(str(number)) - 1}"

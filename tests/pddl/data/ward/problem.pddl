@@ -1,0 +1,10 @@
+(define (problem morning)
+  (:domain ward)
+  (:objects eva - nurse carta - cart w1 w2 hall - place linen - sheet aspirin - pill mia leo - patient)
+  (:init
+    (at eva hall) (at carta store) (at mia w1) (at leo w2) (lies linen store) (lies aspirin hall)
+    (link store hall) (link hall w1) (link hall w2) (noisy) (not (closed hall)) (closed w2)
+    (= (total-cost) 0) (= (far store hall) 3) (= (far hall store) 3)
+    (= (far hall w1) 1) (= (far w1 hall) 1) (= (far w2 hall) 2))
+  (:goal (and (exists (?p - patient) (made ?p)) (forall (?p - patient) (or (calm ?p) (not (made ?p))))))
+  (:metric minimize (total-cost)))
