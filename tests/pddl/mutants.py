@@ -1,0 +1,331 @@
+"""PDDL files with something wrong, or something odd, in them: raw damage, and damage that still parses.
+
+A mutant is made of its number alone, so whoever has the number has the mutant.
+"""
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from random import Random
+from typing import NamedTuple
+
+from serendipity.scenarios.examples import DATA as SHIPPED
+from tests.pddl.texts import DATA
+
+TOKEN = re.compile(r"\(|\)|;[^\n]*|[^\s();]+|\s+")
+
+
+class Original(NamedTuple):
+    """Files that load, and who is who in them."""
+
+    domain: str
+    problem: str
+    human: str
+    robots: tuple[str, ...]
+
+
+class Mutant(NamedTuple):
+    """Texts, and who is who; ``changes`` says what was done."""
+
+    domain: str
+    problem: str
+    human: str
+    robots: tuple[str, ...]
+    changes: tuple[str, ...]
+
+    def write(self, folder: Path) -> tuple[Path, Path]:
+        """Write both files."""
+        files = folder / "domain.pddl", folder / "problem.pddl"
+        for file, text in zip(files, (self.domain, self.problem), strict=True):
+            file.write_bytes(text.encode("utf-8", "surrogateescape"))
+        return files
+
+
+def _original(folder: Path, problem: str, human: str, *robots: str) -> Original:
+    texts = [(folder / name).read_text() for name in ("domain.pddl", f"{problem}.pddl")]
+    return Original(texts[0], texts[1], human, robots)
+
+
+ORIGINALS = (
+    _original(DATA / "office", "problem", "ann", "bot"),
+    _original(DATA / "ward", "problem", "eva", "carta"),
+    _original(DATA / "delivery", "problem", "w"),
+    _original(SHIPPED / "usar", "room2", "commx", "robot"),
+)
+
+NOISE = (
+    *(
+        "(",
+        ")",
+        "?",
+        "-",
+        ";",
+        "=",
+        ":",
+        "\n",
+        "\r",
+        "\t",
+        "\x00",
+        "\x1b[2J",
+        "\u202e",
+        "\ufeff",
+        "é",
+        "İ",
+        "ſ",
+        "\x85",
+    ),
+    *(
+        "(and",
+        "(or",
+        "(not (",
+        "forall",
+        "(= ",
+        "1e9",
+        "0.",
+        "-1",
+        "1e-400",
+        "9" * 40,
+        "noop",
+        "object",
+        "either",
+    ),
+)
+
+ODD = (
+    *("(and)", "(or)", "()", "(not (and))", "(= {x} {y})", "(not (= {x} {y}))", "(total-cost)", "(noop)"),
+    *(
+        "(forall (?z) {f})",
+        "(exists (?z) {f})",
+        "(forall (?z - {t}) (exists (?u - {t}) {f}))",
+        "(imply {f} {g})",
+    ),
+    *(
+        "(or {f} {g})",
+        "(not {f})",
+        "(not (or {f} (not {g})))",
+        "(when {f} {g})",
+        "(when (or {f} {g}) (not {g}))",
+    ),
+    *(
+        "(forall (?z - {t}) (when {f} {g}))",
+        "(and {f} {g} {f})",
+        "(increase (total-cost) {n})",
+        "(and {f} (not {f}))",
+    ),
+    *(
+        "(increase (total-cost) (total-cost))",
+        "(= (total-cost) {n})",
+        "(at 5 {f})",
+        "(preference p {f})",
+        "(> {n} 1)",
+    ),
+    *(
+        "(forall (?a ?b ?c ?d ?e ?f - {t}) {f})",
+        "(exists (?a ?b ?c ?d ?e ?f - {t}) (or {f} (= ?a ?b) (= ?c ?f)))",
+    ),
+    *(
+        "(:action noop :parameters () :effect {f})",
+        "(:requirements :adl {w})",
+        "(:private {x} {f})",
+        "(either {t} {t})",
+    ),
+)
+"""Groups to put in: ``f``, ``g`` stand for groups of the file, the others for words, types and a number."""
+
+LEGAL = (
+    *(
+        "(or {f} {g})",
+        "(not {f})",
+        "(imply {g} {f})",
+        "(not (and {f} (not {g})))",
+        "(and {f} (or {g} (not {g})))",
+    ),
+    *(
+        "(exists (?z - {t}) {f})",
+        "(forall (?z ?u - {t}) (or {f} {g}))",
+        "(forall (?z - {t}) (imply {g} {f}))",
+    ),
+    *(
+        "(or (and {f} {g}) (and (not {f}) (not {g})))",
+        "(and {f} {g})",
+        "(exists (?z - {t}) (and {f} (= ?z ?z)))",
+    ),
+)
+"""Conditions that are legal where ``f`` is."""
+
+SECTION = re.compile(r":(precondition|goal)\b.*?(?=:effect|:metric|:precondition|\Z)", re.DOTALL)
+ATOM = re.compile(r"\((?!and\b|or\b|not\b|total-cost)[\w-]+(\s+[?\w-]+)*\)")
+
+
+def mutant(number: int) -> Mutant:
+    """The mutant of a number: one to four changes, raw ones or such of whole tokens and groups."""
+    random = Random(number)
+    original = random.choice(ORIGINALS)
+    texts = [original.domain, original.problem]
+    changes = []
+    for _ in range(random.choice((1, 1, 1, 2, 3, 4))):
+        file = random.randrange(2)
+        change = random.choice(RAW if random.random() < 0.25 else MEANT)
+        texts[file] = change(texts[file], random)
+        changes.append(change.__name__.strip("_"))
+    return Mutant(texts[0], texts[1], original.human, original.robots, tuple(changes))
+
+
+def _cut(text: str, random: Random) -> str:
+    start, end = _piece(text, random)
+    return text[:start] + text[end:]
+
+
+def _double(text: str, random: Random) -> str:
+    start, end = _piece(text, random)
+    return text[:end] + text[start:end] + text[end:]
+
+
+def _move(text: str, random: Random) -> str:
+    start, end = _piece(text, random)
+    rest = text[:start] + text[end:]
+    place = random.randint(0, len(rest))
+    return rest[:place] + text[start:end] + rest[place:]
+
+
+def _noise(text: str, random: Random) -> str:
+    place = random.randint(0, len(text))
+    return text[:place] + random.choice(NOISE) + text[place:]
+
+
+def _piece(text: str, random: Random) -> tuple[int, int]:
+    start = random.randint(0, len(text))
+    return start, min(len(text), start + random.choice((1, 1, 2, 5, 20, 200)))
+
+
+def _without_token(text: str, random: Random) -> str:
+    tokens, places = _tokens(text)
+    del tokens[random.choice(places)]
+    return "".join(tokens)
+
+
+def _token_twice(text: str, random: Random) -> str:
+    tokens, places = _tokens(text)
+    place = random.choice(places)
+    tokens[place] = f"{tokens[place]} {tokens[place]}"
+    return "".join(tokens)
+
+
+def _other_word(text: str, random: Random) -> str:
+    """A word of the file in place of another."""
+    tokens, places = _tokens(text)
+    words = [i for i in places if tokens[i] not in "()"]
+    tokens[random.choice(words)] = tokens[random.choice(words)]
+    return "".join(tokens)
+
+
+def _swapped_words(text: str, random: Random) -> str:
+    tokens, places = _tokens(text)
+    words = [i for i in places if tokens[i] not in "()"]
+    a, b = random.choice(words), random.choice(words)
+    tokens[a], tokens[b] = tokens[b], tokens[a]
+    return "".join(tokens)
+
+
+def _without_group(text: str, random: Random) -> str:
+    start, end = random.choice(_groups(text))
+    return text[:start] + text[end:]
+
+
+def _group_twice(text: str, random: Random) -> str:
+    start, end = random.choice(_groups(text))
+    return text[:end] + " " + text[start:end] + text[end:]
+
+
+def _other_group(text: str, random: Random) -> str:
+    """A group of the file in place of another."""
+    (start, end), (other, stop) = random.choice(_groups(text)), random.choice(_groups(text))
+    return text[:start] + text[other:stop] + text[end:]
+
+
+def _odd_group(text: str, random: Random) -> str:
+    """A construct around a group, or in place of one."""
+    groups = _groups(text)
+    small = [group for group in groups if group[1] - group[0] < 80] or groups
+    start, end = random.choice(small)
+    other, stop = random.choice(small)
+    tokens, places = _tokens(text)
+    words = [tokens[i] for i in places if tokens[i] not in "()"]
+    parts = {
+        "f": text[start:end],
+        "g": text[other:stop],
+        "x": random.choice(words),
+        "y": random.choice(words),
+        "w": random.choice(words),
+        "t": random.choice([*_types(text), "object"]),
+        "n": random.choice(("0", "2", "-1", "0.5", "1e3")),
+    }
+    return text[:start] + random.choice(ODD).format(**parts) + text[end:]
+
+
+def _conditions(text: str, random: Random) -> str:
+    """A construct that is legal there in place of an atom of a condition, made of it and its neighbours."""
+    sections = list(SECTION.finditer(text)) or [None]
+    section = random.choice(sections)
+    first, last = (0, len(text)) if section is None else section.span()
+    atoms = [(a, b) for a, b in _groups(text) if first <= a and b <= last and ATOM.fullmatch(text[a:b])]
+    if not atoms:
+        return _odd_group(text, random)
+    (start, end), (other, stop) = random.choice(atoms), random.choice(atoms)
+    kind = random.choice([*_types(text), "object"])
+    form = random.choice(LEGAL).format(f=text[start:end], g=text[other:stop], t=kind)
+    return text[:start] + form + text[end:]
+
+
+def _new_number(text: str, random: Random) -> str:
+    numbers = [*re.finditer(r"(?<=[\s(])-?\d+\.?\d*(?=[\s)])", text)]
+    if not numbers:
+        return _other_word(text, random)
+    found = random.choice(numbers)
+    number = random.choice(("0", "-1", "0.1", "1e5", "1e99", "1/3", "x", "7"))
+    return text[: found.start()] + number + text[found.end() :]
+
+
+def _many_objects(text: str, random: Random) -> str:
+    """More of what there is: larger tasks."""
+    typed = [*re.finditer(r"([\w-]+) - ([\w-]+)", text)]
+    if not typed:
+        return _other_word(text, random)
+    found = random.choice(typed)
+    name, kind = found.groups()
+    more = " ".join(f"{name}{i}" for i in range(random.choice((2, 5, 12))))
+    return f"{text[: found.start()]}{name} {more} - {kind}{text[found.end() :]}"
+
+
+def _tokens(text: str) -> tuple[list[str], list[int]]:
+    """All of a text in pieces, and which of them are neither blanks nor comments."""
+    tokens = TOKEN.findall(text)
+    return tokens, [i for i, token in enumerate(tokens) if not token.isspace() and token[0] != ";"] or [0]
+
+
+def _groups(text: str) -> list[tuple[int, int]]:
+    """Where the bracketed groups of a text are; the whole of it where there is none."""
+    return [*_closed(text)] or [(0, len(text))]
+
+
+def _closed(text: str) -> Iterator[tuple[int, int]]:
+    opened: list[int] = []
+    for found in TOKEN.finditer(text):
+        if found.group() == "(":
+            opened.append(found.start())
+        elif found.group() == ")" and opened:
+            yield opened.pop(), found.end()
+
+
+def _types(text: str) -> list[str]:
+    return re.findall(r"- ([\w-]+)", text)
+
+
+Change = Callable[[str, Random], str]
+
+RAW: tuple[Change, ...] = (_cut, _double, _move, _noise)
+
+MEANT: tuple[Change, ...] = (
+    *(_without_token, _token_twice, _other_word, _swapped_words, _without_group, _group_twice, _other_group),
+    *(_odd_group, _odd_group, _new_number, _many_objects, *[_conditions] * 12),
+)
