@@ -93,7 +93,7 @@ class _Compiled:
     def _fact(self, disjunction: Disjunction) -> int:
         """A new fact that says whether the disjunction holds."""
         fact = len(self.task.facts) + len(self.extra)
-        name = "either " + " or ".join(map(self._text, disjunction))
+        name = f"either {' or '.join(map(self._text, disjunction))} holds"
         polled = self.work.polled
         making = [i for i, action in enumerate(polled(self.actions)) if _makes(action, disjunction, True)]
         changing = [i for i, action in enumerate(polled(self.actions)) if _makes(action, disjunction, False)]

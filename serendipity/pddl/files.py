@@ -3,6 +3,7 @@
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import TextIOWrapper
 from os import PathLike
 from pathlib import Path
 from re import compile as regex
@@ -48,7 +49,7 @@ def read_text(path: PathArgument, work: Work | None = None) -> str:
         InputError: it is missing, can't be read, or is not text.
     """
     try:
-        text = _decoded(_read(path, work or Work()))
+        return _read(path, work or Work())
     except FileNotFoundError:
         raise InputError("there is no such file", path) from None
     except UnicodeDecodeError:
@@ -57,30 +58,27 @@ def read_text(path: PathArgument, work: Work | None = None) -> str:
         raise InputError(f"the file can't be read: {(error.strerror or str(error)).lower()}", path) from None
     except ValueError as error:
         raise InputError(f"not the name of a file: {error}", path) from None
-    if "\r" in text:
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-    control = _CONTROL.search(text)
-    if control is not None:
-        line = text.count("\n", 0, control.start()) + 1
-        raise InputError("the file is not text: it has control characters", path, line)
-    return text
 
 
-def _read(path: PathArgument, work: Work) -> bytes:
-    """The bytes of a file, as long as what is made of them fits into memory."""
-    parts = []
-    with Path(path).open("rb", buffering=0) as file:
-        while part := file.read(_CHUNK):
+def _read(path: PathArgument, work: Work) -> str:
+    """The text of a file, as long as what is made of it fits into memory.
+
+    It is UTF-8, or with a byte order mark UTF-16, as Windows' shells write it.
+    """
+    parts: list[str] = []
+    with Path(path).open("rb") as file:
+        marked = file.peek(2)[:2] in (BOM_UTF16_LE, BOM_UTF16_BE)
+        text = TextIOWrapper(file, "utf-16" if marked else "utf-8-sig")
+        while part := text.read(_CHUNK):
+            control = _CONTROL.search(part)
+            if control is not None:
+                line = "".join((*parts, part[: control.start()])).count("\n") + 1
+                raise InputError("the file is not text: it has control characters", path, line)
             parts.append(part)
             work.deadline.check()
             if not len(parts) % _MANY:
                 work.require(len(parts) * _CHUNK * _BYTES_PER_CHARACTER, f"reading {path}")
-    return b"".join(parts)
-
-
-def _decoded(data: bytes) -> str:
-    """The text of some bytes: UTF-8, or with a byte order mark UTF-16, as Windows' shells write it."""
-    return data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+    return "".join(parts)
 
 
 @contextmanager

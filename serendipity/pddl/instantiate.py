@@ -19,6 +19,7 @@ from serendipity.pddl.lifted import Key, Schema, Unit
 from serendipity.pddl.normal import Operator, operator
 from serendipity.pddl.product import Product
 from serendipity.pddl.quantifiers import ground_key
+from serendipity.pddl.tree import quoted
 from serendipity.pddl.work import Work, about
 
 Participants = Callable[[Sequence[Key]], Iterable[tuple[int, ...]]]
@@ -72,6 +73,7 @@ class Instantiator:
             InputError: there are too many cases.
             LimitReachedError: there are more ground actions than fit into memory.
         """
+        self.work.doing = f"grounding action {quoted(schema.name)}, {self._count:,} ground actions so far"
         lifted = operator(schema, unit, self.work)
         product = bindings(lifted, unit, self.relations, self.work)
         if lifted.choices:  # static ones have been decided

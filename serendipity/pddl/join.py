@@ -12,7 +12,7 @@ from typing import Any, Final
 
 from serendipity.pddl.lifted import EQUALITY, Formula, Key, Literal, Unit
 from serendipity.pddl.normal import Disjuncts, Operator
-from serendipity.pddl.product import Product, Row, Table, united
+from serendipity.pddl.product import Product, Row, Table, combined
 from serendipity.pddl.quantifiers import literals, substitute, variables
 from serendipity.pddl.work import Work, about
 
@@ -119,15 +119,16 @@ class _Join:
         self.tables.append(table)
         self.bound.update(table.variables)
 
-    def _taken(self, terms: Iterable[str]) -> Table:
-        """The tables that some terms are in, taken out and made one."""
+    def _taken(self, terms: Iterable[str]) -> tuple[tuple[str, ...], Iterable[Row]]:
+        """The tables that some terms are in, taken out and combined."""
         wanted = frozenset(terms)
         taken = [table for table in self.tables if not wanted.isdisjoint(table.variables)]
         self.tables = [table for table in self.tables if wanted.isdisjoint(table.variables)]
         width = sum(len(table.variables) for table in taken)
         if len(taken) > 1:
             self._require(prod(len(table.rows) for table in taken), width)
-        return united(taken, self.work.polled)
+        names, rows = combined(taken)
+        return names, self.work.polled(rows)
 
     def _require(self, rows: int, width: int) -> None:
         if rows > _MANY:
@@ -149,7 +150,8 @@ class _Join:
         return chosen.key
 
     def _join(self, pattern: Key) -> None:
-        table = self._taken(pattern[1:])
+        names, rows = self._taken(pattern[1:])
+        table = Table(names, list(rows))
         old: list[int] = []  # positions in the atom that the row or a constant decides
         source: list[int] = []
         fixed: list[tuple[int, str]] = []
@@ -196,7 +198,7 @@ class _Join:
                 self.filters.remove(formula)
                 names, rows = self._taken(terms)
                 passes = self._test(formula, names)
-                self._add(Table(names, [row for row in self.work.polled(rows) if passes(row)]))
+                self._add(Table(names, [row for row in rows if passes(row)]))
 
     def _test(self, formula: Formula, names: tuple[str, ...]) -> Callable[[Row], bool]:
         """Whether a static condition holds for the values of some variables."""

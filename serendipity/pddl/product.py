@@ -4,7 +4,7 @@ A literal that has only some of the variables stands for few ground atoms, howev
 bindings there are: each is made once and then looked up.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import repeat
 from math import prod
 from typing import NamedTuple
@@ -23,14 +23,18 @@ class Table(NamedTuple):
     rows: list[Row]
 
 
-def united(tables: Iterable[Table], polled: Callable[[Iterable[Row]], Iterable[Row]] = iter) -> Table:
-    """One table of all combinations of the rows of several; ``polled`` passes rows on, as long as it may."""
+def combined(tables: Iterable[Table]) -> tuple[tuple[str, ...], Iterable[Row]]:
+    """The variables of several tables, and all combinations of their rows, made one by one."""
     variables: tuple[str, ...] = ()
-    rows: list[Row] = [()]
+    rows: Iterable[Row] = [()]
     for table in tables:
         variables += table.variables
-        rows = list(polled(row + more for row in rows for more in table.rows))
-    return Table(variables, rows)
+        rows = _each_with(rows, table.rows)
+    return variables, rows
+
+
+def _each_with(rows: Iterable[Row], others: list[Row]) -> Iterator[Row]:
+    return (row + other for row in rows for other in others)
 
 
 class Product:

@@ -95,16 +95,33 @@ def read_tree(text: str, work: Work) -> Node:
 
 
 def _tokens(text: str, work: Work) -> Iterator[list[str]]:
-    """The words, brackets and ends of lines, some whole lines at a time."""
-    start = 0
-    while start < len(text):
-        end = text.find("\n", start + _CHUNK) + 1 or len(text)
-        part = text[start:end].lower()
-        if ";" in part:
-            part = _COMMENT.sub("", part)
-        yield _TOKEN.findall(part)
+    """The words, brackets and ends of lines, some thousand at a time."""
+    for part in _parts(text):
+        lower = part.lower()
+        yield _TOKEN.findall(_COMMENT.sub("", lower) if ";" in lower else lower)
         work.deadline.check()
+
+
+def _parts(text: str) -> Iterator[str]:
+    """A text in parts that end with a line, or within a very long line behind a bracket of no comment."""
+    start, newline, comment = 0, -1, -1
+    while start < len(text):
+        if newline < start + _CHUNK:
+            newline = _find(text, "\n", start + _CHUNK)
+        if comment < start:
+            comment = _find(text, ";", start)
+        end = newline + 1
+        if end > start + 2 * _CHUNK:
+            bracket = _find(text, ")", start + _CHUNK)
+            end = bracket + 1 if bracket < min(newline, comment) else end
+        yield text[start:end]
         start = end
+
+
+def _find(text: str, what: str, start: int) -> int:
+    """Where something is found from ``start`` on; the length of the text where it is not."""
+    found = text.find(what, start)
+    return len(text) if found < 0 else found
 
 
 def expected(what: str, node: Node, i: int) -> InputError:

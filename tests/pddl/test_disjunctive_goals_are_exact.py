@@ -115,7 +115,7 @@ def test_values_of_one_variable_are_none_of_the_others() -> None:
 def test_what_is_never_undone_may_be_done_by_anybody() -> None:
     task = check([GO, SET], "(at h o1) (at r o1)", [(("on h o2", True), ("on r o1", True))])
     assert task is not None
-    assert [task.facts[i] for i in task.goal.positive] == ["either on h o2 or on r o1"]
+    assert [task.facts[i] for i in task.goal.positive] == ["either on h o2 or on r o1 holds"]
 
 
 def test_what_one_agent_does_and_undoes() -> None:
@@ -154,7 +154,7 @@ def test_robots_may_have_disjunctive_goals(tmp_path: Path) -> None:
     own = domain(action("add", "(and)", "(p)", ""))
     robots = domain(action("do", "(and)", "(a ?x)", "?x - thing"))
     task = two(tmp_path, (own, problem()), (robots, problem("", "(or (a o1) (a o2))")), human="h")
-    assert [task.facts[i] for i in task.robot_goal.positive] == ["either a o1 or a o2"]
+    assert [task.facts[i] for i in task.robot_goal.positive] == ["either a o1 or a o2 holds"]
     result = plan(task)
     assert result.status == "optimal"
     assert len(result.plan or ()) == 2

@@ -5,7 +5,7 @@ from itertools import combinations, product
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity.pddl.product import Product, Table, united
+from serendipity.pddl.product import Product, Table, combined
 
 
 @st.composite
@@ -30,7 +30,9 @@ def enumerated(found: list[Table]) -> list[dict[str, str]]:
 def test_bindings_are_all_combinations(found: list[Table]) -> None:
     bindings = Product(found)
     assert [*bindings] == enumerated(found)
-    assert bindings.size == len(enumerated(found)) == len(united(found).rows)
+    variables, rows = combined(found)
+    assert [dict(zip(variables, row, strict=True)) for row in rows] == enumerated(found)
+    assert bindings.size == len(enumerated(found))
 
 
 @given(tables())
