@@ -1,7 +1,7 @@
 """United files to a task: ground once, prune, number the facts."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
@@ -80,22 +80,7 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
         if not goal:
             blueprint.warnings.append(_no_goal(blueprint))
         facts, blocks = _grounded(blueprint, relations, work)
-        for literal in chain.from_iterable(one.named() for one in (goal, *robot_goals)):
-            _ = facts[literal.key]  # has an id from here on
-        init = {facts[key] for key in relations.init if key in facts}
-        work.stage("finding out which actions can be executed")
-        blocks = executable(blocks, init, work)
-        count = sum(map(len, blocks))
-        size = count * _BYTES[0] + len(facts) * _BYTES[1]
-        work.require(size, f"reading the task ({count:,} ground actions)")
-        work.stage(f"numbering {count:,} ground actions")
-        changes = Changes(facts, init, blocks, work)
-        for one in (goal, *robot_goals):
-            one.simplify(lambda literal: changes.truth(facts[literal.key], literal.positive))
-        for one in robot_goals:
-            one.leave_out(goal)
-        named = [facts[literal.key] for one in (goal, *robot_goals) for literal in one.named()]
-        numbering = Numbering(facts, init, blocks, changes, named, work)
+        numbering = _numbered(facts, blocks, relations, goal, robot_goals, work)
         task = Task(
             name=blueprint.name,
             agents=blueprint.agents,
@@ -159,6 +144,34 @@ def _owned(blocks: Iterable[Block], blueprint: Blueprint, work: Work) -> list[Bl
     return owned
 
 
+def _numbered(
+    facts: dict[Key, int],
+    blocks: Iterable[Block],
+    relations: Relations,
+    goal: Goal,
+    robot_goals: Sequence[Goal],
+    work: Work,
+) -> Numbering:
+    """What can be executed, in its final order; goals lose what is known of them."""
+    goals = (goal, *robot_goals)
+    for literal in chain.from_iterable(one.named() for one in goals):
+        _ = facts[literal.key]  # has an id from here on
+    init = {facts[key] for key in relations.init if key in facts}
+    work.stage("finding out which actions can be executed")
+    left = executable(blocks, init, work)
+    count = sum(map(len, left))
+    size = count * _BYTES[0] + len(facts) * _BYTES[1]
+    work.require(size, f"reading the task ({count:,} ground actions)")
+    work.stage(f"numbering {count:,} ground actions")
+    changes = Changes(facts, init, left, work)
+    for one in goals:
+        one.simplify(lambda literal: changes.truth(facts[literal.key], literal.positive))
+    for one in robot_goals:
+        one.leave_out(goal)
+    named = [facts[literal.key] for one in goals for literal in one.named()]
+    return Numbering(facts, init, left, changes, named, work)
+
+
 def _actions(numbering: Numbering, blueprint: Blueprint) -> list[GroundAction]:
     try:
         return numbering.actions()
@@ -176,7 +189,7 @@ def _settled(task: Task, numbering: Numbering, goal: Goal, robot_goals: Iterable
     for one in (goal, *robot_goals):
         if one.disjunctions:
             work.stage("compiling disjunctive goals")
-            found = [tuple(map(numbering.literal, disjunction)) for disjunction in sorted(one.disjunctions)]
+            found = [tuple(map(numbering.literal, disjunction)) for disjunction in one.disjunctions]
             try:
                 task = with_disjunctions(task, found, work, robots=one is not goal)
             except NotExactError as error:

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from itertools import chain
 
 from serendipity.model import InputError
 from serendipity.pddl.join import Relations
 from serendipity.pddl.lifted import EQUALITY, And, Formula, Literal, Or, Quantified, Unit
-from serendipity.pddl.normal import MAX_CASES, Disjuncts, TooManyCasesError, consistent, require_literals
+from serendipity.pddl.normal import MAX_CASES, Disjuncts, TooManyCasesError, require_literals
 from serendipity.pddl.quantifiers import assignments, instances, negated, simplified, substitute
 from serendipity.pddl.work import Work
 
@@ -20,13 +21,13 @@ class Goal:
 
     Attributes:
         unit: the files that state it.
-        literals: what has to hold.
-        disjunctions: of each of them, one literal has to hold.
+        literals: what has to hold, in one order in every run.
+        disjunctions: of each of them, one literal has to hold; ordered as well.
     """
 
     unit: Unit
-    literals: set[Literal] = field(default_factory=set)
-    disjunctions: set[Disjunction] = field(default_factory=set)
+    literals: dict[Literal, None] = field(default_factory=dict)
+    disjunctions: dict[Disjunction, None] = field(default_factory=dict)
 
     def error(self, message: str) -> InputError:
         """An error in the goal."""
@@ -37,20 +38,20 @@ class Goal:
 
     def named(self) -> list[Literal]:
         """Every literal of it."""
-        return sorted(self.literals.union(*self.disjunctions))
+        return [*dict.fromkeys(chain(self.literals, *self.disjunctions))]
 
     def leave_out(self, other: "Goal") -> None:
         """Leave out what another goal asks for as well."""
-        self.literals -= other.literals
-        self.disjunctions -= other.disjunctions
+        self.literals = {one: None for one in self.literals if one not in other.literals}
+        self.disjunctions = {one: None for one in self.disjunctions if one not in other.disjunctions}
 
     def simplify(self, truth: Callable[[Literal], bool | None]) -> None:
         """Drop from disjunctions what is known, by ``truth`` in all states or by what has to hold."""
         known = -1
         while known < len(self.literals):
             known = len(self.literals)
-            open_, self.disjunctions = sorted(self.disjunctions), set()
-            for disjunction in open_:
+            pending, self.disjunctions = self.disjunctions, {}
+            for disjunction in pending:
                 self._add(disjunction, truth)
 
     def _add(self, disjunction: Disjunction, truth: Callable[[Literal], bool | None]) -> None:
@@ -59,9 +60,9 @@ class Goal:
             return
         rest = tuple(lit for lit, value in zip(disjunction, known, strict=True) if value is None)
         if len(rest) > 1:
-            self.disjunctions.add(rest)
+            self.disjunctions[rest] = None
         else:  # where nothing is left, a literal that never holds says that the goal can't be reached
-            self.literals.add(min(rest or disjunction))
+            self.literals[min(rest or disjunction)] = None
 
     def _known(self, literal: Literal, truth: Callable[[Literal], bool | None]) -> bool | None:
         if literal in self.literals:
@@ -84,7 +85,8 @@ def read_goal(unit: Unit, relations: Relations, work: Work) -> Goal:
     place = f"{unit.problem_file}:{unit.problem.goal_line}: goal"
     require_literals(instances(formula, unit), place, work)
     reader.collect(formula)
-    if not consistent(reader.goal.literals):
+    literals = reader.goal.literals
+    if any(not literal.positive and literal.opposite in literals for literal in work.polled(literals)):
         raise reader.never()
     return reader.goal
 
@@ -104,7 +106,7 @@ class _Reader:
         match formula:
             case Literal(key):
                 if key[0] != EQUALITY:
-                    self.goal.literals.add(formula)
+                    self.goal.literals[formula] = None
                 elif not self.relations.holds(formula, key):
                     raise self.never()
             case And(parts) | Or((_,) as parts):
@@ -129,6 +131,6 @@ class _Reader:
             if not disjunction:
                 raise self.never()
             if len(disjunction) == 1:
-                self.goal.literals.update(disjunction)
+                self.goal.literals[disjunction[0]] = None
             else:
-                self.goal.disjunctions.add(disjunction)
+                self.goal.disjunctions[disjunction] = None

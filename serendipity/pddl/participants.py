@@ -16,11 +16,12 @@ def by_owner(agent: int) -> Participants:
 
 def by_arguments(agents: Sequence[str]) -> Participants:
     """The agents among the arguments; nobody where there is none."""
+    numbers = {name: i for i, name in enumerate(agents)}
     everyone = frozenset(agents)
 
     @cache
     def ids(present: frozenset[str]) -> tuple[int, ...]:
-        return tuple([i for i, name in enumerate(agents) if name in present])
+        return tuple(sorted(map(numbers.__getitem__, present)))
 
     return lambda keys: [ids(everyone.intersection(key[1:])) for key in keys]
 

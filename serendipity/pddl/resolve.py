@@ -87,7 +87,9 @@ def _signatures(section: Node, what: str, types: Types, work: Work) -> dict[str,
     found: dict[str, tuple[Type, ...]] = {}
     for name, line, parameters in work.polled(signatures(section, what)):
         with naming(f"{what} {quoted(name)}"):
-            signature = tuple(p.type for p in Scope(types, {}, {}, {}, work).parameters(parameters))
+            for typed in parameters:
+                check_type(typed.type, types, typed.line)
+        signature = tuple(typed.type for typed in parameters)
         if found.setdefault(name, signature) != signature:
             raise InputError(f"{what} {quoted(name)} is declared twice, in different ways", line=line)
     return found

@@ -186,6 +186,11 @@ def test_a_goal_that_can_be_false_by_equality_alone(tmp_path: Path) -> None:
         one(tmp_path, text, problem(goal="(= o1 o2)"))
 
 
+def test_names_of_a_predicates_parameters_mean_nothing(tmp_path: Path) -> None:
+    text = domain(action("go", "(twice ?who ?who)", "(p)"), predicates="(p) (twice ?x ?x - agent)")
+    assert len(one(tmp_path, text, problem("(twice h h) (twice r h)")).actions) == 1
+
+
 def test_unreachable_goal_is_no_error(tmp_path: Path) -> None:
     task = one(tmp_path, domain(action("go", "(q)", "(r)")), problem(init="(q)"))
     assert [task.facts[f] for f in task.goal.positive] == ["p"]
