@@ -12,7 +12,6 @@ from typing import Final
 from search import prepare
 from serendipity import pddl
 from serendipity.model import Deadline
-from serendipity.model.collection import no_collection
 from serendipity.model.options import limit_of
 from serendipity.model.task import Task
 from serendipity.pddl.files import PathArgument
@@ -101,5 +100,4 @@ def _ready(task: Task, limits: Deadline, on_progress: OnProgress | None) -> Task
 
 def _prepare(task: Task, work: Work) -> None:
     work.stage(f"preparing {len(task.actions):,} ground actions")
-    with no_collection():  # beside a large task a collection takes longer than a short limit
-        prepare(task, deadline=work.deadline)
+    prepare(task, deadline=work.deadline)

@@ -9,7 +9,6 @@ from typing import Final
 
 from serendipity.model import GroundAction, InputError, Task
 from serendipity.model.actions import NOOP
-from serendipity.model.collection import no_collection
 from serendipity.pddl.blocks import Block
 from serendipity.pddl.disjunctive import NotExactError, with_disjunctions
 from serendipity.pddl.goals import Goal, read_goal
@@ -72,28 +71,27 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
         InputError: costs, goals or conditions that are not supported.
         LimitReachedError: a limit came first, or memory is used up.
     """
-    with no_collection():  # grounding makes many tuples
-        relations = _relations(blueprint.sources)
-        work.stage("reading the goal")
-        goal = read_goal(blueprint.goals, relations, work)
-        robot_goals = [read_goal(unit, relations, work) for unit in blueprint.robot_goals]
-        if not goal:
-            blueprint.warnings.append(_no_goal(blueprint))
-        facts, blocks = _grounded(blueprint, relations, work)
-        numbering = _numbered(facts, blocks, relations, goal, robot_goals, work)
-        task = Task(
-            name=blueprint.name,
-            agents=blueprint.agents,
-            human=blueprint.human,
-            facts=numbering.names,
-            init=numbering.init,
-            goal=numbering.condition(goal.literals),
-            actions=tuple(_actions(numbering, blueprint)),
-            robot_goal=numbering.condition(chain.from_iterable(one.literals for one in robot_goals)),
-            warnings=tuple(blueprint.warnings),
-            waiting=frozenset(numbering.waiting),
-        )
-        return _settled(task, numbering, goal, robot_goals, work)
+    relations = _relations(blueprint.sources)
+    work.stage("reading the goal")
+    goal = read_goal(blueprint.goals, relations, work)
+    robot_goals = [read_goal(unit, relations, work) for unit in blueprint.robot_goals]
+    if not goal:
+        blueprint.warnings.append(_no_goal(blueprint))
+    facts, blocks = _grounded(blueprint, relations, work)
+    numbering = _numbered(facts, blocks, relations, goal, robot_goals, work)
+    task = Task(
+        name=blueprint.name,
+        agents=blueprint.agents,
+        human=blueprint.human,
+        facts=numbering.names,
+        init=numbering.init,
+        goal=numbering.condition(goal.literals),
+        actions=tuple(_actions(numbering, blueprint)),
+        robot_goal=numbering.condition(chain.from_iterable(one.literals for one in robot_goals)),
+        warnings=tuple(blueprint.warnings),
+        waiting=frozenset(numbering.waiting),
+    )
+    return _settled(task, numbering, goal, robot_goals, work)
 
 
 def _relations(sources: Iterable[Source]) -> Relations:

@@ -5,6 +5,7 @@ from itertools import islice
 from typing import Final, TypeVar
 
 from serendipity.model import Deadline, LimitReachedError
+from serendipity.model.collection import no_collection
 from serendipity.model.errors import LIMITS, limit_reason
 
 T = TypeVar("T")
@@ -78,7 +79,8 @@ def within_limits(
     """
     work = Work(deadline, on_progress)
     try:
-        return load(work)
+        with no_collection():  # reading makes many tuples, beside which a collection takes long
+            return load(work)
     except LIMITS as error:
         reason = limit_reason(error)
         doing = error.doing if isinstance(error, LimitReachedError) else None
