@@ -5,7 +5,7 @@ make sense (distances between neighbours, say).  So what is wrong with a cost is
 actions that can be executed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
@@ -38,42 +38,45 @@ Cost = Fraction | BadCost
 
 
 class Costs:
-    """The costs of the actions of one schema.
+    """The costs of ground actions.
 
     Args:
-        schema: the action.
-        unit: its files.
         values: of function terms.
     """
 
-    def __init__(self, schema: Schema, unit: Unit, values: dict[Key, Fraction]) -> None:
-        self._unit = unit
-        self._line = schema.line
+    def __init__(self, values: dict[Key, Fraction]) -> None:
         self._values = values
-        self._bad: dict[str, BadCost] = {}
-        self._constant: Fraction | None = ONE if not unit.priced else _sum(schema.increases)
-        self._increases = schema.increases
+        self._bad: dict[tuple[str, str, int], BadCost] = {}
 
-    def of(self, product: Product) -> list[Cost]:
-        """The costs for some bindings."""
-        if self._constant is not None:
-            return [self._constant] * product.size
-        return [self._one(values) for values in product]
+    def of(self, schema: Schema, unit: Unit, product: Product) -> list[Cost]:
+        """The costs of the actions of a schema, for some bindings."""
+        if not unit.priced:
+            return [ONE] * product.size
+        increases = schema.increases
+        if len(increases) == 1 and isinstance(increases[0], Fraction):
+            return [increases[0]] * product.size
+        if all(isinstance(value, Fraction) for value in increases):
+            return [self._sum(increases, {})] * product.size
+        return [self._cost(schema, unit, values) for values in product]
 
-    def _one(self, values: dict[str, str]) -> Cost:
+    def _cost(self, schema: Schema, unit: Unit, values: dict[str, str]) -> Cost:
         try:
-            cost = sum([self._value(e, values) for e in self._increases], NOTHING)
+            cost = self._sum(schema.increases, values)
         except ZeroDivisionError:
-            return self._told("division by zero in its cost")
+            problem = "division by zero in its cost"
         except KeyError as missing:
-            return self._told(f"no initial value of {quoted(' '.join(missing.args[0]))} for its cost")
-        if cost < 0:
-            return self._told(f"expected a cost of at least 0, got {float(cost):g}")
-        return cost
+            problem = f"no initial value of {quoted(' '.join(missing.args[0]))} for its cost"
+        else:
+            if cost >= 0:
+                return cost
+            problem = f"expected a cost of at least 0, got {float(cost):g}"
+        # One object for each problem: there may be very many actions that have it.
+        return self._bad.setdefault(
+            (problem, unit.domain_file, schema.line), BadCost(problem, unit, schema.line)
+        )
 
-    def _told(self, problem: str) -> BadCost:
-        """One object for each problem: there may be very many actions that have it."""
-        return self._bad.setdefault(problem, BadCost(problem, self._unit, self._line))
+    def _sum(self, increases: Iterable[Expression], values: dict[str, str]) -> Fraction:
+        return sum([self._value(expression, values) for expression in increases], NOTHING)
 
     def _value(self, expression: Expression, values: dict[str, str]) -> Fraction:
         match expression:
@@ -82,11 +85,3 @@ class Costs:
             case Operation(operator, left, right):
                 return calculate(operator, self._value(left, values), self._value(right, values))
         return expression
-
-
-def _sum(increases: Sequence[Expression]) -> Fraction | None:
-    """The sum of constant costs; None if one depends on arguments."""
-    constant = [value for value in increases if isinstance(value, Fraction)]
-    if len(constant) < len(increases):
-        return None
-    return constant[0] if len(constant) == 1 else sum(constant, NOTHING)

@@ -11,6 +11,7 @@ from fractions import Fraction
 from itertools import chain, count
 from typing import Final
 
+from serendipity.model.errors import LIMITS
 from serendipity.pddl.blocks import Block, Column, Ids, Record, block_of
 from serendipity.pddl.cases import Cases
 from serendipity.pddl.costs import Costs
@@ -31,10 +32,10 @@ BYTES: Final = 300
 _BYTES_PER_FACT: Final = 8
 
 _SLICE: Final = 50_000
-"""Fact ids, arguments and the like in ground actions that are made at once: some milliseconds of them."""
+"""Fact ids, arguments and the like in ground actions that are made at once: some milliseconds of them.
 
-_FEW: Final = 1_000
-"""Ground actions that nobody need ask memory for."""
+Nobody need ask memory for so many.
+"""
 
 _LARGE: Final = 5_000
 """Ground actions of a block that is made of single ones."""
@@ -54,8 +55,8 @@ class Instantiator:
 
     def __init__(self, relations: Relations, values: dict[Key, Fraction], work: Work) -> None:
         self.relations = relations
-        self.values = values
         self.work = work
+        self._costs = Costs(values)
         self.facts: defaultdict[Key, int] = defaultdict(count().__next__)
         self._blocks: list[Block] = []
         self._records: list[Record] = []
@@ -73,38 +74,41 @@ class Instantiator:
             InputError: there are too many cases.
             LimitReachedError: there are more ground actions than fit into memory.
         """
-        self.work.doing = f"grounding action {quoted(schema.name)}, {self._count:,} ground actions so far"
-        lifted = operator(schema, unit, self.work)
-        product = bindings(lifted, unit, self.relations, self.work)
+        try:
+            lifted = operator(schema, unit, self.work)
+            product = bindings(lifted, unit, self.relations, self.work)
+        except LIMITS:
+            name = quoted(schema.name)
+            self.work.doing = f"grounding action {name}, {self._count:,} ground actions so far"
+            raise
         if lifted.choices:  # static ones have been decided
             open_ = tuple(c for c in lifted.choices if not self.relations.static(c))
             lifted = replace(lifted, choices=open_)
         size = 10 + len(lifted.precondition) + len(lifted.effects) + len(lifted.conditional)
-        if product.size > _FEW:
-            what = f"reading {unit.place(schema)} comes to {about(product.size)} ground actions"
-            self.work.require(product.size * (BYTES + _BYTES_PER_FACT * size), what)
-        costs = Costs(schema, unit, self.values)
+        if product.size * size <= _SLICE:
+            self._ground(lifted, unit, participants, product)
+            return
+        what = f"reading {unit.place(schema)} comes to {about(product.size)} ground actions"
+        self.work.require(product.size * (BYTES + _BYTES_PER_FACT * size), what)
         for part in product.slices(max(1, _SLICE // size)):
-            self._tell(part.size)
-            self._ground(lifted, unit, participants, part, costs)
+            self._ground(lifted, unit, participants, part)
 
     def _tell(self, more: int) -> None:
         before, self._count = self._count, self._count + more
         if not before or before // _LARGE < self._count // _LARGE:
             self.work.stage(f"grounding, {self._count:,} ground actions so far")
 
-    def _ground(
-        self, operator: Operator, unit: Unit, participants: Participants, product: Product, costs: Costs
-    ) -> None:
+    def _ground(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> None:
+        self._tell(product.size)
         if operator.conditional or operator.choices:
             cases = Cases(operator, unit, self.relations, self.facts, self.work)
-            records = self._block(operator, participants, product, costs).records()
+            records = self._block(operator, unit, participants, product).records()
             for record in self.work.polled(cases.expanded(records, product)):
                 self._add(record)
         elif product.everything:
-            self._blocks.append(self._block(operator, participants, product, costs))
+            self._blocks.append(self._block(operator, unit, participants, product))
         elif product.size:  # in files that are ground already, there is nothing else
-            self._add(self._record(operator, participants, product, costs))
+            self._add(self._record(operator, unit, participants, product))
 
     def _add(self, record: Record) -> None:
         self._records.append(record)
@@ -120,16 +124,14 @@ class Instantiator:
         """All ground actions so far."""
         return [*self._blocks, block_of(self._records)]
 
-    def _block(self, operator: Operator, participants: Participants, product: Product, costs: Costs) -> Block:
+    def _block(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Block:
         atoms = _Atoms(product, self.facts)
         keys = atoms.of(schema_key(operator), product.everything)
         pre, neg, add, delete = map(atoms.column, self._conditions(operator))
         who = [*participants(keys)]
-        return Block(keys, who, pre, neg, add, delete, costs.of(product))
+        return Block(keys, who, pre, neg, add, delete, self._costs.of(operator.schema, unit, product))
 
-    def _record(
-        self, operator: Operator, participants: Participants, product: Product, costs: Costs
-    ) -> Record:
+    def _record(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Record:
         values = product.fixed
         key = ground_key(schema_key(operator), values)
         pre, neg, add, delete = (
@@ -137,7 +139,7 @@ class Instantiator:
             for atoms in self._conditions(operator)
         )
         (who,) = participants([key])
-        (cost,) = costs.of(product)
+        (cost,) = self._costs.of(operator.schema, unit, product)
         return Record(key, who, pre, neg, add, delete, cost)
 
     def _conditions(self, operator: Operator) -> tuple[list[Key], list[Key], list[Key], list[Key]]:

@@ -97,7 +97,8 @@ class _Join:
         self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in operator.parameters}
         self.joins = [lit for lit in operator.precondition if relations.joined(lit)]
         self.filters: list[Formula] = [lit for lit in operator.precondition if relations.filtered(lit)]
-        self.filters += [choice for choice in operator.choices if relations.static(choice)]
+        if operator.choices:
+            self.filters += [choice for choice in operator.choices if relations.static(choice)]
         self.bound: set[str] = set()
         self.tables: list[Table] = []
 

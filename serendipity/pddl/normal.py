@@ -130,7 +130,6 @@ class _Needs:
     fresh: Iterator[int] = field(default_factory=count)
 
     def collect(self, formula: Formula) -> None:
-        self.work.deadline.tick()
         match formula:
             case Literal():
                 self.literals.append(formula)
@@ -143,6 +142,7 @@ class _Needs:
                 self.choices.append(formula)
             case Quantified(True, parameters, body):
                 for values in assignments(parameters, self.unit):
+                    self.work.deadline.tick()
                     self.collect(substitute(body, values))
             case Quantified(_, parameters, body):
                 renaming = {p.name: f"{p.name} {next(self.fresh)}" for p in parameters}

@@ -130,10 +130,12 @@ class Numbering:
 
     def _without_waiting(self, block: Block) -> Block:
         """The actions that ask for something, or change something; names of the others are noted."""
+        acting = []
         for record in block.records():
-            if not any(record[2:6]) and len(record.participants) == 1:
+            acting.append(any(record[2:6]))
+            if not acting[-1] and len(record.participants) == 1:
                 self.waiting.add((" ".join(record.key), record.participants[0]))
-        return block.only([any(record[2:6]) for record in block.records()])
+        return block.only(acting)
 
 
 def in_order(actions: Sequence[GroundAction]) -> list[GroundAction]:
