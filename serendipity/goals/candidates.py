@@ -77,7 +77,7 @@ def observed_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
         lines = [(canonical_name(name), None) for name in given]
     names = []
     for step, (name, line) in enumerate(lines, start=1):
-        if name in ("", "noop"):
+        if not name or (name not in task.named and task.waits(name)):
             continue
         where = f"observed action '{name}'" if file is not None else f"observed action {step}, '{name}'"
         if name not in task.named:

@@ -33,6 +33,23 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
+class Disjunction:
+    """A fact that is true iff one of some literals is.
+
+    Attributes:
+        fact: its id.
+        literals: facts, and whether each of them has to be true.
+    """
+
+    fact: int
+    literals: tuple[tuple[int, bool], ...]
+
+    def holds(self, state: State) -> bool:
+        """Whether one of the literals is true in ``state``."""
+        return any((fact in state) == positive for fact, positive in self.literals)
+
+
+@dataclass(frozen=True, slots=True)
 class GroundAction:
     """One ground action (paper, section II-A: name, cost, preconditions, effects).
 

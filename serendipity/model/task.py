@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from serendipity.model.actions import NOOP, Condition, GroundAction
+from serendipity.model.actions import NOOP, Condition, Disjunction, GroundAction
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.variables import Variable, find_variables
@@ -42,6 +42,8 @@ class Task:
         warnings: lines for the user about the input.
         waiting: names of actions of the input that only wait, each with the agent who
             does: a given plan may name them.
+        disjunctions: what those facts stand for that are not of the input; the actions
+            keep them true to it.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Task:
     robot_goal: Condition = field(default_factory=Condition)
     warnings: tuple[str, ...] = ()
     waiting: frozenset[tuple[str, int]] = frozenset()
+    disjunctions: tuple[Disjunction, ...] = ()
 
     def __post_init__(self) -> None:
         if not 0 <= self.human < len(self.agents):
@@ -144,6 +147,10 @@ class Task:
             last = f"after its last step '{self.actions[plan[-1]].name}'" if plan else "with no step"
             raise PlanError(f"human plan: the goal does not hold {last}")
 
+    def waits(self, name: str) -> bool:
+        """Whether waiting of the human is called so, in some case at least."""
+        return name == NOOP or (name, self.human) in self.waiting
+
     def plan_from_names(self, names: Iterable[str]) -> HumanPlan:
         """The human plan that a list of action names writes down; waiting is skipped.
 
@@ -157,11 +164,9 @@ class Task:
         state = self.init
         for step, text in enumerate(names, start=1):
             name = canonical_name(text)
-            if name == NOOP:
-                continue
             ids = self.named.get(name, ())
             chosen = next((i for i in ids if self.actions[i].applicable(state)), None)
-            if chosen is None and (name, self.human) in self.waiting:
+            if chosen is None and self.waits(name):
                 continue
             if not ids:
                 message = f"human plan, step {step}: there is no action '{name}' in the task"
@@ -180,7 +185,12 @@ class Task:
         return sum((by_identity[key] * times[key] for key in times), Fraction(0))
 
     def at(self, state: frozenset[int]) -> "Task":
-        """The same task from another state; variables stay where they still fit it."""
+        """The same task from another state; variables stay where they still fit it.
+
+        What the state says of facts that stand for disjunctions is made to fit the others.
+        """
+        held = {d.fact for d in self.disjunctions if d.holds(state)}
+        state = state.difference([d.fact for d in self.disjunctions]) | held
         moved = replace(self, init=state)
         for table in ("named", "human_actions"):  # cached properties that no state changes
             if table in self.__dict__:

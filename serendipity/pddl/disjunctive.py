@@ -16,6 +16,7 @@ from dataclasses import replace
 from itertools import islice
 
 from serendipity.model import Condition, GroundAction, Task
+from serendipity.model.actions import Disjunction
 from serendipity.pddl.normal import MAX_CASES
 from serendipity.pddl.numbering import in_order
 from serendipity.pddl.tree import quoted
@@ -24,8 +25,8 @@ from serendipity.pddl.work import Work
 Literal = tuple[int, bool]
 """A fact's id, and whether it has to be true."""
 
-Disjunction = tuple[Literal, ...]
-"""Literals of different facts, two or more."""
+Literals = tuple[Literal, ...]
+"""Literals of different facts, two or more, of which one has to hold."""
 
 
 class NotExactError(Exception):
@@ -33,7 +34,7 @@ class NotExactError(Exception):
 
 
 def with_disjunctions(
-    task: Task, disjunctions: Iterable[Disjunction], work: Work, *, robots: bool = False
+    task: Task, disjunctions: Iterable[Literals], work: Work, *, robots: bool = False
 ) -> Task:
     """The task whose human's goal, or else whose robots', also asks for some disjunctions.
 
@@ -46,11 +47,12 @@ def with_disjunctions(
     literals = [literal for disjunction in disjunctions for literal in compiled.literals(disjunction)]
     return replace(
         task,
-        facts=(*task.facts, *compiled.extra),
-        init=frozenset(compiled.init),
+        facts=(*task.facts, *compiled.names),
+        init=task.init.union(d.fact for d in compiled.extra if d.holds(task.init)),
         goal=task.goal if robots else _more(task.goal, literals),
         robot_goal=_more(task.robot_goal, literals) if robots else task.robot_goal,
         actions=tuple(in_order(compiled.actions)),
+        disjunctions=(*task.disjunctions, *compiled.extra),
     )
 
 
@@ -67,17 +69,17 @@ class _Compiled:
     def __init__(self, task: Task, work: Work) -> None:
         self.task = task
         self.work = work
-        self.extra: list[str] = []
-        self.init = set(task.init)
+        self.names: list[str] = []
+        self.extra: list[Disjunction] = []
         self.actions = list(task.actions)
         self._beside = {f: frozenset(v.facts) for v in task.variables if not v.boolean for f in v.facts}
 
-    def literals(self, disjunction: Disjunction) -> list[Literal]:
+    def literals(self, disjunction: Literals) -> list[Literal]:
         """Literals that all hold iff one of the disjunction does."""
         values = self._others_false(disjunction)
         return [(self._fact(disjunction), True)] if values is None else values
 
-    def _others_false(self, disjunction: Disjunction) -> list[Literal] | None:
+    def _others_false(self, disjunction: Literals) -> list[Literal] | None:
         """For literals of one variable: none of its other values; None where they are of several."""
         group = self._beside.get(disjunction[0][0], frozenset())
         if not group.issuperset([fact for fact, _ in disjunction]):
@@ -90,7 +92,7 @@ class _Compiled:
             return [(allowed.pop(), True)]
         return [(fact, False) for fact in sorted(group - allowed)]
 
-    def _fact(self, disjunction: Disjunction) -> int:
+    def _fact(self, disjunction: Literals) -> int:
         """A new fact that says whether the disjunction holds."""
         fact = len(self.task.facts) + len(self.extra)
         name = f"either {' or '.join(map(self._text, disjunction))} holds"
@@ -106,9 +108,8 @@ class _Compiled:
             if len(new[i]) > MAX_CASES:
                 raise NotExactError(f"more than {MAX_CASES} cases of the goal are not supported")
         self.actions = [case for i, a in enumerate(polled(self.actions)) for case in new.get(i, [a])]
-        self.extra.append(name)
-        if any((f in self.task.init) == positive for f, positive in disjunction):
-            self.init.add(fact)
+        self.names.append(name)
+        self.extra.append(Disjunction(fact, disjunction))
         return fact
 
     def _text(self, literal: Literal) -> str:
@@ -119,7 +120,7 @@ class _Compiled:
         """Whether one agent takes part in all of some actions, so that no two of them share an epoch."""
         return bool(set.intersection(*(set(self.actions[i].participants) for i in actions)))
 
-    def _cases(self, action: GroundAction, disjunction: Disjunction, fact: int) -> Iterator[GroundAction]:
+    def _cases(self, action: GroundAction, disjunction: Literals, fact: int) -> Iterator[GroundAction]:
         """An action that makes literals false: as it is while another one holds, else undoing the fact."""
         case = action
         for other, positive in disjunction:
@@ -141,7 +142,7 @@ class _Compiled:
         return None if self._beside.get(fact, frozenset()).isdisjoint(action.pre) else False
 
 
-def _makes(action: GroundAction, disjunction: Disjunction, truth: bool) -> bool:
+def _makes(action: GroundAction, disjunction: Literals, truth: bool) -> bool:
     """Whether an action makes a literal of a disjunction true, or false."""
     return any(fact in (action.add if positive == truth else action.delete) for fact, positive in disjunction)
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity import InputError, Task, plan, verify
+from serendipity import InputError, Session, Task, plan, verify
 from serendipity.model.actions import conflicting
 from tests.pddl.texts import action, domain, one, problem, two
 
@@ -158,6 +158,19 @@ def test_robots_may_have_disjunctive_goals(tmp_path: Path) -> None:
     result = plan(task)
     assert result.status == "optimal"
     assert len(result.plan or ()) == 2
+
+
+def test_what_is_seen_decides_disjunctions_too(tmp_path: Path) -> None:
+    add = action("add", "(and)", "(a ?x)", "?who - agent ?x - thing")
+    task = one(tmp_path, domain(add), problem("", "(exists (?x - thing) (a ?x))"))
+    session = Session(task)
+    assert session.plan(mode="individual").cost == 1
+    session.change({"a o2": True})
+    assert session.plan(mode="individual").cost == 0
+    session.change({"a o2": False, "either a o1 or a o2 holds": True})
+    assert session.plan(mode="individual").cost == 1
+    session.execute(["add h o1"])
+    assert session.plan(mode="individual").cost == 0
 
 
 def test_more_cases_than_are_supported(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from serendipity import InputError, PlanError, load, plan
+from serendipity import InputError, PlanError, load, plan, recognise
 from serendipity.model import GroundAction
 from tests.builders import task as build
 from tests.pddl.texts import YARD, action, domain, names, one, problem, two
@@ -42,10 +42,18 @@ def test_what_can_never_be_done_is_no_waiting(tmp_path: Path) -> None:
         task.plan_from_names(["wait h", "go h"])
 
 
+def test_waiting_may_be_observed(tmp_path: Path) -> None:
+    task = one(tmp_path, waits(tmp_path), problem("(q) (home)"))
+    goals = [{"name": "done", "goal": ["p"]}]
+    assert recognise(task, goals, ["rest h", "go h"]) == recognise(task, goals, ["go h"])
+
+
 def test_an_action_may_wait_in_one_case_and_not_in_another(tmp_path: Path) -> None:
-    text = domain(action("do", "(or (home) (q))", "(when (q) (p))"), predicates="(p) (q) (home)")
-    task = one(tmp_path, text, problem("(q) (home)"))
-    assert [task.actions[i].name for i in task.plan_from_names(["do h", "do h"])] == ["do h"] * 2
+    rest = action("rest", "(or (home) (p))", "(and)")
+    text = domain(rest, GO, action("leave", "(r)", "(not (home))"), predicates="(p) (q) (r) (home)")
+    task = one(tmp_path, text, problem("(q) (home)"))  # nobody can leave
+    steps = task.plan_from_names(["rest h", "go h", "rest h"])
+    assert [task.actions[i].name for i in steps] == ["go h", "rest h"]
 
 
 def test_noops_of_files_are_waiting(tmp_path: Path) -> None:
