@@ -80,7 +80,6 @@ class Encoding:
 
     def _build(self, task: Task, extra: frozenset[int], deadline: Deadline) -> None:
         relevant, useful = relevant_to_goals(task, extra, deadline)
-        task.settle(deadline)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
