@@ -8,19 +8,21 @@ from os import PathLike
 from serendipity.lint.file_rules import file_findings
 from serendipity.lint.report import LEVELS, Finding, TaskReport
 from serendipity.lint.task_rules import task_findings
-from serendipity.model import GroundAction, Task
+from serendipity.model import Deadline, GroundAction, Task
 from serendipity.pddl.files import read_unit
+from serendipity.pddl.work import Work
 
 Files = Iterable[tuple[str | PathLike[str], str | PathLike[str]]]
 
 
-def check_task(task: Task, files: Files = ()) -> TaskReport:
+def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = None) -> TaskReport:
     """Look for what is wrong with a task, or is probably not meant: nothing is planned.
 
     Args:
         task: the task.
         files: domain and problem of each pair of PDDL files that it was read from.  Without
             them, what only files show is left out: names that nothing uses, requirements.
+        deadline: for reading the files; None for no limit.
 
     Returns:
         How large the task is, and the findings.  Where one has the level ``error`` the task
@@ -28,8 +30,10 @@ def check_task(task: Task, files: Files = ()) -> TaskReport:
 
     Raises:
         InputError: a file can't be read or is wrong.
+        LimitReachedError: a limit came before the files were read.
     """
-    units = [read_unit(None, domain, problem) for domain, problem in files]
+    work = Work(deadline)
+    units = [read_unit(None, domain, problem, work) for domain, problem in files]
     found = chain(task_findings(task), file_findings(task, units) if units else ())
     return TaskReport(
         task=task.name,
