@@ -141,17 +141,17 @@ def test_buttons(opened: Opened) -> None:
 
 def test_it_plays_to_the_end_and_stops(browser: Any, file: Path) -> None:
     page = Opened(browser, file, 1600)
-    page.page.deadline.install()
+    page.page.clock.install()
     page.page.reload()
     page.page.keyboard.press("Space")
     assert page.page.locator("#play").get_attribute("aria-label") == "Pause"
-    page.page.deadline.run_for(3500)
+    page.page.clock.run_for(3500)
     assert page.epoch == 3
     page.page.keyboard.press("Space")
-    page.page.deadline.run_for(5000)
+    page.page.clock.run_for(5000)
     assert page.epoch == 3
     page.page.locator("#play").click()
-    page.page.deadline.run_for(60_000)
+    page.page.clock.run_for(60_000)
     assert page.epoch == 13
     assert page.page.locator("#play").get_attribute("aria-label") == "Play"
     page.close()
