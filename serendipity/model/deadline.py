@@ -6,16 +6,23 @@ the verifier's independence: all that a deadline can do is to leave a claim unde
 
 import threading
 import time
+from collections.abc import Iterable, Iterator
 from copy import copy
-from typing import Final
+from itertools import islice
+from typing import Final, TypeVar
 
 from serendipity.model.errors import LimitReachedError, UsageError
 from serendipity.model.memory import available, resident
+
+T = TypeVar("T")
 
 MIB: Final = 2**20
 
 _EVERY: Final = 31
 """All ones in binary: ticks between two looks at the time, less one."""
+
+_BATCH: Final = 64
+"""Items between two looks in :meth:`Deadline.each`."""
 
 _MEMORY_EVERY: Final = 0.005
 """Seconds between two looks at the memory, which cost ten times as much as one at the time."""
@@ -84,6 +91,13 @@ class Deadline:
         if not self._ticks & _EVERY:
             self.check()
 
+    def each(self, items: Iterable[T]) -> Iterator[T]:
+        """The items, with a :meth:`check` before every 64 of them: for long loops and comprehensions."""
+        source = iter(items)
+        while batch := tuple(islice(source, _BATCH)):
+            self.check()
+            yield from batch
+
     def check(self) -> None:
         """Return while there is time and memory.
 
@@ -109,6 +123,14 @@ class Deadline:
         room = available() if used is None or self._most is None else self._most - used
         if room is not None and size > room:
             raise LimitReachedError("memory-limit")
+
+    def check_child(self, pid: int) -> None:
+        """:meth:`check` for one who waits for a process of ours: what it has in memory counts, too."""
+        self.check()
+        if self._most is not None:
+            used, beside = resident(), resident(pid)
+            if used is not None and beside is not None and used + beside > self._most:
+                raise LimitReachedError("memory-limit")
 
     def _check_memory(self, most: float) -> None:
         now = time.perf_counter()

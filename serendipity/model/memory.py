@@ -9,7 +9,8 @@ try:
 except ImportError:  # not on Windows
     resource = None  # type: ignore[assignment]
 
-_STATM: Final = Path("/proc/self/statm")
+_PROC: Final = Path("/proc")
+_STATM: Final = _PROC / "self/statm"
 _MEMINFO: Final = Path("/proc/meminfo")
 _CGROUP: Final = Path("/sys/fs/cgroup")
 
@@ -17,13 +18,19 @@ _SHARE: Final = 0.9
 """What of the machine's free memory is ours to take."""
 
 
-def resident() -> int | None:
-    """Bytes of this process in memory: now on Linux, at most so far on other Unixes; None elsewhere."""
+def resident(pid: int | None = None) -> int | None:
+    """Bytes of this process in memory: now on Linux, at most so far on other Unixes; None elsewhere.
+
+    With ``pid`` those of another process, on Linux only.
+    """
     if resource is None:
         return None
+    statm = _STATM if pid is None else _PROC / str(pid) / "statm"
     try:
-        return int(_STATM.read_bytes().split()[1]) * resource.getpagesize()
+        return int(statm.read_bytes().split()[1]) * resource.getpagesize()
     except (OSError, IndexError, ValueError):
+        if pid is not None:
+            return None
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
         return peak if sys.platform == "darwin" else peak * 1024
 

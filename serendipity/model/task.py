@@ -85,14 +85,16 @@ class Task:
         """Finite-domain variables behind the facts; each fact is in exactly one."""
         return find_variables(len(self.facts), self.init, self.actions)
 
-    def settle(self, deadline: Deadline) -> None:
-        """Find the variables now, within a deadline.
+    def variables_within(self, deadline: Deadline) -> tuple[Variable, ...]:
+        """:attr:`variables`, found under a deadline where they are not known yet.
 
         Raises:
             LimitReachedError: the deadline came first.
         """
         if "variables" not in self.__dict__:
-            self.__dict__["variables"] = find_variables(len(self.facts), self.init, self.actions, deadline)
+            found = find_variables(len(self.facts), self.init, self.actions, deadline)
+            self.__dict__["variables"] = found
+        return self.variables
 
     @cached_property
     def _derived(self) -> dict[Any, Any]:

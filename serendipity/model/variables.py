@@ -94,8 +94,7 @@ class _GroupFinder:
         self.consumers: list[list[int]] = [[] for _ in range(n_facts)]
         self.strayers: dict[int, list[int]] = {}  # delete it without need
         self.sources: dict[int, list[set[int]]] = {}
-        for i, action in enumerate(actions):
-            deadline.tick()
+        for i, action in enumerate(deadline.each(actions)):
             pre, add = action.pre, action.add
             for fact in add:
                 self.adders[fact].append(i)
@@ -114,7 +113,7 @@ class _GroupFinder:
 
     def groups(self) -> list[tuple[int, ...]]:
         found = []
-        for seed in sorted(self.init):
+        for seed in self.deadline.each(sorted(self.init)):
             if self.consumers[seed]:
                 group = self._grow(seed)
                 if len(group) > 1:

@@ -194,5 +194,5 @@ def _settled(task: Task, numbering: Numbering, goal: Goal, robot_goals: Iterable
                 raise one.error(f"goal: {error}") from None
     # Part of grounding: found here, so that no planning call's deadline pays for it.
     work.stage(f"finding variables of {len(task.facts):,} facts")
-    task.settle(work.deadline)
+    task.variables_within(work.deadline)
     return task

@@ -42,7 +42,7 @@ def with_disjunctions(
         NotExactError: one of them can't be expressed exactly.
         LimitReachedError: a limit came first.
     """
-    task.settle(work.deadline)
+    task.variables_within(work.deadline)
     compiled = _Compiled(task, work)
     literals = [literal for disjunction in disjunctions for literal in compiled.literals(disjunction)]
     return replace(
