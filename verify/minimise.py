@@ -15,8 +15,8 @@ from verify.encodings.automata import AutomataEncoding
 from verify.encodings.paper import PaperEncoding
 from verify.epochs import applicable, conflicting
 from verify.question import WINDOW, Found, Question
-from verify.solver import SOLVERS, Model, optimise
-from verify.undecided import UNDECIDED, why
+from verify.solver import SOLVERS, Model, Outcome, optimise
+from verify.undecided import UNDECIDED, UndecidedError, during, why
 
 State = frozenset[int]
 
@@ -97,50 +97,78 @@ def minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimum
     """Answer a question.
 
     Args:
+        question: the question.
+        effort: the solver's settings.
         plans: the human's optimal plans, for suffixes that are replanned.
     """
-    try:
-        return _minimise(question, effort, plans)
-    except UNDECIDED as error:
-        return Minimum("undecided", reason=why(error))
-
-
-def _minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimum:
-    effort.deadline.check()
     if question.horizon == 0:
         return _nothing_to_do(question)
-    effort.programs += 1
-    encoding = ENCODINGS[effort.encoding](question)
-    best: Found | None = None
-    bound: int | None = None
-    cut: set[tuple[int, State]] = set()
-    while encoding.model is not None:
-        effort.note(encoding.model.size)
-        outcome = optimise(encoding.model, solver=effort.solver, seconds=effort.deadline.left())
-        if outcome.status == "infeasible":
-            break
-        found = None
+    rounds = _Rounds(question, effort, plans)
+    try:
+        return rounds.run()
+    except UNDECIDED as error:
+        return Minimum("undecided", rounds.best, rounds.bound, why(error))
+
+
+class _Rounds:
+    """One question: solve, mend, cut, until the best plan is known.
+
+    Attributes:
+        best: the best plan so far.
+        bound: proved lower bound on the objective, or None.
+    """
+
+    def __init__(self, question: Question, effort: Effort, plans: OptimalPlans) -> None:
+        self._question = question
+        self._effort = effort
+        self._plans = plans
+        self._cut: set[tuple[int, State]] = set()
+        self.best: Found | None = None
+        self.bound: int | None = None
+
+    def run(self) -> Minimum:
+        """Answer the question.
+
+        Raises:
+            UndecidedError: the solver did not, or what it says is not so.
+            LimitReachedError: the deadline came first.
+        """
+        self._effort.deadline.check()
+        self._effort.programs += 1
+        with during("building the program"):
+            encoding = ENCODINGS[self._effort.encoding](self._question)
+        while encoding.model is not None:
+            self._effort.note(encoding.model.size)
+            outcome = optimise(encoding.model, solver=self._effort.solver, deadline=self._effort.deadline)
+            if outcome.status == "infeasible" or self._is_best(encoding, outcome):
+                break
+        return Minimum("none") if self.best is None else Minimum("found", self.best, self.best.objective)
+
+    def _is_best(self, encoding: Encoding, outcome: Outcome) -> bool:
+        """Whether the best plan so far is the best of all; else the program has learned something."""
+        question, window, states = self._question, None, None
         if outcome.values is not None:
             steps, window = encoding.plan(outcome.values)
             states = replay(question, steps)
             if states is None:
-                return Minimum("undecided", best, bound, "the solver's plan does not replay")
-            found = _mended(question, steps, window, states, plans)
-            best = _better(best, found)
+                raise UndecidedError("the solver's plan does not replay")
+            self.best = _better(self.best, _mended(question, steps, window, states, self._plans))
         if outcome.status == "undecided":
-            return Minimum("undecided", best, _whole(outcome.bound, bound), outcome.reason)
+            self.bound = _whole(outcome.bound, self.bound)
+            raise UndecidedError(outcome.reason)
         assert states is not None
         objective, _ = question.measure(steps, window)
-        bound = objective if bound is None else max(bound, objective)
-        if best is not None and best.objective <= objective:
-            return Minimum("found", best, best.objective)
+        self.bound = objective if self.bound is None else max(self.bound, objective)
+        if self.best is not None and self.best.objective <= objective:
+            return True
         assert window is not None, "only suffixes are mended"
         state = states[window.end - 1]
-        if (window.end, state) in cut:
-            return Minimum("undecided", best, bound, "the solver ignores a row")
-        cut.add((window.end, state))
-        encoding.bound_suffix(window.end, state, _suffix_least(question, state, window.end, plans))
-    return Minimum("none") if best is None else Minimum("found", best, best.objective)
+        if (window.end, state) in self._cut:
+            raise UndecidedError("the solver ignores a row")
+        self._cut.add((window.end, state))
+        least = _suffix_least(question, state, window.end, self._plans)
+        encoding.bound_suffix(window.end, state, least)
+        return False
 
 
 def _whole(bound: float | None, known: int | None) -> int | None:

@@ -1,4 +1,7 @@
-"""What leaves a claim undecided."""
+"""What leaves a claim undecided, and what was going on when it did."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from serendipity.model import LimitReachedError
 
@@ -30,3 +33,20 @@ UNDECIDED = (UndecidedError, LimitReachedError, MemoryError)
 def why(error: UndecidedError | LimitReachedError | MemoryError) -> str:
     """Why a claim stays undecided, for people."""
     return "memory is used up" if isinstance(error, MemoryError) else str(error)
+
+
+@contextmanager
+def during(doing: str) -> Iterator[None]:
+    """Work of which a limit says that it came first.
+
+    Args:
+        doing: what is going on, for people: ``building the program``.
+    """
+    try:
+        yield
+    except LimitReachedError as limit:
+        if limit.doing is not None:
+            raise
+        raise LimitReachedError(limit.reason, doing) from None
+    except MemoryError:
+        raise LimitReachedError("memory-limit", doing) from None

@@ -1,11 +1,16 @@
 """The solver adapter's contract: what counts as a proof, and what does not."""
 
 import random
+import sys
+from pathlib import Path
+from time import perf_counter
 
 import pytest
 
-from serendipity.model import UsageError
+from serendipity.model import Deadline, UsageError
+from serendipity.model.memory import resident
 from verify.solver import LARGEST_COEFFICIENT, SOLVERS, Model, optimise, solver_version
+from verify.solvers import cbc, highs, worker
 
 solvers = pytest.mark.parametrize("solver", SOLVERS)
 
@@ -56,13 +61,13 @@ def test_infeasible_is_a_proof_without_values(solver: str) -> None:
 @solvers
 def test_a_time_limit_is_no_proof(solver: str) -> None:
     model = _cover(1, 1000, 500)
-    outcome = optimise(model, solver=solver, seconds=0.2)
+    outcome = optimise(model, solver=solver, deadline=Deadline(0.2))
     assert outcome.status == "undecided"
-    assert outcome.reason == "time limit"
+    assert outcome.reason.startswith("the time limit came first")
 
 
 def test_no_time_at_all_is_no_proof() -> None:
-    outcome = optimise(_cover(1, 10, 5), seconds=0)
+    outcome = optimise(_cover(1, 10, 5), deadline=Deadline(0))
     assert (outcome.status, outcome.values) == ("undecided", None)
 
 
@@ -108,3 +113,79 @@ def test_unknown_solver() -> None:
 @solvers
 def test_solvers_say_their_version(solver: str) -> None:
     assert any(character.isdigit() for character in solver_version(solver))
+
+
+# -- solvers as processes
+
+
+@pytest.mark.parametrize("presolve", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_process_says_what_a_call_says(seed: int, presolve: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    model = _cover(seed, 12, 8)
+    model.presolve = presolve
+    here = optimise(model)
+    monkeypatch.setattr(highs, "_SMALL", 0)
+    apart = optimise(model)
+    assert (apart.status, apart.values, apart.bound) == (here.status, here.values, here.bound)
+    model.add("none", {0: 1}, ">=", 2)
+    assert optimise(model).status == "infeasible"
+
+
+def _stubborn(folder: Path, does: str) -> Path:
+    """A solver that knows a bound, and then keeps no limit."""
+    script = folder / "stubborn.py"
+    script.write_text(f"import time\nprint('{{\"bound\": 3.0}}', flush=True)\n{does}\ntime.sleep(60)\n")
+    return script
+
+
+def test_a_solver_that_keeps_no_limit_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(highs, "_SMALL", 0)
+    monkeypatch.setattr(worker, "__file__", str(_stubborn(tmp_path, "")))
+    started = perf_counter()
+    outcome = optimise(_cover(1, 10, 5), deadline=Deadline(1.0))
+    assert perf_counter() - started < 10
+    assert (outcome.status, outcome.bound) == ("undecided", 3.0)
+    assert outcome.reason == "the time limit came first, solving a program of 10 columns and 5 rows"
+
+
+@pytest.mark.skipif(
+    not Path("/proc/self/statm").exists(), reason="another process's memory is known on Linux"
+)
+def test_a_solver_s_memory_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(highs, "_SMALL", 0)
+    monkeypatch.setattr(worker, "__file__", str(_stubborn(tmp_path, "a = bytearray(b'x') * 300_000_000")))
+    limit = (resident() or 0) / 2**20 + 200
+    outcome = optimise(_cover(1, 10, 5), deadline=Deadline(memory_limit=limit))
+    assert (outcome.status, outcome.bound) == ("undecided", 3.0)
+    assert outcome.reason.startswith("memory is used up")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
+def test_cbc_is_killed_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    script = _stubborn(tmp_path, "")
+    script.write_text(f"#!{sys.executable}\n{script.read_text()}")
+    script.chmod(0o755)
+    monkeypatch.setattr(cbc, "_binary", lambda: str(script))
+    started = perf_counter()
+    outcome = optimise(_cover(1, 10, 5), solver="cbc", deadline=Deadline(1.0))
+    assert perf_counter() - started < 10
+    assert (outcome.status, outcome.values) == ("undecided", None)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_solver_that_breaks_proves_nothing(
+    solver: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(highs, "_SMALL", 0)
+    monkeypatch.setattr(worker, "__file__", str(tmp_path / "missing.py"))
+    monkeypatch.setattr(cbc, "_binary", lambda: sys.executable)  # which takes a program of ours for its own
+    outcome = optimise(_cover(1, 10, 5), solver=solver)
+    assert (outcome.status, outcome.values) == ("undecided", None)
+    assert "exit status" in outcome.reason
+
+
+def test_a_program_larger_than_memory_is_not_handed_to_a_solver() -> None:
+    limit = (resident() or 0) / 2**20 + 1
+    outcome = optimise(_cover(1, 1000, 2000), deadline=Deadline(memory_limit=limit))
+    assert (outcome.status, outcome.values) == ("undecided", None)
+    assert outcome.reason.startswith("memory is used up")

@@ -1,0 +1,83 @@
+"""HiGHS on a program of ours: a small one in this process, a large one in a process that can be killed.
+
+HiGHS looks at its time limit between the steps of its work, and on large programs a single step
+has taken twenty seconds.
+"""
+
+import json
+import pickle
+import sys
+from array import array
+from math import inf
+from tempfile import TemporaryFile
+from time import time
+from typing import Final
+
+from serendipity.model import Deadline, LimitReachedError
+from verify.solvers import worker
+from verify.solvers.model import Answer, Model
+from verify.solvers.process import run, seconds_for
+
+_SMALL: Final = 15_000
+"""Coefficients up to which HiGHS overruns its limit by some 20 ms at most."""
+
+_UNENDING: Final = 1e9
+
+
+def minimise(model: Model, deadline: Deadline) -> Answer:
+    """Minimise with one thread and a fixed seed.
+
+    Raises:
+        LimitReachedError: the deadline came before HiGHS was asked.
+    """
+    tables = _tables(model, deadline)
+    if len(model.index) > _SMALL:
+        return _apart(tables, deadline, presolve=model.presolve)
+    return Answer(**worker.minimise(tables, _end(deadline), presolve=model.presolve))
+
+
+def _apart(tables: worker.Tables, deadline: Deadline, *, presolve: bool) -> Answer:
+    """HiGHS in a process; where it is killed, the last bound that it has told is known."""
+    with TemporaryFile() as question, TemporaryFile() as said:
+        for table in tables:
+            deadline.check()
+            pickle.dump(table, question, pickle.HIGHEST_PROTOCOL)
+        question.seek(0)
+        command = [sys.executable, "-P", worker.__file__, repr(_end(deadline)), str(presolve)]
+        try:
+            code = run(command, deadline, stdin=question, stdout=said)
+            answer = Answer(f"HiGHS ended with exit status {code}")
+        except LimitReachedError as limit:
+            answer = Answer(limit.reason)
+        said.seek(0)
+        for line in said:
+            if line.endswith(b"\n"):
+                answer = answer._replace(**json.loads(line))
+        return answer
+
+
+def _end(deadline: Deadline) -> float:
+    """When HiGHS is to stop by itself, in seconds of the system's clock."""
+    seconds = seconds_for(deadline)
+    return time() + (_UNENDING if seconds is None else seconds)
+
+
+def _tables(model: Model, deadline: Deadline) -> worker.Tables:
+    columns = range(len(model.upper))
+    start, row_lower, row_upper = array("i", [0]), array("d"), array("d")
+    for end, (_, sense, right) in zip(deadline.each(model.ends), model.heads, strict=True):
+        if end > start[-1]:
+            start.append(end)
+            row_lower.append(-inf if sense == "<=" else right)
+            row_upper.append(inf if sense == ">=" else right)
+    return worker.Tables(
+        array("d", (model.objective.get(x, 0) for x in deadline.each(columns))),
+        array("d", deadline.each(model.lower)),
+        array("d", deadline.each(model.upper)),
+        array("b", deadline.each(model.integral)),
+        row_lower,
+        row_upper,
+        start,
+        model.index,
+        array("d", deadline.each(model.coefficients)),
+    )
