@@ -1,11 +1,11 @@
 """The facade over the verifier: a result in, a certificate out."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from time import perf_counter
 from typing import Final
 
-from serendipity.model import Certificate, Claim, Deadline, InputError, Result, Task
+from serendipity.model import Certificate, Claim, Deadline, InputError, Options, Result, Task
+from serendipity.model.collection import no_collection
 from verify.obligations import complete
 from verify.rules import RuleReport
 from verify.rules import check as check_rules
@@ -23,7 +23,9 @@ _A_MOMENT: Final = 1.0
 _NEEDS_SOLVER: Final = "not examined: the rules alone can't prove it"
 
 
-def check(task: Task, result: Result) -> Certificate:
+def check(
+    task: Task, result: Result, *, time_limit: float | None = None, deadline: Deadline | None = None
+) -> Certificate:
     """Replay a result rule by rule; quick, and asks no solver.
 
     A policy of mode ``assistance`` is walked through: every state that it can meet, its actions,
@@ -32,41 +34,39 @@ def check(task: Task, result: Result) -> Certificate:
     Args:
         task: the task that was asked.
         result: the answer.
+        time_limit: seconds, or None.
+        deadline: one that other work shares, such as planning; it holds beside ``time_limit``.
 
     Returns:
-        A certificate that refutes what breaks a rule; what only an optimiser can prove
-        is not in its scope.
+        A certificate that refutes what breaks a rule; what only an optimiser can prove, and
+        what there was no time for, is not in its scope.
 
     Raises:
         InputError: the result is for another task.
     """
     start = perf_counter()
+    limits = (deadline or Deadline()).within(*_legal(time_limit, None))
     result = result.checked()
     _require_same_task(task, result)
-    if result.mode == "assistance":
-        claims: Iterable[Claim] = _by_walking(task, result)
-    elif "goals" in result.statistics:
+    with no_collection():
+        claims = complete(result, _by_rules(task, result, limits), by_rules=True)
+    return Certificate(claims, perf_counter() - start)
+
+
+def _by_rules(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
+    if "goals" in result.statistics:
         from verify.goals import check_goals  # with what proves single goals
 
-        claims = check_goals(task, result, _by_rules, None)
-    else:
-        claims = _by_rules(task, result)
-    return Certificate(complete(result, claims, by_rules=True), perf_counter() - start)
+        def one_goal(about: Task, answer: Result) -> tuple[Claim, ...]:
+            return tuple(_claims(answer, check_rules(about, answer, deadline)))
 
+        return check_goals(task, result, one_goal, deadline)
+    if result.mode == "assistance":
+        from verify.policy import check_policy
 
-def _by_walking(task: Task, result: Result) -> Iterator[Claim]:
-    """Claims of a policy (SPEC 7): what a walk through its states shows within a moment."""
-    from verify.policy import check_policy
-
-    for claim in check_policy(task, result, Deadline(_A_MOMENT), replay_only=True):
-        late = claim.verdict == "undecided"
-        yield (
-            replace(claim, verdict="not_in_scope", reason=f"not examined: {claim.reason}") if late else claim
-        )
-
-
-def _by_rules(task: Task, result: Result) -> tuple[Claim, ...]:
-    return tuple(_claims(result, check_rules(task, result)))
+        # a walk through the policy's states, as far as it gets within a moment (SPEC 7)
+        return check_policy(task, result, deadline.within(_A_MOMENT), replay_only=True)
+    return _claims(result, check_rules(task, result, deadline))
 
 
 def verify(
@@ -76,8 +76,13 @@ def verify(
     solver: str = "highs",
     encoding: str = "automata",
     time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
 ) -> Certificate:
     """Check a result claim by claim, by code that shares nothing with the search.
+
+    The limits hold for everything: what they keep from being examined is ``undecided``, with the
+    reason, and what was decided before stays so.
 
     Args:
         task: the task that was asked.
@@ -85,17 +90,26 @@ def verify(
         solver: ``highs``, or ``cbc`` as a cross-check.
         encoding: ``automata``, or ``paper`` for the paper's own equations.
         time_limit: seconds for the whole certificate, or None.
+        memory_limit: what this process and a solver's may have in memory, in MiB, or None.
+        deadline: one that other work shares, such as loading the task; it holds beside the limits.
 
     Returns:
         The certificate; ``verdict`` is ``proved``, ``refuted`` or ``undecided``.
 
     Raises:
         InputError: the result is for another task.
-        UsageError: there is no such solver or encoding.
+        UsageError: there is no such solver or encoding, or a limit has no legal value.
     """
-    from verify.certify import certify  # loads the solvers
+    limits = (deadline or Deadline()).within(*_legal(time_limit, memory_limit))
+    from verify.certify import certify
 
-    return certify(task, result, encoding=encoding, solver=solver, time_limit=time_limit)
+    return certify(task, result, encoding=encoding, solver=solver, deadline=limits)
+
+
+def _legal(time_limit: float | None, memory_limit: float | None) -> tuple[float | None, float | None]:
+    """The limits as numbers of at least 0; as options they are checked."""
+    options = Options(time_limit=time_limit, memory_limit=memory_limit)
+    return options.time_limit, options.memory_limit
 
 
 def _require_same_task(task: Task, result: Result) -> None:
@@ -116,6 +130,8 @@ def _claims(result: Result, report: RuleReport) -> Iterator[Claim]:
             yield Claim(name, "refuted", str(violation), seconds=report.seconds)
         elif name in report.unchecked:
             yield Claim(name, "not_in_scope", report.unchecked[name])
+        elif name in report.undecided and (name == "replay" or result.plan is not None):
+            yield Claim(name, "undecided", report.undecided[name], seconds=report.seconds)
         elif name in _REPLAYED and result.plan is not None:
             yield Claim(name, "proved", _REPLAYED[name], seconds=report.seconds)
         elif name == "lower_bound" and result.lower_bound is not None:

@@ -19,12 +19,14 @@ Worth = tuple[Fraction, int]
 class OptimalPlans:
     """His optimal plans, from what the rule checker knows of their cost.
 
-    Every method raises :class:`verify.undecided.TooManyStatesError` where his own problem is too large.
+    Every method raises :class:`verify.undecided.TooManyStatesError` where his own problem is too large,
+    and :class:`serendipity.model.LimitReachedError` where the deadline of ``alone`` comes.
     """
 
     def __init__(self, task: Task, alone: Alone | None = None) -> None:
         self._task = task
         self._alone = Alone(task) if alone is None else alone
+        self.deadline = self._alone.deadline
 
     def worth(self, state: State) -> Worth | None:
         """Least cost, then fewest actions, or None if the goal is out of reach."""
@@ -45,7 +47,7 @@ class OptimalPlans:
         if worth is None or worth[1] == 0:
             return
         cost, length = worth
-        for i in self._task.human_actions:
+        for i in self.deadline.each(self._task.human_actions):
             action = self._task.actions[i]
             if action.cost <= cost and applicable(action, state):
                 after = state.difference(action.delete).union(action.add)

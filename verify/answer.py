@@ -68,7 +68,7 @@ def best_plan(call: Call) -> Found | None:
     question = call.endless
     if call.do_nothing is not None:
         question = question.below(call.do_nothing[0] - 1)
-    return call.decided(cheapest(question, call.effort.deadline))
+    return call.decided(cheapest(question))
 
 
 def idle_cost(call: Call) -> int | None:

@@ -66,7 +66,7 @@ class Call:
     @cached_property
     def prices(self) -> Prices:
         """Integer costs."""
-        return prices(self.task, self.options, self.human_plan or ())
+        return prices(self.task, self.options, self.human_plan or (), self.effort.deadline)
 
     @cached_property
     def question(self) -> Question:
@@ -76,15 +76,19 @@ class Call:
     @cached_property
     def endless(self) -> Question:
         """The same without a horizon."""
-        question = Question(
+        return self._question(WINDOW if self.options.windowed else FREE).below(None, self._most_cost)
+
+    def _question(self, rule: str) -> Question:
+        """A question without horizon and limits."""
+        return Question(
             task=self.task,
             options=self.options,
-            rule=WINDOW if self.options.windowed else FREE,
+            rule=rule,
             human_plan=self.human_plan or (),
             horizon=0,
             prices=self.prices,
+            deadline=self.effort.deadline,
         )
-        return question.below(None, self._most_cost)
 
     @property
     def _most_cost(self) -> int | None:
@@ -111,11 +115,8 @@ class Call:
     def idle_robots_plan(self) -> Found | None:
         """The cheapest plan in which he executes ``pi_H`` and robots reach ``G_R`` without him."""
         if self.horizon == INFINITE:
-            endless = Question(self.task, self.options, EXACT, self.human_plan or (), 0, self.prices)
-            return self.decided(cheapest_following(endless, self.effort.deadline))
-        question = Question(
-            self.task, self.options, EXACT, self.human_plan or (), int(self.horizon), self.prices
-        )
+            return self.decided(cheapest_following(self._question(EXACT)))
+        question = self._question(EXACT).but(horizon=int(self.horizon))
         return self.decided(minimise(question, self.effort, self.plans))
 
     @cached_property

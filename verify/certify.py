@@ -1,8 +1,10 @@
 """Certificates: every claim of a result, proved, refuted, undecided or out of scope."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
+from typing import Final
 
 from serendipity.model import (
     Certificate,
@@ -16,6 +18,7 @@ from serendipity.model import (
     Task,
     UsageError,
 )
+from serendipity.model.collection import no_collection
 from verify.alone import OptimalPlans
 from verify.call import Call
 from verify.claims import Examiner
@@ -38,6 +41,9 @@ _REPLAYED = {
     "window": "prefix, window and suffix are as the mode demands",
 }
 
+END_SHARE: Final = 0.05
+"""What of the time limit is kept for the end: dropping what was made takes time, too."""
+
 
 def certify(
     task: Task,
@@ -46,6 +52,8 @@ def certify(
     encoding: str = "automata",
     solver: str = "highs",
     time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
     human_plan: Iterable[str] | None = None,
 ) -> Certificate:
     """Examine every claim of a result.
@@ -59,30 +67,47 @@ def certify(
         encoding: ``automata`` or ``paper``.
         solver: ``highs`` or ``cbc``.
         time_limit: seconds for the whole certificate, or None.
+        memory_limit: what this process and a solver's may have in memory, in MiB, or None.
+        deadline: one that other work shares, such as loading the task; it holds beside the limits.
         human_plan: the plan that was given to the planner, where it is known; else the
             result's own ``pi_H`` counts as given if it is not the canonical one.
+
+    Returns:
+        What a limit kept from being examined is ``undecided``; what was decided before stays so.
 
     Raises:
         InputError: the result is for another task.
         UsageError: there is no such encoding or solver.
     """
+    limits = (deadline or Deadline()).within(time_limit, memory_limit).sooner(END_SHARE)
+    with no_collection():  # beside a large task a collection takes longer than a short limit
+        return _certify(task, result, encoding, solver, limits, human_plan)
+
+
+def _certify(
+    task: Task,
+    result: Result,
+    encoding: str,
+    solver: str,
+    deadline: Deadline,
+    human_plan: Iterable[str] | None,
+) -> Certificate:
     started = perf_counter()
     result = result.checked()
     _require_same_task(task, result)
     if result.mode == "assistance":
-        claims = complete(result, check_policy(task, result, Deadline(time_limit)))
+        claims = complete(result, check_policy(task, result, deadline))
         return Certificate(claims, perf_counter() - started)
-    deadline = Deadline(time_limit)
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     version = solver_version(solver)
     if "goals" in result.statistics:
 
         def one_goal(about: Task, answer: Result) -> tuple[Claim, ...]:
-            return tuple(_Certifier(about, answer, effort).claims(None))
+            return _Certifier(about, answer, effort).claims(None)
 
-        claims = tuple(check_goals(task, result, one_goal, effort))
+        claims = tuple(check_goals(task, result, one_goal, deadline, effort))
     else:
-        claims = tuple(_Certifier(task, result, effort).claims(human_plan))
+        claims = _Certifier(task, result, effort).claims(human_plan)
     return Certificate(complete(result, claims), perf_counter() - started, version, encoding, effort.size)
 
 
@@ -102,18 +127,30 @@ class _Certifier:
         self.task = task
         self.result = result
         self.effort = effort
-        self.alone = Alone(task)
+        self.alone = Alone(task, effort.deadline)
         self.plans = OptimalPlans(task, self.alone)
         self.checker = Checker(task, self.alone)
 
-    def claims(self, given: Iterable[str] | None) -> Iterator[Claim]:
-        """All claims, in order; what rules refute is not handed to a solver."""
-        result = self.result
-        report = self.checker.check(result)
+    def claims(self, given: Iterable[str] | None) -> tuple[Claim, ...]:
+        """All claims, in order; what rules refute is not handed to a solver.
+
+        What ``pi_H`` is comes last: it decides nothing, and working it out may take what time there is.
+        """
+        first, *others = tuple(self._claims(given)) or (None,)
+        if first is None:
+            return ()
+        if (first.claim, first.verdict) == ("replay", "proved"):
+            first = replace(first, reason=first.reason + self._about_pi_h())
+        return first, *others
+
+    def _claims(self, given: Iterable[str] | None) -> Iterator[Claim]:
+        report = self.checker.check(self.result)
         yield from self._rule_claims(report, given)
         yield from self._realised(report)
-        wanted = [name for name in needed(result) if name not in (*BY_RULES, "realised")]
-        if report.ok:
+        wanted = [name for name in needed(self.result) if name not in (*BY_RULES, "realised")]
+        if report.stopped is not None:
+            yield from (Claim(name, "undecided", report.stopped) for name in wanted)
+        elif report.ok:
             yield from self._solved_claims(wanted)
         else:
             refuted = {violation.claim for violation in report.violations}
@@ -139,10 +176,11 @@ class _Certifier:
                 yield Claim(name, "refuted", "pi_H is not the plan that was given", seconds=report.seconds)
             elif name in report.unchecked:
                 yield Claim(name, "not_in_scope", report.unchecked[name])
+            elif name in report.undecided and (name == "replay" or self.result.plan is not None):
+                yield Claim(name, "undecided", report.undecided[name], seconds=report.seconds)
             elif self.result.plan is not None:
-                reason = _REPLAYED[name] + (self._about_pi_h() if name == "replay" else "")
-                yield Claim(name, "proved", reason, seconds=report.seconds)
-        if self.result.status == "unknown":
+                yield Claim(name, "proved", _REPLAYED[name], seconds=report.seconds)
+        if self.result.status == "unknown" and "replay" not in report.undecided:
             yield Claim("replay", "not_in_scope", "there is no answer to examine")
         violation = report.of("lower_bound")
         if violation is not None:
@@ -150,16 +188,19 @@ class _Certifier:
 
     def _about_pi_h(self) -> str:
         """Whether ``pi_H`` is what SPEC 1 predicts; anything else must have been given."""
-        names = self.result.human_plan
         try:
-            canonical = self.plans.canonical()
+            return self._kind_of_pi_h()
         except UNDECIDED:
             return ""
+
+    def _kind_of_pi_h(self) -> str:
+        names, canonical = self.result.human_plan, self.plans.canonical()
         if names is None or canonical is None:
             return ""
         if names == tuple(self.task.actions[i].name for i in canonical):
             return "; pi_H is the human's canonical optimal plan"
-        if self.task.cost_of(replay_human(self.task, names)) == self.task.cost_of(canonical):
+        plan = replay_human(self.task, names, self.effort.deadline)
+        if self.task.cost_of(plan) == self.task.cost_of(canonical):
             return "; pi_H is an optimal plan of the human, not the canonical one: taken as given"
         return "; pi_H is not optimal: taken as given"
 
@@ -170,6 +211,9 @@ class _Certifier:
             examiner = self._examiner()
         except (UsageError, PlanError) as error:
             yield Claim("replay", "refuted", str(error))
+            return
+        except UNDECIDED as error:
+            yield from (Claim(name, "undecided", why(error)) for name in wanted)
             return
         if is_tied(self.result) and self.result.status in ("optimal", "feasible"):
             yield from self._ties(wanted)
@@ -212,11 +256,12 @@ class _Certifier:
     def _examiner(self) -> Examiner:
         result = self.result
         names = result.human_plan
-        plan: HumanPlan | None = None if names is None else replay_human(self.task, names)
+        deadline = self.effort.deadline
+        plan: HumanPlan | None = None if names is None else replay_human(self.task, names, deadline)
         call = Call(self.task, result.options, plan, self.plans, self.effort)
         if plan is not None or not call.needs_pi_h:
             assert call.horizon is not None
-        sets = replay(self.task, result.plan or (), strict=result.options.strict).sets
+        sets = replay(self.task, result.plan or (), deadline, strict=result.options.strict).sets
         steps = tuple(Step(epoch, i) for epoch, chosen in sets.items() for i in chosen)
         kind = Examiner if result.options.human_model == "omniscient" else HumanExaminer
         return kind(call, result, steps, self.checker)
@@ -225,36 +270,23 @@ class _Certifier:
         """Mode ``individual``: his least cost alone, by exhaustive search."""
         started = perf_counter()
         try:
-            worth = self.plans.worth(self.task.init)
+            verdict, reason = self._alone()
         except UNDECIDED as error:
-            worth, verdict, reason = None, "undecided", why(error)
-        else:
-            least = None if worth is None else float(worth[0])
-            right = least == self.result.cost and (
-                self.result.lower_bound is None or least is None or self.result.lower_bound <= least
-            )
-            verdict = "proved" if right and self._gains_alone(least) else "refuted"
-            reason = (
-                "the goal can't be reached alone"
-                if least is None
-                else f"the least cost alone is {least:.12g}"
-            )
+            verdict, reason = "undecided", why(error)
         for name in wanted:
             yield Claim(name, verdict, reason, seconds=perf_counter() - started)
 
-    def _gains_alone(self, least: float | None) -> bool:
-        """Whether ``saving_alone`` is what the given plan costs more than the least."""
-        names = self.result.human_plan
-        if least is None or names is None:
-            return True
-        gain = self.task.cost_of(replay_human(self.task, names)) - self.alone_cost()
-        return self.result.saving_alone == float(gain)
-
-    def alone_cost(self) -> Fraction:
-        """The human's least cost alone."""
-        worth = self.plans.worth(self.task.init)
-        assert worth is not None, "there is a plan"
-        return worth[0]
+    def _alone(self) -> tuple[str, str]:
+        result, worth = self.result, self.plans.worth(self.task.init)
+        if worth is None:
+            right = result.cost is None
+            return "proved" if right else "refuted", "the goal can't be reached alone"
+        least = float(worth[0])
+        right = result.cost == least and (result.lower_bound is None or result.lower_bound <= least)
+        if result.human_plan is not None:
+            given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
+            right = right and result.saving_alone == float(given - worth[0])
+        return "proved" if right else "refuted", f"the least cost alone is {least:.12g}"
 
     def _ties(self, wanted: list[str]) -> Iterator[Claim]:
         """Each optimal ``pi_H`` is solved; the answers have to give the result's figures."""

@@ -12,7 +12,7 @@ from verify.minimise import minimise
 from verify.question import Found, Question
 from verify.results import found_result, plan_steps
 from verify.rules import Checker
-from verify.undecided import UNDECIDED, UndecidedError, why
+from verify.undecided import UNDECIDED, UndecidedError, during, why
 
 Verdict = tuple[str, str, Found | None]
 """Verdict, reason, counter-example."""
@@ -42,25 +42,20 @@ class Examiner:
     def claim(self, name: str, examine: Callable[[], Verdict]) -> Claim:
         """Run an examination; running out of time or memory leaves the claim undecided."""
         started = perf_counter()
-        effort, bound = self.call.effort, None
+        effort, bound, example = self.call.effort, None, None
         programs, calls = effort.programs, effort.calls
         try:
             verdict, reason, found = examine()
+            if found is not None:
+                self._require_valid(found)
+                reason, example = f"{reason}: {self._describe(found)}", plan_steps(self.call, found.steps)
             if verdict == "proved" and name in _BOUNDED:
                 bound = self.result.lower_bound
         except UNDECIDED as error:
-            verdict, reason, found = "undecided", why(error), None
+            verdict, reason = "undecided", why(error)
             bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
             if bound is not None:
                 reason += f"; no answer has an objective below {bound:.12g}"
-        example = None
-        if found is not None:
-            example = plan_steps(self.call, found.steps)
-            fault = self._fault(found)
-            if fault is not None:
-                verdict, reason, example = "undecided", f"the counter-example breaks a rule: {fault}", None
-            else:
-                reason += f": {self._describe(found)}"
         if verdict == "proved" and effort.programs > programs and effort.calls == calls:
             reason += f"; {_CLOSED}"
         return Claim(name, verdict, reason, example, perf_counter() - started, bound)
@@ -145,11 +140,7 @@ class Examiner:
         if nothing is not None and nothing[0] < least:
             return "refuted", f"doing nothing has the objective {self._amount(nothing[0] - shift)}", None
         question = self._question().below(least - 1)
-        minimum = (
-            cheapest(question, call.effort.deadline)
-            if self._endless
-            else minimise(question, call.effort, call.plans)
-        )
+        minimum = cheapest(question) if self._endless else minimise(question, call.effort, call.plans)
         if minimum.found is not None:
             return "refuted", "a plan below the bound", minimum.found
         if minimum.status == "undecided":
@@ -193,7 +184,7 @@ class Examiner:
     def _better(self, score: Score) -> Found | None:
         if not self._endless:
             return self.call.better(self.call.question, score)
-        return self.call.decided(cheapest(self.call.endless.below(score[0] - 1), self.call.effort.deadline))
+        return self.call.decided(cheapest(self.call.endless.below(score[0] - 1)))
 
     def _score(self) -> Score:
         """Objective and cost of the result's own plan, recomputed."""
@@ -220,9 +211,17 @@ class Examiner:
             words if found.window is None else f"{words}, window [{found.window.start}, {found.window.end})"
         )
 
-    def _fault(self, found: Found) -> str | None:
-        """The first rule that a counter-example breaks; None if it stands."""
-        baseline = self.call.baseline
-        opportunity = baseline is not None and found.cost < baseline
-        report = self.checker.check(found_result(self.call, found, opportunity=opportunity))
-        return None if report.ok else str(report.first)
+    def _require_valid(self, found: Found) -> None:
+        """Return if a counter-example stands.
+
+        Raises:
+            UndecidedError: it breaks a rule, or nobody could tell.
+        """
+        with during("checking a counter-example"):
+            baseline = self.call.baseline
+            opportunity = baseline is not None and found.cost < baseline
+            report = self.checker.check(found_result(self.call, found, opportunity=opportunity))
+        if not report.ok:
+            raise UndecidedError(f"the counter-example breaks a rule: {report.first}")
+        if report.undecided:
+            raise UndecidedError(f"a counter-example could not be checked: {report.stopped or 'too hard'}")

@@ -6,23 +6,29 @@ same time or after its end.  A clock that stops at that end is part of the state
 
 from collections.abc import Iterator
 
-from serendipity.model import Deadline
 from verify.encodings.relevance import relevant_part
 from verify.epochs import conflicting
 from verify.joint import Bundle, JointSearch, State
 from verify.minimise import Minimum
 from verify.question import Question
+from verify.undecided import during
 
 
-def cheapest_following(question: Question, deadline: Deadline) -> Minimum:
+def cheapest_following(question: Question) -> Minimum:
     """The least cost of a plan in which he executes ``pi_H`` epoch by epoch and is then idle.
 
     Args:
         question: its horizon is not looked at.
-        deadline: when to give up.
+
+    Raises:
+        LimitReachedError: the deadline came before the search began.
     """
-    part = relevant_part(question)
-    return Minimum("none") if part is None else _Following(question, part).run(deadline)
+    with during("preparing the search for the robots' own plans"):
+        part = relevant_part(question)
+        if part is None:
+            return Minimum("none")
+        search = _Following(question, part)
+    return search.run()
 
 
 def _clock(epoch: int) -> int:
@@ -56,7 +62,7 @@ class _Following(JointSearch):
             return
         robots = [
             i
-            for i in self.part.actions
+            for i in self.deadline.each(self.part.actions)
             if human not in self.task.actions[i].participants and self._fits(i, state)
         ]
         for chosen in self._sets((plan[epoch],), robots):
@@ -74,6 +80,6 @@ class _Following(JointSearch):
         """All action sets that share an epoch with what is chosen."""
         yield chosen
         actions, strict = self.task.actions, self.question.options.strict
-        for k, i in enumerate(candidates):
+        for k, i in enumerate(self.deadline.each(candidates)):
             if not any(conflicting(actions[i], actions[j], strict=strict) for j in chosen):
                 yield from self._sets((*chosen, i), candidates[k + 1 :])

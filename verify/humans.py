@@ -7,7 +7,7 @@ from verify.call import Call
 from verify.claims import Examiner, Verdict
 from verify.question import Found
 from verify.reactions import cheapest_reaction
-from verify.simulator import play
+from verify.simulator import Person, play
 from verify.undecided import UndecidedError
 
 
@@ -135,5 +135,6 @@ def _idle_cost(call: Call) -> int | None:
         (),
         human_model=call.options.human_model,
         horizon=horizon if isinstance(horizon, int) else None,
+        person=Person(call.task, call.plans),
     )
     return call.prices.units(played.cost) if played.goals_hold else None

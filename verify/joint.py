@@ -11,12 +11,14 @@ from heapq import heappop, heappush
 from typing import Final
 
 from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, Task
+from serendipity.model.errors import LIMITS, limit_reason
 from verify.encodings.automata.network import FAR, distances, goal_states
 from verify.encodings.automata.product import automata
 from verify.encodings.relevance import Relevant, relevant_part
 from verify.epochs import conflicting
 from verify.minimise import Minimum
 from verify.question import Found, Question
+from verify.undecided import during
 
 MOST_STATES: Final = 500_000
 
@@ -35,17 +37,21 @@ class Bundle:
     cost: int
 
 
-def cheapest(question: Question, deadline: Deadline) -> Minimum:
+def cheapest(question: Question) -> Minimum:
     """The least cost of a plan with any number of epochs, within the question's limits.
 
     Args:
         question: its horizon is not looked at; its rule is ``free``.
-        deadline: when to give up.
+
+    Raises:
+        LimitReachedError: the deadline came before the search began.
     """
-    part = relevant_part(question)
-    if part is None:
-        return Minimum("none")
-    return JointSearch(question, part).run(deadline)
+    with during("preparing the search for joint plans"):
+        part = relevant_part(question)
+        if part is None:
+            return Minimum("none")
+        search = JointSearch(question, part)
+    return search.run()
 
 
 class LeastLeft:
@@ -55,10 +61,11 @@ class LeastLeft:
     """
 
     def __init__(self, question: Question, part: Relevant) -> None:
-        groups = [frozenset(variable.facts) for variable in question.task.variables]
-        machine = automata(question.task, part, groups)[question.task.human]
+        deadline = question.deadline
+        groups = [frozenset(variable.facts) for variable in question.task.variables_within(deadline)]
+        machine = automata(question.task, part, groups, deadline)[question.task.human]
         weights = list(question.prices.team)
-        left = distances(machine, weights, goal_states(question, machine))[0]
+        left = distances(machine, weights, goal_states(question, machine), deadline)[0]
         self._facts = machine.facts
         self._left = dict(zip(machine.states, left, strict=True))
 
@@ -73,28 +80,41 @@ class JointSearch:
     def __init__(self, question: Question, part: Relevant) -> None:
         self.question = question
         self.task = question.task
+        self.deadline = question.deadline
         self.part = part
         self.facts = part.facts
         self.table: dict[int, list[Bundle]] = {}
-        for bundle in self._bundles(part):
+        for bundle in self.deadline.each(self._bundles(part)):
             self.table.setdefault(min(bundle.pre, default=-1), []).append(bundle)
         conditions = [self.task.goal, *([self.task.robot_goal] if question.robots_goal else [])]
         self.wanted = part.facts.intersection([f for c in conditions for f in c.positive])
         self.unwanted = part.facts.intersection([f for c in conditions for f in c.negative])
         self.left = LeastLeft(question, part)
+        self.closed: set[State] = set()
+        self.bound: int | None = None
 
-    def run(self, deadline: Deadline) -> Minimum:
+    def run(self) -> Minimum:
         """The cheapest plan within the question's limits."""
-        start = self.start
+        try:
+            return self._search()
+        except LIMITS as limit:
+            doing = f"searching joint plans, {len(self.closed):,} states so far"
+            return Minimum(
+                "undecided", bound=self.bound, reason=str(LimitReachedError(limit_reason(limit), doing))
+            )
+
+    def _search(self) -> Minimum:
+        start, closed = self.start, self.closed
         best = {start: 0}
         parent: dict[State, tuple[State, Bundle]] = {}
         queue = [(self.estimate(start), 0, 0, start)]
-        closed: set[State] = set()
         number, most = 0, self._most()
         while queue:
+            self.deadline.check()
             estimate, _, _, state = heappop(queue)
             if state in closed:
                 continue
+            self.bound = estimate
             if estimate > most:
                 break
             closed.add(state)
@@ -102,10 +122,6 @@ class JointSearch:
                 return self._found(state, best[state], parent)
             if len(closed) > MOST_STATES:
                 return Minimum("undecided", bound=estimate, reason=f"more than {MOST_STATES} joint states")
-            try:
-                deadline.tick()
-            except LimitReachedError as limit:
-                return Minimum("undecided", bound=estimate, reason=str(limit))
             for bundle in self.applicable(state):
                 after = (state - bundle.delete) | bundle.add
                 total = best[state] + bundle.cost
@@ -153,7 +169,8 @@ class JointSearch:
         for i in part.actions:
             yield self.bundle((i,))
         if not self.question.options.strict:
-            for circle in circles([(i, self.task.actions[i]) for i in part.actions], self.task):
+            actions = [(i, self.task.actions[i]) for i in self.deadline.each(part.actions)]
+            for circle in circles(actions, self.task, self.deadline):
                 yield self.bundle(circle)
 
     def bundle(self, ids: tuple[int, ...]) -> Bundle:
@@ -169,13 +186,14 @@ class JointSearch:
         )
 
 
-def circles(actions: list[tuple[int, GroundAction]], task: Task) -> list[tuple[int, ...]]:
+def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadline) -> list[tuple[int, ...]]:
     """Sets of actions that may share an epoch but in no order follow each other."""
     by_id = dict(actions)
-    disables = {i: [j for j, b in actions if j != i and _disables(a, b)] for i, a in actions}
+    disables = {i: [j for j, b in deadline.each(actions) if j != i and _disables(a, b)] for i, a in actions}
     found: set[tuple[int, ...]] = set()
 
     def extend(chosen: tuple[int, ...]) -> None:
+        deadline.tick()
         if len(chosen) > 1 and _strongly_connected(chosen, disables):
             found.add(tuple(sorted(chosen)))
         if len(chosen) < len(task.agents):

@@ -6,12 +6,11 @@ common multiple of their denominators, so that cheaper means cheaper by at least
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import reduce
 from math import lcm
 
-from serendipity.model import HumanPlan, Options, Step, Task, Window
+from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
 
 FREE, WINDOW, EXACT, ALONE = "free", "window", "exact", "alone"
 """Rules for the human: anything (SPEC 3.4), a window (3.1), exactly ``pi_H``, his own actions only."""
@@ -67,6 +66,7 @@ class Question:
         robots_goal: whether ``G_R`` has to be reached.
         most: the objective may not exceed this many units, or None.
         most_cost: the cost may not exceed this many units, or None.
+        deadline: polled by whoever works on it.
     """
 
     task: Task
@@ -79,6 +79,7 @@ class Question:
     robots_goal: bool = True
     most: int | None = None
     most_cost: int | None = None
+    deadline: Deadline = field(default_factory=Deadline, compare=False, repr=False)
 
     def but(self, **changes: object) -> "Question":
         """This question with some fields changed."""
@@ -111,23 +112,31 @@ def _least(a: int | None, b: int | None) -> int | None:
     return b if a is None else a if b is None else min(a, b)
 
 
-def prices(task: Task, options: Options, human_plan: HumanPlan) -> Prices:
+def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadline | None = None) -> Prices:
     """The integer costs of a call.
 
     Communication costs nothing outside communication mode, and ``K`` nothing without windows.
+
+    Raises:
+        LimitReachedError: the deadline came first.
     """
-    team = [task.team_cost(action, options.discount) for action in task.actions]
-    talk = [Fraction(0)] * len(team)
-    if options.mode == "communication":
-        planned = set(human_plan)
-        for i, action in enumerate(task.actions):
-            if task.human in action.participants and i not in planned:
-                talk[i] = options.communication_weight * action.cost
+    deadline, planned = deadline or Deadline(), set(human_plan)
+    weight = options.communication_weight if options.mode == "communication" else Fraction(0)
     epoch = options.window_weight if options.windowed else Fraction(0)
-    scale = reduce(lcm, (amount.denominator for amount in (*team, *talk, epoch)), 1)
+    kinds: list[tuple[int, bool, bool]] = []  # few different ones: rationals are slow
+    amounts: dict[tuple[int, bool, bool], tuple[Fraction, Fraction]] = {}
+    for i, action in enumerate(deadline.each(task.actions)):
+        his = task.human in action.participants
+        kind = id(action.cost), his, his and i not in planned
+        if kind not in amounts:
+            talk = weight * action.cost if kind[2] else Fraction(0)
+            amounts[kind] = task.team_cost(action, options.discount), talk
+        kinds.append(kind)
+    scale = lcm(epoch.denominator, *(amount.denominator for both in amounts.values() for amount in both))
+    units = {kind: (int(team * scale), int(talk * scale)) for kind, (team, talk) in amounts.items()}
     return Prices(
         scale,
-        tuple(int(amount * scale) for amount in team),
-        tuple(int(amount * scale) for amount in talk),
+        tuple(units[kind][0] for kind in deadline.each(kinds)),
+        tuple(units[kind][1] for kind in deadline.each(kinds)),
         int(epoch * scale),
     )

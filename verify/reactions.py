@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import Final
 
 from serendipity.model import LimitReachedError, Step, surroundings
+from serendipity.model.errors import LIMITS, limit_reason
 from verify.call import Call
 from verify.encodings.relevance import relevant_part
 from verify.epochs import applicable, conflicting
@@ -18,6 +19,7 @@ from verify.joint import LeastLeft
 from verify.minimise import Minimum
 from verify.question import FREE, Found
 from verify.simulator import Game, Moment, Person
+from verify.undecided import during
 
 MOST_MOMENTS: Final = 200_000
 
@@ -33,19 +35,24 @@ def cheapest_reaction(call: Call, most: int | None) -> Minimum:
 
     Raises:
         TooManyStatesError: the human's own problem is too large.
+        LimitReachedError: the deadline came before anything was played.
     """
-    question = call.question.but(rule=FREE).below(most)
-    part = relevant_part(question)
-    if part is None:
-        return Minimum("none")
-    return _Reactions(call, LeastLeft(question, part), question.most, question.most_cost).run()
+    with during("preparing to play what robots can do"):
+        question = call.question.but(rule=FREE).below(most)
+        part = relevant_part(question)
+        if part is None:
+            return Minimum("none")
+        played = _Reactions(call, LeastLeft(question, part), question.most, question.most_cost)
+    return played.run()
 
 
 class _Reactions:
     def __init__(self, call: Call, left: LeastLeft, *limits: int | None) -> None:
         task, options = call.task, call.options
-        sees = surroundings(task).visible if options.human_model == "local" else None
         self.call = call
+        self.deadline = call.effort.deadline
+        tick = self.deadline.tick
+        sees = surroundings(task, tick).visible if options.human_model == "local" else None
         self.game = Game(task, options, Person(task, call.plans), sees)
         self.left = left
         self.most = min((limit for limit in limits if limit is not None), default=None)
@@ -53,12 +60,19 @@ class _Reactions:
         self.known: dict[Moment, int] = {}
         self.before: dict[tuple[int, Moment], tuple[Moment, tuple[int, ...]]] = {}
         self.offered: dict[int, list[int]] = {}
-        for i, action in enumerate(task.actions):
+        for i, action in enumerate(self.deadline.each(task.actions)):
             if action.participants != (task.human,):
                 self.offered.setdefault(min(action.pre, default=-1), []).append(i)
 
     def run(self) -> Minimum:
         """Play the layers until nothing is left that could cost less."""
+        try:
+            return self._run()
+        except LIMITS as limit:
+            doing = f"playing what robots can do, {len(self.known):,} states and minds so far"
+            return Minimum("undecided", reason=str(LimitReachedError(limit_reason(limit), doing)))
+
+    def _run(self) -> Minimum:
         start = self.game.start(self.call.human_plan or ())
         if self.game.done(start.state):
             affordable = self.most is None or self.most >= 0
@@ -71,10 +85,6 @@ class _Reactions:
             for now in layer:
                 if len(self.known) > MOST_MOMENTS:
                     return Minimum("undecided", best, reason=f"more than {MOST_MOMENTS} states and minds")
-                try:
-                    self.call.effort.deadline.check()
-                except LimitReachedError as limit:
-                    return Minimum("undecided", best, reason=str(limit))
                 for after, total in self._play(epoch, now):
                     if self.game.done(after.state):
                         best, self.most = self._found(epoch, after, total), total - 1
@@ -88,6 +98,7 @@ class _Reactions:
         """What can come of an epoch, where it is worth going on, with the cost so far."""
         spent, look, team = self.known[now], self.game.look(now), self.call.prices.team
         for offers in self._sets((), self._candidates(now.state)):
+            self.deadline.tick()
             deed, after = self.game.act(look, offers)
             if deed.skipped or (deed.blocks and not self.may_block):
                 continue  # without what is skipped the set is tried, too
@@ -103,7 +114,7 @@ class _Reactions:
     def _candidates(self, state: State) -> list[int]:
         actions = self.call.task.actions
         found = (i for f in (-1, *state) for i in self.offered.get(f, ()))
-        return [i for i in found if applicable(actions[i], state)]
+        return [i for i in self.deadline.each(found) if applicable(actions[i], state)]
 
     def _sets(self, chosen: tuple[int, ...], candidates: list[int]) -> Iterator[tuple[int, ...]]:
         """All sets of actions that may share an epoch, the empty one first."""

@@ -7,11 +7,14 @@ from time import perf_counter
 from typing import Any
 
 from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageError
+from serendipity.model.collection import no_collection
 from verify.alone import OptimalPlans
 from verify.answer import Answer, answer, calls
+from verify.certify import END_SHARE
 from verify.minimise import Effort
 from verify.obligations import TIED_MODES
 from verify.results import to_result
+from verify.rules.alone import Alone
 from verify.solver import solver_version
 from verify.undecided import UNDECIDED, why
 
@@ -23,15 +26,18 @@ def solve(
     human_plan: Iterable[str] | None = None,
     encoding: str = "automata",
     solver: str = "highs",
+    deadline: Deadline | None = None,
 ) -> Result:
     """The best plan by integer programming alone: slow, and independent of the search.
 
     Args:
         task: the task.
-        options: mode and options; ``time_limit`` bounds the whole call, in seconds.
+        options: mode and options; ``time_limit`` (seconds) and ``memory_limit`` (MiB, the solver's
+            included) bound the whole call.
         human_plan: names of the actions that the human is going to do; None predicts them.
         encoding: ``automata`` or ``paper``.
         solver: ``highs`` or ``cbc``.
+        deadline: one that other work shares, such as loading the task; it holds beside the limits.
 
     Returns:
         A result with status ``optimal`` or ``infeasible``, or ``unknown`` where the limit
@@ -44,20 +50,17 @@ def solve(
     if options.mode == "assistance" or options.human_model != "omniscient":
         raise UsageError("solve: expected a mode other than 'assistance' and the omniscient human model")
     started = perf_counter()
-    deadline = Deadline(options.time_limit, options.memory_limit)
-    effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
+    limits = (deadline or Deadline()).within(options.time_limit, options.memory_limit)
+    effort = Effort(encoding=encoding, solver=solver, deadline=limits.sooner(END_SHARE))
     given: HumanPlan | None = None if human_plan is None else task.plan_from_names(human_plan)
     if given is not None:
         options = options.but(ties="fixed")  # there is but one plan
-    plans = OptimalPlans(task)
-    try:
-        answers = [answer(call) for call in calls(task, options, given, effort, plans)]
-        tied = options.ties != "fixed" and options.mode in TIED_MODES
-        several = tied and answers[0].call.human_plan is not None
-        result = over_ties(answers, options.ties) if several else to_result(answers[0])
-    except UNDECIDED as error:
-        human = task.agents[task.human]
-        result = Result(options.mode, "unknown", human, options, reason=why(error))
+    with no_collection():  # beside a large task a collection takes longer than a short limit
+        try:
+            result = _solve(task, options, given, effort)
+        except UNDECIDED as error:
+            human = task.agents[task.human]
+            result = Result(options.mode, "unknown", human, options, reason=why(error))
     statistics = {
         "elapsed_seconds": perf_counter() - started,
         "solver": solver_version(solver),
@@ -66,6 +69,14 @@ def solve(
         **effort.size,
     }
     return replace(result, statistics={**result.statistics, **statistics})
+
+
+def _solve(task: Task, options: Options, given: HumanPlan | None, effort: Effort) -> Result:
+    plans = OptimalPlans(task, Alone(task, effort.deadline))
+    answers = [answer(call) for call in calls(task, options, given, effort, plans)]
+    tied = options.ties != "fixed" and options.mode in TIED_MODES
+    several = tied and answers[0].call.human_plan is not None
+    return over_ties(answers, options.ties) if several else to_result(answers[0])
 
 
 def over_ties(answers: list[Answer], ties: str) -> Result:

@@ -1,9 +1,14 @@
 """``serendipity solve``: the integer program as a planner of its own."""
 
+from typing import Final
+
 import serendipity
 from serendipity.cli import naming, output, plan_options, program_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.human_plan import read_human_plan
+
+_CHECK_SHARE: Final = 0.05
+"""What the check of an answer may add to the time limit: a share of it."""
 
 
 def solve(
@@ -28,6 +33,7 @@ def solve(
     ties: plan_options.Ties = None,
     max_ties: plan_options.MaxTies = None,
     time_limit: plan_options.TimeLimit = None,
+    memory_limit: plan_options.MemoryLimit = None,
     solver: program_options.Solver = "highs",
     encoding: program_options.Encoding = "automata",
     format: output.Format = None,  # noqa: A002 - the option's name
@@ -40,6 +46,7 @@ def solve(
     from verify.solve import solve as by_program
 
     form = output.prepare(format, output_file, verbose)
+    deadline = plan_options.limits(time_limit, memory_limit)
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
     options = options_from(
         plan_options.given(
@@ -57,12 +64,15 @@ def solve(
             ties=ties,
             max_ties=max_ties,
             time_limit=time_limit,
+            memory_limit=memory_limit,
         )
     )
     given = None if human_plan is None else read_human_plan(human_plan).checked(task)
     with progress.working("solving", quiet=quiet):
-        result = by_program(task, options, human_plan=given, encoding=encoding, solver=solver)
-    certificate = serendipity.check(task, result)
+        result = by_program(
+            task, options, human_plan=given, encoding=encoding, solver=solver, deadline=deadline
+        )
+    certificate = serendipity.check(task, result, deadline=deadline.sooner(-_CHECK_SHARE))
     if form == "json":
         output.write_answer(output.as_json(result.to_dict()), output_file)
     else:

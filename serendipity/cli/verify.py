@@ -17,6 +17,7 @@ def verify(
     solver: program_options.Solver = "highs",
     encoding: program_options.Encoding = "automata",
     time_limit: plan_options.TimeLimit = None,
+    memory_limit: plan_options.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -24,12 +25,13 @@ def verify(
 ) -> int:
     """Check a result of `plan --format json` claim by claim, independently of the search."""
     form = output.prepare(format, output_file, verbose)
+    deadline = plan_options.limits(time_limit, memory_limit)
     named, answer, result = read_result(files, "verify")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
     try:
         with progress.working("verifying", quiet=quiet):
             certificate = serendipity.verify(
-                task, result, solver=solver, encoding=encoding, time_limit=plan_options.seconds(time_limit)
+                task, result, solver=solver, encoding=encoding, deadline=deadline
             )
     except InputError as error:
         raise InputError(error.message, answer) from None

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from search.goals import Candidate
-from serendipity.model import Certificate, Condition, InputError, Options, Result, Task
+from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from tests.builders import task as build
 from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
 from tests.goals.oracle import best_expected, robots_sets
@@ -88,7 +88,7 @@ def test_observations_become_a_counter() -> None:
     p = Condition((task.facts.index("p"),))
     costs = {}
     for embed in (True, False):
-        own = compiled(task, p, ["keep h"], embed=embed)
+        own = compiled(task, p, ["keep h"], Deadline(), embed=embed)
         worth = OptimalPlans(own).worth(own.init)
         costs[embed] = None if worth is None else worth[0]
     assert costs == {True: 10, False: 5}

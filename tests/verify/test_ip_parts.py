@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity.model import Options, Task
+from serendipity.model import Deadline, Options, Task
 from tests.builders import task as build
 from tests.cases import case_4
 from tests.oracle import best, human_plans
@@ -55,7 +55,7 @@ def test_automata_follow_every_execution(task: Task, seed: int) -> None:
     part = _part(task)
     if part is None:
         return
-    machines = automata(task, part, [])
+    machines = automata(task, part, [], Deadline())
     dice = random.Random(seed)
     state, nodes = task.init, [0] * len(machines)
     for _ in range(6):
@@ -75,9 +75,9 @@ def test_an_automaton_that_would_be_too_large_leaves_facts_out(monkeypatch: pyte
     part = _part(task)
     assert part is not None
     groups = [frozenset(variable.facts) for variable in task.variables]
-    whole = automata(task, part, groups)[task.human]
+    whole = automata(task, part, groups, Deadline())[task.human]
     monkeypatch.setattr(product, "MOST_STATES", 10)
-    small = automata(task, part, groups)[task.human]
+    small = automata(task, part, groups, Deadline())[task.human]
     assert len(small.states) <= 10 < len(whole.states)
     assert small.facts < whole.facts
 
@@ -187,7 +187,7 @@ def test_actions_that_disable_each_other_need_one_epoch() -> None:
     """Each takes what the other needs: in one epoch both can, one after the other neither."""
     task = build(init="a b", goal="x y", actions={"left h": "a b -> x !a", "right r": "a b -> y !b"})
     numbered = list(enumerate(task.actions))
-    assert circles(numbered, task) == [(0, 1)]
+    assert circles(numbered, task, Deadline()) == [(0, 1)]
     answer = solve(task, Options(mode="composite"))
     assert (answer.status, answer.cost, answer.horizon) == ("optimal", 2.0, "inf")
     assert {step.epoch for step in answer.plan or ()} == {1}
@@ -202,4 +202,4 @@ def test_circles_of_three() -> None:
         goal="x",
         actions={"one h": "a -> x !b", "two r": "b -> y !c", "three q": "c -> z !a"},
     )
-    assert circles(list(enumerate(task.actions)), task) == [(0, 1, 2)]
+    assert circles(list(enumerate(task.actions)), task, Deadline()) == [(0, 1, 2)]

@@ -12,9 +12,10 @@ from tests.oracle import Alone as OracleAlone
 from tests.oracle.epochs import after
 from tests.strategies import tasks
 from tests.verify.doctored import RULE_BROKEN
-from tests.verify.valid import VALID, Given, idle
+from tests.verify.valid import VALID, Given, helped, idle
 from verify import check
-from verify.rules import CLAIMS, RULES
+from verify.certify import certify
+from verify.rules import CLAIMS, RULES, alone
 from verify.rules.alone import Alone
 
 
@@ -99,3 +100,15 @@ def test_his_optimal_cost_alone_equals_the_oracle(task: Task, data: st.DataObjec
         if ready:
             state = after(state, [data.draw(st.sampled_from(ready))])
     assert Alone(task).optimum(state) == OracleAlone(task).worth(state)
+
+
+def test_what_is_too_hard_for_a_rule_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether the suffix is his optimal plan is a question of its own: no program answers it."""
+    built = helped()
+    monkeypatch.setattr(alone, "_MOST_EXPANSIONS", 0)
+    report = check(built.task, built.result)
+    assert (report.ok, report.stopped) == (True, None)
+    assert report.undecided == {"window": "the human's own problem is too large"}
+    verdicts = {claim.claim: claim.verdict for claim in certify(built.task, built.result).claims}
+    assert verdicts["window"] == "undecided"
+    assert verdicts["replay"] == "proved"

@@ -5,13 +5,17 @@ epoch t; ``y[f, t]``: fact f after it; ``begins[t]``, ``ends[t]``: whether xi1, 
 """
 
 from functools import cached_property
+from typing import Final
 
 from serendipity.model import Step, Window
 from verify.encodings.automata.control import expected_states
 from verify.question import EXACT, WINDOW, Question
-from verify.solver import Model
+from verify.solver import BYTES_A_TERM, Model
+from verify.undecided import during
 
 _Sum = dict[int, int]
+
+_BYTES_A_COLUMN: Final = 750
 
 
 class PaperEncoding:
@@ -25,7 +29,15 @@ class PaperEncoding:
         self.epochs = range(1, question.horizon + 1)
         self.actions = question.allowed()
         self.human = self.task.human
-        self.model = Model(presolve=True)  # without, HiGHS takes minutes where it takes seconds
+        self.deadline = question.deadline
+        with during(f"writing a program for {len(self.actions):,} actions over {self.last} epochs"):
+            self._require_memory()
+            self._write()
+
+    def _write(self) -> None:
+        question = self.question
+        # without a presolve HiGHS takes minutes where it takes seconds
+        self.model = Model(self.deadline, presolve=True)
         self.x = {(a, t): self.model.binary() for a in self.actions for t in self.epochs}
         self.y = {(f, t): self.model.binary() for f in range(len(self.task.facts)) for t in (0, *self.epochs)}
         self._objective()
@@ -42,11 +54,20 @@ class PaperEncoding:
             self.executes_pi_h()
         self.equation_11()
 
+    def _require_memory(self) -> None:
+        """Ask for the memory of the program's columns and of its larger families of rows."""
+        columns = self.last * (len(self.actions) + len(self.task.facts))
+        terms = len(self.task.facts) * 6
+        for a in self.deadline.each(self.actions):
+            action = self.task.actions[a]
+            terms += 2 * (len(action.pre) + len(action.neg)) + 5 * (len(action.add) + len(action.delete)) + 3
+        self.deadline.require(_BYTES_A_COLUMN * columns + BYTES_A_TERM * self.last * terms)
+
     # -- what every mode has
 
     def _objective(self) -> None:
         prices = self.question.prices
-        for (a, _), x in self.x.items():
+        for (a, _), x in self.deadline.each(self.x.items()):
             weight = prices.team[a] + prices.talk[a]
             if weight:
                 self.model.objective[x] = weight
@@ -78,7 +99,7 @@ class PaperEncoding:
     def equation_5(self) -> None:
         """A fact becomes true by an add effect only, and then it does: the exact frame."""
         for f in range(len(self.task.facts)):
-            adders = [a for a in self.actions if f in self.task.actions[a].add]
+            adders = [a for a in self.deadline.each(self.actions) if f in self.task.actions[a].add]
             for t in self.epochs:
                 sums = {self.x[a, t]: -1 for a in adders}
                 self.model.add("(5)", {self.y[f, t]: 1, self.y[f, t - 1]: -1, **sums}, "<=", 0)
@@ -88,7 +109,7 @@ class PaperEncoding:
     def equation_6(self) -> None:
         """A fact becomes false by one delete effect only, and then it does."""
         for f in range(len(self.task.facts)):
-            deleters = [a for a in self.actions if f in self.task.actions[a].delete]
+            deleters = [a for a in self.deadline.each(self.actions) if f in self.task.actions[a].delete]
             for t in self.epochs:
                 sums = {self.x[a, t]: 1 for a in deleters}
                 if sums:
@@ -99,8 +120,9 @@ class PaperEncoding:
     def equation_10(self) -> None:
         """Each agent takes part in at most one action an epoch."""
         for agent in range(len(self.task.agents)):
+            his = [a for a in self.deadline.each(self.actions) if agent in self.task.actions[a].participants]
             for t in self.epochs:
-                terms = {self.x[a, t]: 1 for a in self.actions if agent in self.task.actions[a].participants}
+                terms = {self.x[a, t]: 1 for a in self.deadline.each(his)}
                 if terms:
                     self.model.add("(10)", terms, "<=", 1)
 
@@ -110,7 +132,7 @@ class PaperEncoding:
             return
         for a in self.actions:
             one = self.task.actions[a]
-            for b in self.actions:
+            for b in self.deadline.each(self.actions):
                 other = self.task.actions[b]
                 if a != b and (set(one.pre) & set(other.delete) or set(one.neg) & set(other.add)):
                     for t in self.epochs:
@@ -121,7 +143,8 @@ class PaperEncoding:
         question = self.question
         if question.most is not None and self.model.objective:
             self.model.add("(11)", dict(self.model.objective), "<=", question.most)
-        cost = {x: question.prices.team[a] for (a, _), x in self.x.items() if question.prices.team[a]}
+        items = self.deadline.each(self.x.items())
+        cost = {x: question.prices.team[a] for (a, _), x in items if question.prices.team[a]}
         if question.most_cost is not None and cost:
             self.model.add("(11)", cost, "<=", question.most_cost)
 
@@ -241,13 +264,15 @@ class PaperEncoding:
     @cached_property
     def his(self) -> list[int]:
         """Actions in which the human takes part."""
-        return [a for a in self.actions if self.human in self.task.actions[a].participants]
+        actions = self.deadline.each(self.actions)
+        return [a for a in actions if self.human in self.task.actions[a].participants]
 
     # -- reading and cutting
 
     def plan(self, values: tuple[int, ...]) -> tuple[tuple[Step, ...], Window | None]:
         """The plan and the window of a solution."""
-        steps = tuple(sorted(Step(t, a) for (a, t), x in self.x.items() if values[x]))
+        items = self.deadline.each(self.x.items())
+        steps = tuple(sorted(Step(t, a) for (a, t), x in items if values[x]))
         if self.question.rule != WINDOW:
             return steps, None
         start = next(t for t, column in self.begins.items() if values[column])
@@ -257,15 +282,15 @@ class PaperEncoding:
         """A suffix from ``state`` at ``xi2`` adds at least ``least``; with None there is none."""
         differs: _Sum = {self.ends[xi2]: 1}
         true = 0
-        for f in range(len(self.task.facts)):
+        for f in self.deadline.each(range(len(self.task.facts))):
             differs[self.y[f, xi2 - 1]] = 1 if f in state else -1
             true += f in state
         if least is None:
             self.model.add("(8)", differs, "<=", true)
             return
         prices = self.question.prices
-        weights = {
-            x: prices.team[a] + prices.talk[a] for (a, t), x in self.x.items() if t >= xi2 and a in self.his
-        }
+        his = set(self.his)
+        items = self.deadline.each(self.x.items())
+        weights = {x: prices.team[a] + prices.talk[a] for (a, t), x in items if t >= xi2 and a in his}
         terms = {column: -least * c for column, c in differs.items()} | weights
         self.model.add("(8)", terms, ">=", -least * true)

@@ -8,7 +8,7 @@ making a precondition, a goal or another action's applicability false.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from serendipity.model import GroundAction, Task
+from serendipity.model import Deadline, GroundAction, Task
 from verify.question import Question
 
 
@@ -33,10 +33,11 @@ def relevant_part(question: Question, extra: Iterable[int] = ()) -> Relevant | N
     """Reduce a question's task; None if a goal can't be reached even without deletes.
 
     Args:
+        question: its deadline is polled.
         extra: further facts whose truth matters (the states of ``preservation = state``).
     """
-    task = question.task
-    true, false, usable = _reachable(task, question.allowed())
+    task, deadline = question.task, question.deadline
+    true, false, usable = _reachable(task, question.allowed(), deadline)
     positive = {*task.goal.positive}
     negative = {*task.goal.negative}
     if question.robots_goal:
@@ -49,28 +50,28 @@ def relevant_part(question: Question, extra: Iterable[int] = ()) -> Relevant | N
     for i in forced:
         seeds.update(task.actions[i].pre, task.actions[i].neg)
     changing = true & false
-    kept, facts = _closure(task.actions, usable, seeds & changing, changing)
+    kept, facts = _closure(task.actions, usable, seeds & changing, changing, deadline)
     kept |= set(forced)
     return Relevant(
         tuple(sorted(kept)),
         frozenset(facts),
-        {i: tuple(f for f in task.actions[i].pre if f in facts) for i in kept},
-        {i: tuple(f for f in task.actions[i].neg if f in facts) for i in kept},
+        {i: tuple(f for f in task.actions[i].pre if f in facts) for i in deadline.each(kept)},
+        {i: tuple(f for f in task.actions[i].neg if f in facts) for i in deadline.each(kept)},
     )
 
 
-def _reachable(task: Task, allowed: Sequence[int]) -> tuple[set[int], set[int], set[int]]:
+def _reachable(task: Task, allowed: Sequence[int], deadline: Deadline) -> tuple[set[int], set[int], set[int]]:
     """Facts that may become true, facts that may become false, actions that may become applicable."""
     true, false = set(task.init), set(range(len(task.facts))) - task.init
     usable: set[int] = set()
     waiting = list(allowed)
     while True:
-        ready = [i for i in waiting if _may(task.actions[i], true, false)]
+        ready = [i for i in deadline.each(waiting) if _may(task.actions[i], true, false)]
         if not ready:
             return true, false, usable
         usable.update(ready)
-        waiting = [i for i in waiting if i not in usable]
-        for i in ready:
+        waiting = [i for i in deadline.each(waiting) if i not in usable]
+        for i in deadline.each(ready):
             true.update(task.actions[i].add)
             false.update(task.actions[i].delete)
 
@@ -80,17 +81,21 @@ def _may(action: GroundAction, true: set[int], false: set[int]) -> bool:
 
 
 def _closure(
-    actions: Sequence[GroundAction], usable: Iterable[int], seeds: set[int], changing: set[int]
+    actions: Sequence[GroundAction],
+    usable: Iterable[int],
+    seeds: set[int],
+    changing: set[int],
+    deadline: Deadline,
 ) -> tuple[set[int], set[int]]:
     """Facts that matter for the seeds, and the actions that change one of them."""
     changers: dict[int, list[int]] = {}
-    for i in usable:
+    for i in deadline.each(usable):
         for f in (*actions[i].add, *actions[i].delete):
             changers.setdefault(f, []).append(i)
     kept: set[int] = set()
     facts, pending = set(seeds), list(seeds)
     while pending:
-        for i in changers.get(pending.pop(), ()):
+        for i in deadline.each(changers.get(pending.pop(), ())):
             if i in kept:
                 continue
             kept.add(i)

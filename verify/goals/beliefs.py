@@ -9,9 +9,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from serendipity.model import Condition, GroundAction, Task
+from serendipity.model import Condition, Deadline, GroundAction, Task
 from verify.alone import OptimalPlans
 from verify.goals.reading import Believed, Recognised
+from verify.rules.alone import Alone
 
 Fault = str
 """One line: what is wrong."""
@@ -19,14 +20,16 @@ Fault = str
 PlanNames = tuple[str, ...]
 
 
-def compiled(task: Task, goal: Condition, observed: Sequence[str], *, embed: bool) -> Task:
+def compiled(
+    task: Task, goal: Condition, observed: Sequence[str], deadline: Deadline, *, embed: bool
+) -> Task:
     """The human's own task, in which plans have to embed the observations, or must not.
 
     Matching each observation as early as possible decides whether a plan embeds them.
     """
     first, last = len(task.facts), len(task.facts) + len(observed)
     actions: list[GroundAction] = []
-    for i in task.human_actions:
+    for i in deadline.each(task.human_actions):
         action = task.actions[i]
         steps = [first + k for k, name in enumerate(observed) if name == action.name]
         actions.append(replace(action, neg=(*action.neg, *steps)))
@@ -48,14 +51,16 @@ def compiled(task: Task, goal: Condition, observed: Sequence[str], *, embed: boo
     )
 
 
-def considered_plan(task: Task, goal: Condition, observed: Sequence[str]) -> PlanNames | None:
+def considered_plan(
+    task: Task, goal: Condition, observed: Sequence[str], deadline: Deadline
+) -> PlanNames | None:
     """The canonical optimal plan for a goal that embeds the observations; None if there is none."""
-    own = compiled(task, goal, observed, embed=True)
-    plan = OptimalPlans(own).canonical()
+    own = compiled(task, goal, observed, deadline, embed=True)
+    plan = OptimalPlans(own, Alone(own, deadline)).canonical()
     return None if plan is None else tuple(own.actions[i].name for i in plan)
 
 
-def faults(task: Task, recognised: Recognised) -> Iterator[Fault]:
+def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[Fault]:
     """Everything that is wrong with a recognition, in order."""
     for name in recognised.observed:
         if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
@@ -66,7 +71,7 @@ def faults(task: Task, recognised: Recognised) -> Iterator[Fault]:
     if len({goal.name for goal in recognised.goals}) < len(recognised.goals):
         yield "two goals have one name"
     for goal in recognised.goals:
-        yield from _own_faults(task, recognised, goal)
+        yield from _own_faults(task, recognised, goal, deadline)
     possible = any(goal.prior and goal.with_observed is not None for goal in recognised.goals)
     if recognised.explained != possible:
         yield f"explained is {str(possible).lower()}, the answer says otherwise"
@@ -76,16 +81,16 @@ def faults(task: Task, recognised: Recognised) -> Iterator[Fault]:
             yield f"goal '{goal.name}': the posterior is {right:.12g}, the answer says {goal.posterior:.12g}"
 
 
-def _own_faults(task: Task, recognised: Recognised, goal: Believed) -> Iterator[Fault]:
+def _own_faults(task: Task, recognised: Recognised, goal: Believed, deadline: Deadline) -> Iterator[Fault]:
     for embed, said in ((True, goal.with_observed), (False, goal.without_observed)):
-        own = compiled(task, goal.goal, recognised.observed, embed=embed)
-        worth = OptimalPlans(own).worth(own.init)
+        own = compiled(task, goal.goal, recognised.observed, deadline, embed=embed)
+        worth = Alone(own, deadline).optimum(own.init)
         least = None if worth is None else float(worth[0])
         if said != least:
             what = "with" if embed else "without"
             yield f"goal '{goal.name}': its cost {what} the observations is {least}, the answer says {said}"
             return
-    if goal.plan != considered_plan(task, goal.goal, recognised.observed):
+    if goal.plan != considered_plan(task, goal.goal, recognised.observed, deadline):
         yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
     likelihood = _likelihood(recognised.beta, goal)
     if (likelihood is None) != (goal.likelihood is None) or not _close(goal.likelihood or 0, likelihood or 0):

@@ -5,7 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
 
-from serendipity.model import Claim, PlanStep, Result, Step, Task
+from serendipity.model import Claim, Deadline, PlanStep, Result, Step, Task
 from verify.alone import OptimalPlans
 from verify.call import Call
 from verify.goals.beliefs import considered_plan, faults
@@ -26,6 +26,7 @@ from verify.rules.alone import Alone
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
 from verify.undecided import UNDECIDED, why
+from verify.undecided import UNDECIDED, UndecidedError, why
 
 _PROVED = {
     "replay": "the posterior is right, and no considered plan is broken",
@@ -41,26 +42,31 @@ Certify = Callable[[Task, Result], Sequence[Claim]]
 """Certifies an answer of section 3."""
 
 
-def check_goals(task: Task, result: Result, certify: Certify, effort: Effort | None) -> Iterator[Claim]:
+def check_goals(
+    task: Task, result: Result, certify: Certify, deadline: Deadline, effort: Effort | None = None
+) -> Iterator[Claim]:
     """Examine an answer for goals that are not known.
 
     Args:
         task: the task that was asked; its own goal plays no part.
         result: an answer with ``statistics["goals"]``.
         certify: what examines the answer where one goal is left: that is section 3.
-        effort: the solver's settings; None: rules only, no optimiser.
+        deadline: what is not examined by then stays undecided.
+        effort: the solver's settings, under the same deadline; None: rules only, no optimiser.
     """
     started = perf_counter()
     try:
         recognised, served = read(task, result)
-        fault = next(faults(task, recognised), None)
-        chosen = _considered(task, recognised) if fault is None else []
+        fault = next(faults(task, recognised, deadline), None)
+        chosen = _considered(task, recognised, deadline) if fault is None else []
         if fault is None:
             fault = _selection_fault(task, result, recognised, chosen, served)
     except MalformedError as error:
         fault = str(error)
     except UNDECIDED as error:
         yield Claim("replay", "undecided", why(error), seconds=perf_counter() - started)
+        others = ("cost", "window", *_wanted(result)) if result.plan is not None else _wanted(result)
+        yield from (Claim(name, "undecided", f"as 'replay': {why(error)}") for name in others)
         return
     if fault is not None:
         yield Claim("replay", "refuted", fault, seconds=perf_counter() - started)
@@ -74,14 +80,23 @@ def check_goals(task: Task, result: Result, certify: Certify, effort: Effort | N
         yield from _certain(task, result, chosen[0], served[0], certify)
     else:
         goals = [believed.goal for believed in chosen]
-        yield from _Claims(result, timelines(task, result, goals, served), effort).claims()
+        yield from _Claims(result, timelines(task, result, goals, served, deadline), effort).claims()
 
 
-def _considered(task: Task, recognised: Recognised) -> list[Believed]:
+def _wanted(result: Result) -> list[str]:
+    """The claims that need an optimiser."""
+    if result.status == "infeasible":
+        return ["infeasible"]
+    if result.status != "optimal":
+        return ["lower_bound"]
+    return ["optimal" if result.opportunity else "no_opportunity", "lower_bound"]
+
+
+def _considered(task: Task, recognised: Recognised, deadline: Deadline) -> list[Believed]:
     """The goals that are possible and that he can reach, with the plans that are expected of him."""
     seen = recognised.observed if recognised.explained else ()
     planned = [
-        replace(goal, plan=considered_plan(task, goal.goal, seen))
+        replace(goal, plan=considered_plan(task, goal.goal, seen, deadline))
         for goal in recognised.goals
         if goal.posterior
     ]
@@ -168,27 +183,42 @@ class _Claims:
     def claims(self) -> Iterator[Claim]:
         """All claims, in order; what rules refute is not handed to an optimiser."""
         refuted: set[str] = set()
+        unknown: str | None = None
         for name, fault in self._rules():
             if name in ("cost", "window") and "replay" in refuted:
                 yield Claim(name, "not_in_scope", "the plans can't be replayed")
                 continue
-            started = perf_counter()
-            found = fault()
-            if found is not None:
+            claim = self._by_rules(name, fault, unknown)
+            if claim.verdict == "refuted":
                 refuted.add(name)
-            if found is not None or name != "lower_bound":
-                verdict = "proved" if found is None else "refuted"
-                yield Claim(name, verdict, found or _PROVED[name], seconds=perf_counter() - started)
-        wanted = ["lower_bound"]
-        if self.result.status == "optimal":
-            wanted.insert(0, "optimal" if self.result.opportunity else "no_opportunity")
+            if claim.verdict == "undecided" and name == "replay":
+                unknown = claim.reason
+            if claim.verdict == "refuted" or name != "lower_bound":
+                yield claim
+        wanted = _wanted(self.result)
         out = "the answer breaks a rule already" if refuted else None
         if out is None and self.effort is None:
             out = "not examined: the rules alone can't prove it"
         if out is not None:
             yield from (Claim(name, "not_in_scope", out) for name in wanted if name not in refuted)
+        elif unknown is not None:
+            yield from (Claim(name, "undecided", f"as 'replay': {unknown}") for name in wanted)
         else:
             yield from self._solved(wanted)
+
+    def _by_rules(self, name: str, fault: Callable[[], str | None], unknown: str | None) -> Claim:
+        """One claim of the rules; what depends on plans that were not replayed stays undecided."""
+        started = perf_counter()
+        try:
+            if unknown is not None:
+                raise UndecidedError(f"as 'replay': {unknown}")
+            found = fault()
+        except UNDECIDED as error:
+            verdict, reason = "undecided", why(error)
+        else:
+            verdict = "proved" if found is None else "refuted"
+            reason = found or _PROVED[name]
+        return Claim(name, verdict, reason, seconds=perf_counter() - started)
 
     def _rules(self) -> Iterator[tuple[str, Callable[[], str | None]]]:
         lines, result = self.lines, self.result

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
-from serendipity.model import Condition, PlanStep, Result, Task
+from serendipity.model import Condition, Deadline, PlanStep, Result, Task
 from verify.goals.reading import Served, weight
 from verify.rules.alone import Alone
 from verify.rules.case import Case
@@ -65,7 +65,7 @@ class Timeline:
 
 
 def timelines(
-    task: Task, result: Result, goals: Sequence[Condition], served: Sequence[Served]
+    task: Task, result: Result, goals: Sequence[Condition], served: Sequence[Served], deadline: Deadline
 ) -> list[Timeline]:
     """The timelines of an answer, with weights that add up to 1."""
     weights = [weight(entry.probability) for entry in served]
@@ -83,7 +83,7 @@ def timelines(
             objective=entry.cost,
             statistics={},
         )
-        found.append(Timeline(entry.name, share / total, Case(own, answer, Alone(own))))
+        found.append(Timeline(entry.name, share / total, Case(own, answer, Alone(own, deadline))))
     return found
 
 

@@ -115,6 +115,7 @@ class Together:
                 if count > MOST_NODES:
                     raise UndecidedError(f"more than {MOST_NODES} robots' plans")
                 for robots in self._choices(lines):
+                    call.effort.deadline.check()
                     after = self._after(lines, epoch, robots, than)
                     paid = spent + sum(self._units.team[i] for i in robots)
                     if after is None or seen.get(key := _key(after, paid), paid + 1) <= paid:
@@ -140,7 +141,7 @@ class Together:
 
     def _sets(self, chosen: Robots, candidates: Sequence[int], state: State) -> Iterator[Robots]:
         actions, strict = self._calls[0].task.actions, self._calls[0].options.strict
-        for k, i in enumerate(candidates):
+        for k, i in enumerate(self._calls[0].effort.deadline.each(candidates)):
             if applicable(actions[i], state) and not any(
                 conflicting(actions[i], actions[j], strict=strict) for j in chosen
             ):
@@ -166,7 +167,7 @@ class Together:
         labels: dict[Label, Score] = {}
         ended = None if robots else line.ended
         price = sum(team[i] for i in robots)
-        for (start, state), (objective, cost) in line.labels.items():
+        for (start, state), (objective, cost) in call.effort.deadline.each(line.labels.items()):
             for his, begin in self._parts(call, start, epoch):
                 after = self._together(state, his, robots)
                 if after is None:

@@ -44,44 +44,51 @@ class Board:
         deadline: asked for time.
 
     Attributes:
+        deadline: when to give up.
         replies_are_dear: the robot changes what he needs and can't change himself, so his
             optimum is another search after each of its moves.
     """
 
     def __init__(self, task: Task, *, fixed: bool, deadline: Deadline) -> None:
         self.task = task
+        self.deadline = deadline
         self._fixed = fixed
-        humans = [i for i, a in enumerate(task.actions) if a.participants == (task.human,)]
-        robots = [i for i, a in enumerate(task.actions) if a.participants == (task.robots[0],)]
+        humans = self._of(task.human)
+        robots = self._of(task.robots[0])
         self._scale = lcm(1, *(task.actions[i].cost.denominator for i in (*humans, *robots)))
-        self._relevant = _relevant(task, [*humans, *robots])
-        self._human = [edge for i in humans if (edge := self._edge(i, _UNIT, 1)) is not None]
-        self._robot = [edge for i in robots if (edge := self._edge(i, 1, 0)) is not None]
+        self._relevant = _relevant(task, [*humans, *robots], deadline)
+        self._human = [e for i in deadline.each(humans) if (e := self._edge(i, _UNIT, 1)) is not None]
+        self._robot = [e for i in deadline.each(robots) if (e := self._edge(i, 1, 0)) is not None]
         self.goal = Goal(_bits(task.goal.positive), _bits(task.goal.negative))
         self.start = _bits(task.init) & self._relevant
         self._replies: dict[int, tuple[Reply, ...]] = {}
         mentioned = self.goal.pre | self.goal.neg
-        for edge in self._human:
+        for edge in deadline.each(self._human):
             mentioned |= edge.pre | edge.neg | edge.add | edge.delete
         self._his = mentioned
         self._alone = Distances(self._human, self.goal, _MOST_ALONE, deadline)
-        together = [replace(edge, weight=edge.weight // _UNIT * _UNIT) for edge in self._human]
-        self._joint_moves = Moves([*together, *self._robot])
+        together = [replace(edge, weight=edge.weight // _UNIT * _UNIT) for edge in deadline.each(self._human)]
+        self._joint_moves = Moves([*together, *self._robot], deadline)
         self._together: Distances | None = Distances(
             [*together, *self._robot], self.goal, _MOST_TOGETHER, deadline
         )
         changed = 0
-        for edge in self._robot:
+        for edge in deadline.each(self._robot):
             changed |= edge.add | edge.delete
         self._his_only = mentioned & ~changed
         his_changes = 0
-        for edge in self._human:
+        for edge in deadline.each(self._human):
             his_changes |= edge.add | edge.delete
         self.replies_are_dear = bool(changed & mentioned & ~his_changes)
-        private = [_within(edge, self._his_only) for edge in together]
+        private = [_within(edge, self._his_only) for edge in deadline.each(together)]
         goal = Goal(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
         self._private: Distances | None = Distances(private, goal, _MOST_PRIVATE, deadline)
         self._ids = {name: i for i, name in enumerate(task.facts)}
+
+    def _of(self, agent: int) -> list[int]:
+        """Actions that an agent does alone."""
+        actions = enumerate(self.deadline.each(self.task.actions))
+        return [i for i, action in actions if action.participants == (agent,)]
 
     def at_least(self, state: int, value: Costs, *, most: int = _MOST_LOOKED_AT) -> bool:
         """Whether both together, without turns, pay at least ``value``, as far as can be told.
@@ -94,7 +101,7 @@ class Board:
         if known:
             return key is None or value <= self._costs(key)
         limit = self._weight(value)
-        below = reaches_below(self._joint_moves, self.goal, state, limit, self._least, most)
+        below = reaches_below(self._joint_moves, self.goal, state, limit, self._least, most, self.deadline)
         return below is False
 
     def bound(self, state: int) -> Costs:
@@ -141,11 +148,11 @@ class Board:
 
     @cached_property
     def _countable(self) -> list[tuple[int, int]]:
-        setters = [edge for edge in self._robot if edge.add & self.goal.pre]
+        setters = [edge for edge in self.deadline.each(self._robot) if edge.add & self.goal.pre]
         if setters or any((edge.add & self.goal.pre).bit_count() > 1 for edge in self._human):
             return []
         cheapest: dict[int, int] = {}
-        for edge in self._human:
+        for edge in self.deadline.each(self._human):
             bit = edge.add & self.goal.pre
             if bit:
                 cheapest[bit] = min(cheapest.get(bit, edge.weight // _UNIT), edge.weight // _UNIT)
@@ -159,12 +166,12 @@ class Board:
         """
         true = _bits(self._ids[name] for name in delta.true)
         false = _bits(self._ids[name] for name in delta.false)
-        return (_bits(self.task.init) & ~false | true) & self._relevant
+        return (self.start & ~false | true) & self._relevant
 
     def moves(self, state: int) -> list[tuple[Fraction, int, str]]:
         """What the robot may do, waiting included: cost, state after it, name."""
         found = [(Fraction(0), state, "noop")]
-        for edge in self._robot:
+        for edge in self.deadline.each(self._robot):
             if edge.applicable(state):
                 action = self.task.actions[edge.action]
                 found.append((action.cost, edge.after(state), action.name))
@@ -198,7 +205,7 @@ class Board:
         seen: set[tuple[str, int]] = set()
         if key is None:
             return found
-        for edge in self._human:  # ascending, as the task's actions are
+        for edge in self.deadline.each(self._human):  # ascending, as the task's actions are
             if edge.applicable(state):
                 after = edge.after(state)
                 rest = self._key(after)
@@ -239,13 +246,13 @@ def _bits(facts: Iterable[int]) -> int:
     return bits
 
 
-def _relevant(task: Task, ids: list[int]) -> int:
+def _relevant(task: Task, ids: list[int], deadline: Deadline) -> int:
     """Facts that the goal depends on, through preconditions of what changes them."""
     goal: Condition = task.goal
     relevant = _bits(goal.positive) | _bits(goal.negative)
     while True:
         more = relevant
-        for i in ids:
+        for i in deadline.each(ids):
             action = task.actions[i]
             if (_bits(action.add) | _bits(action.delete)) & relevant:
                 more |= _bits(action.pre) | _bits(action.neg)

@@ -6,6 +6,7 @@ from time import perf_counter
 from typing import Final
 
 from serendipity.model import Claim, Deadline, Result, Task
+from verify.obligations import needed
 from verify.policy.board import NOTHING, Board, Costs
 from verify.policy.closed import BrokenError, Walk
 from verify.policy.ending import ends
@@ -13,7 +14,7 @@ from verify.policy.figures import Bounds, figure_faults, header_faults
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
-from verify.undecided import UNDECIDED, why
+from verify.undecided import UNDECIDED, during, why
 
 _NO_WALK: Final = "not examined: it takes more than a walk through the policy; verify looks at it"
 
@@ -58,9 +59,10 @@ class _Checker:
             yield Claim(fault[0], "refuted", fault[1])
             return
         try:
-            board = Board(self._task, fixed=self._ties == "fixed", deadline=self._deadline)
+            with during("setting up the game"):
+                board = Board(self._task, fixed=self._ties == "fixed", deadline=self._deadline)
         except UNDECIDED as error:
-            yield Claim("replay", "undecided", why(error))
+            yield from self._undecided(why(error))
             return
         if result.status == "infeasible":
             yield self._unless_replay_only("infeasible") or self._infeasible(board)
@@ -74,21 +76,29 @@ class _Checker:
     def _unless_replay_only(self, name: str) -> Claim | None:
         return Claim(name, "not_in_scope", _NO_WALK) if self._replay_only else None
 
+    def _undecided(self, reason: str) -> Iterator[Claim]:
+        """Every claim that a proof needs."""
+        return (Claim(name, "undecided", reason) for name in needed(self._result))
+
     def _infeasible(self, board: Board) -> Claim:
         try:
-            if ends(board, self._ties, no_block=self._no_block, deadline=self._deadline):
-                return Claim("infeasible", "refuted", "there is a policy that ends")
+            with during("looking at every state of the game"):
+                end = ends(board, self._ties, no_block=self._no_block, deadline=self._deadline)
         except UNDECIDED as error:
             return Claim("infeasible", "undecided", why(error))
+        if end:
+            return Claim("infeasible", "refuted", "there is a policy that ends")
         return Claim("infeasible", "proved", "whatever the supporter does, a run may go on for ever")
 
     def _with_policy(self, board: Board) -> Iterator[Claim]:
         assert self._result.policy is not None
         try:
-            listed = read_decisions(board, self._result.policy)
-            value = Walk(board, listed, self._ties, no_block=self._no_block).value()
-            if self._result.plan is not None:
-                check_run(self._task, board, self._result)
+            with during("walking through the policy"):
+                listed = read_decisions(board, self._result.policy)
+                value = Walk(board, listed, self._ties, no_block=self._no_block).value()
+                if self._result.plan is not None:
+                    check_run(self._task, board, self._result)
+                fault = next(figure_faults(self._task, board, self._result, value), None)
         except ValueError as error:
             yield Claim("replay", "refuted", str(error))
             return
@@ -96,10 +106,10 @@ class _Checker:
             yield Claim(broken.claim, "refuted", str(broken))
             return
         except UNDECIDED as error:
-            yield Claim("replay", "undecided", why(error))
+            yield from self._undecided(why(error))
             return
-        for claim, message in figure_faults(self._task, board, self._result, value):
-            yield Claim(claim, "refuted", message)
+        if fault is not None:
+            yield Claim(fault[0], "refuted", fault[1])
             return
         yield Claim("replay", "proved", "closed under what the human may do, and every run ends")
         yield Claim(
@@ -131,10 +141,11 @@ class _Checker:
     def _optimal(self, board: Board, value: Costs) -> Claim:
         assert self._result.policy is not None
         try:
-            floors = Floors(
-                board, self._result.policy, self._ties, no_block=self._no_block, deadline=self._deadline
-            )
-            floors.prove(value)
+            with during("proving the lower bounds"):
+                floors = Floors(
+                    board, self._result.policy, self._ties, no_block=self._no_block, deadline=self._deadline
+                )
+                floors.prove(value)
         except KeyError as error:
             return Claim("optimal", "undecided", f"the task has no fact {error}")
         except UNDECIDED as error:

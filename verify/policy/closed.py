@@ -133,8 +133,8 @@ class Walk:
         every = all if self._ties in ("robust", "fixed") else any
         grows = True
         while grows:
-            more = {s for s, after in self._onward.items() if every(x in settled for x in after) and after}
-            more |= {s for s, after in self._onward.items() if not after}
+            onward = self._board.deadline.each(self._onward.items())
+            more = {s for s, after in onward if not after or every(x in settled for x in after)}
             grows = not more <= settled
             settled |= more
         if self._board.start not in settled or (self._ties == "expected" and settled != set(self._onward)):

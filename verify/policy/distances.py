@@ -45,15 +45,15 @@ class Goal:
 class Moves:
     """Applicable edges of a state, looked up under one fact that each of them needs."""
 
-    def __init__(self, edges: Sequence[Edge]) -> None:
+    def __init__(self, edges: Sequence[Edge], deadline: Deadline) -> None:
         count: dict[int, int] = {}
-        for edge in edges:
+        for edge in deadline.each(edges):
             for bit in bits_of(edge.pre):
                 count[bit] = count.get(bit, 0) + 1
         self._under: dict[int, list[Edge]] = {}
         self._always: list[Edge] = []
         self._watched = 0
-        for edge in edges:
+        for edge in deadline.each(edges):
             bit = min(bits_of(edge.pre), key=lambda bit: count[bit], default=0)
             self._under.setdefault(bit, []).append(edge) if bit else self._always.append(edge)
             self._watched |= bit
@@ -85,7 +85,7 @@ class Distances:
     """
 
     def __init__(self, edges: Sequence[Edge], goal: Goal, most: int, deadline: Deadline) -> None:
-        self._moves = Moves(edges)
+        self._moves = Moves(edges, deadline)
         self._goal = goal
         self._most = most
         self._deadline = deadline
@@ -95,7 +95,8 @@ class Distances:
         """The least weight; None if the goal can't be reached.
 
         Raises:
-            UndecidedError: there are too many states, or no time is left.
+            UndecidedError: there are too many states.
+            LimitReachedError: the deadline came first.
         """
         if state not in self._known:
             self._explore(state)
@@ -105,9 +106,8 @@ class Distances:
         before: dict[int, list[tuple[int, int]]] = {start: []}
         pending, ends = [start], []
         while pending:
+            self._deadline.check()
             state = pending.pop()
-            if not len(pending) % 256:
-                self._deadline.check()
             if state in self._known:
                 known = self._known[state]
                 ends += [] if known is None else [(known, state)]
@@ -127,18 +127,25 @@ class Distances:
         heapify(queue)
         found: dict[int, int] = {}
         while queue:
+            self._deadline.tick()
             distance, state = heappop(queue)
             if state not in found:
                 found[state] = distance
                 for weight, earlier in before[state]:
                     if earlier not in found:
                         heappush(queue, (distance + weight, earlier))
-        for state in before:
+        for state in self._deadline.each(before):
             self._known[state] = found.get(state)
 
 
 def reaches_below(
-    moves: Moves, goal: Goal, start: int, limit: int, least: Callable[[int], int], most: int
+    moves: Moves,
+    goal: Goal,
+    start: int,
+    limit: int,
+    least: Callable[[int], int],
+    most: int,
+    deadline: Deadline,
 ) -> bool | None:
     """Whether the goal can be reached from ``start`` for less than ``limit``; None if that takes too long.
 
@@ -149,11 +156,16 @@ def reaches_below(
         limit: what must be undercut.
         least: a consistent lower bound on what a state still takes.
         most: states looked at before giving up.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came first.
     """
     queue = [(least(start), 0, start)]
     best = {start: 0}
     closed: set[int] = set()
     while queue and queue[0][0] < limit:
+        deadline.check()
         _, minus, state = heappop(queue)
         if state in closed:
             continue

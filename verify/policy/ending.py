@@ -14,7 +14,8 @@ def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool
     """Whether some policy has a value in ``I`` (SPEC 7: one whose runs end).
 
     Raises:
-        UndecidedError: there are too many states, or no time is left.
+        UndecidedError: there are too many states.
+        LimitReachedError: the deadline came first.
     """
     if board.goal.holds(board.start):
         return True
@@ -25,11 +26,13 @@ def lost_states(board: Board, ties: str, *, no_block: bool, deadline: Deadline) 
     """States that may come up, with the supporter to move, from which no policy has a value.
 
     Raises:
-        UndecidedError: there are too many states, or no time is left.
+        UndecidedError: there are too many states.
+        LimitReachedError: the deadline came first.
     """
     choices = _explore(board, no_block, deadline)
-    good = _almost_surely(choices) if ties == "expected" else _forced(choices, every=ties == "robust")
-    return set(choices) - good
+    if ties == "expected":
+        return set(choices) - _almost_surely(choices, deadline)
+    return set(choices) - _forced(choices, deadline, every=ties == "robust")
 
 
 def _explore(board: Board, no_block: bool, deadline: Deadline) -> Choices:
@@ -59,13 +62,15 @@ def _blocked(board: Board, state: int, middle: int) -> bool:
     return board.alone(middle) is None and board.alone(state) is not None
 
 
-def _forced(choices: Choices, *, every: bool) -> set[int]:
+def _forced(choices: Choices, deadline: Deadline, *, every: bool) -> set[int]:
     """States from which the end is reached; against the human if ``every``, else with him."""
     good = {-1}
     grows = True
     while grows:
         more = {
-            state for state, moves in choices.items() if any(_leads(after, good, every) for after in moves)
+            state
+            for state, moves in deadline.each(choices.items())
+            if any(_leads(after, good, every) for after in moves)
         }
         grows = not more <= good
         good |= more
@@ -76,12 +81,16 @@ def _leads(after: list[int], good: set[int], every: bool) -> bool:
     return not after or (all if every else any)(state in good for state in after)
 
 
-def _almost_surely(choices: Choices) -> set[int]:
+def _almost_surely(choices: Choices, deadline: Deadline) -> set[int]:
     """States from which some policy ends with probability 1."""
     safe = {-1, *choices}
     while True:
-        kept = {s: [a for a in moves if safe.issuperset(a)] for s, moves in choices.items() if s in safe}
-        reached = _forced(kept, every=False)
+        kept = {
+            s: [a for a in moves if safe.issuperset(a)]
+            for s, moves in deadline.each(choices.items())
+            if s in safe
+        }
+        reached = _forced(kept, deadline, every=False)
         if reached == safe:
             return safe
         safe = reached

@@ -12,7 +12,7 @@ from serendipity.model import Deadline, Policy
 from verify.policy.board import FAR, NOTHING, Board, Costs, Reply
 from verify.policy.ending import lost_states
 from verify.policy.reading import combine, plus
-from verify.undecided import UNDECIDED, UndecidedError
+from verify.undecided import UNDECIDED, UndecidedError, why
 
 _NOT_PROVED: Final = "a lower bound does not follow from those after '{}'"
 _A_LOOK: Final = 300
@@ -27,7 +27,7 @@ class Floors:
         policy: with its floors.
         ties: how the human's choices count.
         no_block: no move may take his last plan away.
-        deadline: asked for time.
+        deadline: when to give up.
     """
 
     def __init__(
@@ -38,7 +38,8 @@ class Floors:
         self._no_block = no_block
         self._deadline = deadline
         self._lost: set[int] | None = None
-        self._floors = {board.state(floor.state): floor.value for floor in policy.floors or ()}
+        floors = deadline.each(policy.floors or ())
+        self._floors = {board.state(floor.state): floor.value for floor in floors}
 
     def prove(self, value: Costs) -> None:
         """Return if no policy is worth less than ``value`` in ``I``.
@@ -51,7 +52,7 @@ class Floors:
             return
         if self._floors.get(start, NOTHING) < value:
             raise UndecidedError("the lower bounds that came with the policy do not reach its value")
-        for state, floor in self._floors.items():
+        for state, floor in self._deadline.each(self._floors.items()):
             for cost, middle, name in self._board.moves(state):
                 if not self._justified(state, middle, name, cost, floor):
                     self._look_for_lost_states(name)
@@ -66,7 +67,7 @@ class Floors:
                     self._board, self._ties, no_block=self._no_block, deadline=self._deadline
                 )
             except UNDECIDED as error:
-                raise UndecidedError(f"{_NOT_PROVED.format(name)}; {error}") from None
+                raise UndecidedError(f"{_NOT_PROVED.format(name)}; {why(error)}") from None
 
     def _justified(self, state: int, middle: int, name: str, cost: Fraction, floor: Costs) -> bool:
         board = self._board

@@ -22,7 +22,7 @@ def read_decisions(board: Board, policy: Policy) -> dict[int, Listed]:
         ValueError: two entries for one state, or an unknown fact.
     """
     listed: dict[int, Listed] = {}
-    for decision in policy.decisions:
+    for decision in board.deadline.each(policy.decisions):
         try:
             state = board.state(decision.state)
         except KeyError as error:

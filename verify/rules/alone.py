@@ -6,40 +6,48 @@ from functools import cached_property
 from itertools import count
 from typing import Final
 
-from serendipity.model import Task
+from serendipity.model import Deadline, Task
 from verify.rules.operators import OwnActions
 from verify.rules.projection import Projection
-from verify.undecided import TooManyStatesError
+from verify.undecided import TooManyStatesError, during
 
 _MOST_EXPANSIONS: Final = 200_000
 
 
 class Alone:
-    """Optimal (cost, length) of the human alone; tables are built when first needed."""
+    """Optimal (cost, length) of the human alone; tables are built when first needed.
 
-    def __init__(self, task: Task) -> None:
+    Args:
+        task: the task.
+        deadline: polled by every question; None for no limit.
+    """
+
+    def __init__(self, task: Task, deadline: Deadline | None = None) -> None:
         self._task = task
+        self.deadline = deadline or Deadline()
         self._known: dict[frozenset[int], tuple[Fraction, int] | None] = {}
 
     @cached_property
     def _own(self) -> OwnActions:
-        return OwnActions(self._task)
+        return OwnActions(self._task, self.deadline)
 
     @cached_property
     def _projection(self) -> Projection:
-        return Projection(self._task, self._own)
+        return Projection(self._task, self._own, self.deadline)
 
     def optimum(self, state: frozenset[int]) -> tuple[Fraction, int] | None:
         """Least (cost, number of actions) from ``state``; None if he can't reach ``G_H`` alone.
 
         Raises:
             TooManyStatesError: the limit on expansions came first.
+            LimitReachedError: the deadline did.
         """
         if self._task.goal.holds(state):
             return Fraction(0), 0
         start = state & self._own.facts
         if start not in self._known:
-            weight = self._search(start)
+            with during("searching for what the human can do alone"):
+                weight = self._search(start)
             self._known[start] = None if weight is None else self._own.split(weight)
         return self._known[start]
 
@@ -58,6 +66,7 @@ class Alone:
                 continue
             if goal.holds(state):
                 return -negative
+            self.deadline.check()
             expansions += 1
             if expansions > _MOST_EXPANSIONS:
                 raise TooManyStatesError

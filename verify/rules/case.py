@@ -24,7 +24,7 @@ class Case:
     """A task, a result, and tables of the human alone.
 
     Properties that need a valid ``pi_H`` or an executable plan are only looked at by
-    rules that come after those that check these.
+    rules that come after those that check these.  What takes long polls the deadline of ``alone``.
     """
 
     task: Task
@@ -37,7 +37,7 @@ class Case:
         if self.result.human_plan is None:
             return None
         try:
-            return replay_human(self.task, self.result.human_plan)
+            return replay_human(self.task, self.result.human_plan, self.alone.deadline)
         except PlanError as error:
             return error
 
@@ -57,7 +57,8 @@ class Case:
     @cached_property
     def replay(self) -> Replay:
         """The reported plan, executed."""
-        return replay(self.task, self.result.plan or (), strict=self.result.options.strict)
+        steps, strict = self.result.plan or (), self.result.options.strict
+        return replay(self.task, steps, self.alone.deadline, strict=strict)
 
     @property
     def epochs(self) -> int | None:
@@ -85,7 +86,7 @@ class Case:
 
     def steps(self) -> Iterator[tuple[int, int]]:
         """(epoch, action id) of the replayed plan, in order."""
-        for epoch, chosen in self.replay.sets.items():
+        for epoch, chosen in self.alone.deadline.each(self.replay.sets.items()):
             for i in chosen:
                 yield epoch, i
 

@@ -2,11 +2,13 @@
 
 import time
 
-from serendipity.model import Result, Task
+from serendipity.model import Deadline, Result, Task
+from serendipity.model.errors import LIMITS
 from verify.rules.alone import Alone
 from verify.rules.case import Case
-from verify.rules.registry import RULES
+from verify.rules.registry import RULES, Rule
 from verify.rules.report import CLAIMS, RuleReport, Violation
+from verify.undecided import UndecidedError, during, why
 
 
 class Checker:
@@ -18,31 +20,65 @@ class Checker:
         self._alone = Alone(task) if alone is None else alone
 
     def check(self, result: Result) -> RuleReport:
-        """The verdict of every rule that applies to ``result``."""
+        """The verdict of every rule that applies to ``result``, as far as the limits go."""
         started = time.perf_counter()
-        case = Case(self._task, result, self._alone)
-        violations: list[Violation] = []
-        unchecked = dict(_out_of_scope(result))
-        for rule in RULES:
-            if rule.claim in unchecked or any(v.claim == rule.claim for v in violations):
-                continue
-            if rule.claim in ("cost", "window") and any(v.claim == "replay" for v in violations):
-                unchecked[rule.claim] = "the plan can't be replayed"
-                continue
-            found = rule.check(case)
-            if found is not None:
-                violations.append(Violation(rule.name, rule.claim, rule.section, *found))
-        return RuleReport(tuple(violations), unchecked, time.perf_counter() - started)
+        examination = _Examination(Case(self._task, result, self._alone))
+        try:
+            with during("checking the rules"):
+                for rule in RULES:
+                    self._alone.deadline.check()
+                    examination.check(rule)
+        except LIMITS as limit:
+            examination.stop(why(limit))
+        return examination.report(time.perf_counter() - started)
 
 
-def check(task: Task, result: Result) -> RuleReport:
+class _Examination:
+    """What is known of one result, rule by rule."""
+
+    def __init__(self, case: Case) -> None:
+        self._case = case
+        self._examined: list[Rule] = []
+        self._violations: dict[str, Violation] = {}
+        self._unchecked = dict(_out_of_scope(case.result))
+        self._undecided: dict[str, str] = {}
+
+    def check(self, rule: Rule) -> None:
+        """Check a rule, unless nothing depends on it any more."""
+        claim = rule.claim
+        if claim in ("cost", "window") and "replay" in self._violations:
+            self._unchecked.setdefault(claim, "the plan can't be replayed")
+        if claim not in self._unchecked and claim not in self._violations:
+            try:
+                found = rule.check(self._case)
+            except UndecidedError as error:
+                self._undecided.setdefault(claim, why(error))
+            else:
+                if found is not None:
+                    self._violations[claim] = Violation(rule.name, claim, rule.section, *found)
+        self._examined.append(rule)
+
+    def stop(self, reason: str) -> None:
+        """Leave the claims undecided of which not every rule was examined."""
+        for rule in RULES[len(self._examined) :]:
+            if rule.claim not in self._unchecked:
+                self._undecided.setdefault(rule.claim, reason)
+
+    def report(self, seconds: float) -> RuleReport:
+        """The verdicts; a claim that is refuted is not undecided."""
+        undecided = {k: why for k, why in self._undecided.items() if k not in self._violations}
+        return RuleReport(tuple(self._violations.values()), self._unchecked, undecided, seconds)
+
+
+def check(task: Task, result: Result, deadline: Deadline | None = None) -> RuleReport:
     """Check a result rule by rule, without solving anything.
 
     Args:
         task: the task that the result answers.
         result: the result, as ``plan`` returned it or as it was read from a file.
+        deadline: what is not checked by then stays undecided.
     """
-    return Checker(task).check(result)
+    return Checker(task, Alone(task, deadline)).check(result)
 
 
 def _out_of_scope(result: Result) -> list[tuple[str, str]]:

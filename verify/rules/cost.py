@@ -3,7 +3,6 @@
 from fractions import Fraction
 
 from verify.rules.case import Case, Found
-from verify.undecided import UNDECIDED
 
 
 def human_cost(case: Case) -> Found | None:
@@ -93,10 +92,7 @@ def saving_alone(case: Case) -> Found | None:
         return None  # nothing is claimed; ``None`` and 0 are the same
     if case.human_plan is None or case.robots_goal:
         return Found("a saving alone, though there is nothing to compare it with")
-    try:
-        optimum = case.alone.optimum(case.task.init)
-    except UNDECIDED:
-        return None  # left to the integer program
+    optimum = case.alone.optimum(case.task.init)
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
     if 0 < said <= float(most):
         return None

@@ -3,7 +3,6 @@
 from serendipity.model import INFINITE, PlanError, Result
 from verify.obligations import is_mean
 from verify.rules.case import Case, Found
-from verify.undecided import UNDECIDED
 
 
 def mode_and_human(case: Case) -> Found | None:
@@ -27,10 +26,7 @@ def human_plan_valid(case: Case) -> Found | None:
     bound = case.result.lower_bound
     if case.result.status == "unknown" and (bound is None or case.result.mode == "composite"):
         return None  # it may not have been known when the limit came, and nothing rests on it
-    try:
-        optimum = case.alone.optimum(case.task.init)
-    except UNDECIDED:
-        return None  # left to the integer program
+    optimum = case.alone.optimum(case.task.init)
     return None if optimum is None else Found("no pi_H is reported, but the human has a plan alone")
 
 

@@ -6,7 +6,7 @@ from itertools import chain
 from math import lcm
 from typing import Final, NamedTuple
 
-from serendipity.model import Task
+from serendipity.model import Deadline, Task
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
@@ -29,23 +29,29 @@ class Operator(NamedTuple):
 class OwnActions:
     """The human's own actions, turned into operators when a search first meets them.
 
+    Args:
+        task: the task.
+        deadline: polled while they are gathered.
+
     Attributes:
         ids: the actions' ids.
         facts: facts that an own action needs or that his goal names; no other matters to him.
     """
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, deadline: Deadline) -> None:
         self._task = task
         self.ids = task.human_actions
-        own = [task.actions[i] for i in self.ids]
-        self.facts = frozenset(task.goal.positive).union(
-            task.goal.negative, *(action.pre for action in own), *(action.neg for action in own)
-        )
-        denominators = {action.cost.denominator for action in own}
+        facts = {*task.goal.positive, *task.goal.negative}
+        denominators = set()
+        for i in deadline.each(self.ids):
+            action = task.actions[i]
+            facts.update(action.pre, action.neg)
+            denominators.add(action.cost.denominator)
+        self.facts = frozenset(facts)
         self._unit = lcm(*denominators) * _LONGEST
         self._weights: dict[tuple[int, int], int] = {}
         self._operators: dict[int, Operator] = {}
-        self._watched = self._watch()
+        self._watched = self._watch(deadline)
 
     def weight(self, action: int) -> int:
         """The weight of an action."""
@@ -82,12 +88,12 @@ class OwnActions:
             )
         return self._operators[action]
 
-    def _watch(self) -> dict[int | None, list[int]]:
+    def _watch(self, deadline: Deadline) -> dict[int | None, list[int]]:
         """Each action under the precondition that the fewest actions share."""
         actions = self._task.actions
-        shared = Counter(chain.from_iterable(actions[i].pre for i in self.ids))
+        shared = Counter(chain.from_iterable(actions[i].pre for i in deadline.each(self.ids)))
         watched: dict[int | None, list[int]] = {}
-        for i in self.ids:
+        for i in deadline.each(self.ids):
             rarest = min(actions[i].pre, key=shared.__getitem__, default=None)
             watched.setdefault(rarest, []).append(i)
         return watched

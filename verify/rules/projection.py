@@ -9,7 +9,7 @@ import heapq
 from collections.abc import Iterable
 from typing import Final
 
-from serendipity.model import Condition, Task
+from serendipity.model import Condition, Deadline, Task
 from verify.rules.operators import OwnActions
 
 _MOST_STATES: Final = 20_000
@@ -20,13 +20,20 @@ _Move = tuple[Projected, Projected, Projected, Projected]
 
 
 class Projection:
-    """Weights of cheapest plans in the projection, for the states that are reached from those asked for."""
+    """Weights of cheapest plans in the projection, for the states that are reached from those asked for.
 
-    def __init__(self, task: Task, own: OwnActions) -> None:
-        self.kept = _private_facts(task, own)
+    Args:
+        task: the task.
+        own: the human's own actions.
+        deadline: polled, also by :meth:`bound`.
+    """
+
+    def __init__(self, task: Task, own: OwnActions, deadline: Deadline) -> None:
+        self._deadline = deadline
+        self.kept = _private_facts(task, own, deadline)
         self._goal = _restricted(task.goal, self.kept)
         self._by_need: dict[int | None, list[tuple[_Move, int]]] = {}
-        for move, weight in _moves(task, own, self.kept).items():
+        for move, weight in _moves(task, own, self.kept, deadline).items():
             self._by_need.setdefault(min(move[0], default=None), []).append((move, weight))
         self._distance: dict[Projected, int] = {}
         self._seen: set[Projected] = set()
@@ -45,6 +52,7 @@ class Projection:
         new, stack = {start}, [start]
         edges: dict[Projected, list[tuple[Projected, int]]] = {}
         while stack and len(self._seen) + len(new) <= _MOST_STATES:
+            self._deadline.tick()
             state = stack.pop()
             if self._goal.holds(state):
                 continue  # no cheapest plan goes on from here
@@ -68,6 +76,7 @@ class Projection:
         ticket = len(queue)
         settled: set[Projected] = set()
         while queue:
+            self._deadline.tick()
             distance, _, state = heapq.heappop(queue)
             if state in settled:
                 continue
@@ -85,13 +94,15 @@ class Projection:
                     yield (state - delete) | add, weight
 
 
-def _private_facts(task: Task, own: OwnActions) -> frozenset[int]:
+def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset[int]:
     """Relevant facts of the variables that robots alone never change, few enough to enumerate."""
-    robots = [action for action in task.actions if task.human not in action.participants]
-    shared = set().union(*(action.add for action in robots), *(action.delete for action in robots))
+    shared: set[int] = set()
+    for action in deadline.each(task.actions):
+        if task.human not in action.participants:
+            shared.update(action.add, action.delete)
     kept: set[int] = set()
     size = 1
-    for variable in sorted(task.variables, key=lambda v: -len(v.facts)):
+    for variable in sorted(task.variables_within(deadline), key=lambda v: -len(v.facts)):
         facts = own.facts.intersection(variable.facts)
         values = len(facts) + 1
         if facts and shared.isdisjoint(variable.facts) and size * values <= _MOST_STATES:
@@ -100,10 +111,10 @@ def _private_facts(task: Task, own: OwnActions) -> frozenset[int]:
     return frozenset(kept)
 
 
-def _moves(task: Task, own: OwnActions, kept: frozenset[int]) -> dict[_Move, int]:
+def _moves(task: Task, own: OwnActions, kept: frozenset[int], deadline: Deadline) -> dict[_Move, int]:
     """The distinct projected actions that change anything, each at its least weight."""
     moves: dict[_Move, int] = {}
-    for i in own.ids:
+    for i in deadline.each(own.ids):
         action = task.actions[i]
         add, delete = kept.intersection(action.add), kept.intersection(action.delete)
         if add or delete:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from serendipity.model import GroundAction, PlanError, PlanStep, Task
+from serendipity.model import Deadline, GroundAction, PlanError, PlanStep, Task
 from verify.epochs import applicable, clash
 
 State = frozenset[int]
@@ -43,15 +43,19 @@ class Replay:
         return self.states[max(self.states)]
 
 
-def replay(task: Task, steps: Sequence[PlanStep], *, strict: bool) -> Replay:
-    """Execute the steps from ``I`` until the first fault."""
+def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict: bool) -> Replay:
+    """Execute the steps from ``I`` until the first fault.
+
+    Raises:
+        LimitReachedError: the deadline came first.
+    """
     by_epoch: dict[int, list[PlanStep]] = {}
-    for step in steps:
+    for step in deadline.each(steps):
         by_epoch.setdefault(step.epoch, []).append(step)
     sets: dict[int, tuple[int, ...]] = {}
     states: dict[int, State] = {0: task.init}
     state = task.init
-    for epoch in sorted(by_epoch):
+    for epoch in deadline.each(sorted(by_epoch)):
         chosen: list[int] = []
         for step in by_epoch[epoch]:
             action, fault = _resolve(task, step, state)
@@ -65,15 +69,16 @@ def replay(task: Task, steps: Sequence[PlanStep], *, strict: bool) -> Replay:
     return Replay(sets, states, None)
 
 
-def replay_human(task: Task, names: Iterable[str]) -> tuple[int, ...]:
+def replay_human(task: Task, names: Iterable[str], deadline: Deadline) -> tuple[int, ...]:
     """``pi_H`` from its names.
 
     Raises:
         PlanError: it is not a plan of the human alone.
+        LimitReachedError: the deadline came first.
     """
     state = task.init
     plan: list[int] = []
-    for number, name in enumerate(names, start=1):
+    for number, name in enumerate(deadline.each(names), start=1):
         own = [i for i in task.named.get(name, ()) if task.actions[i].participants == (task.human,)]
         if not own:
             raise PlanError(f"step {number}, '{name}', is not an action that the human does alone")

@@ -40,18 +40,25 @@ class RuleReport:
 
     Attributes:
         violations: the first broken rule of each refuted claim, in order.
-        unchecked: why a claim could not be checked, by claim.
+        unchecked: why a claim is not for these rules, by claim.
+        undecided: why a claim could not be checked, by claim; none of its rules is known to be broken.
         seconds: time that the check took.
     """
 
     violations: tuple[Violation, ...]
     unchecked: Mapping[str, str]
+    undecided: Mapping[str, str]
     seconds: float
 
     @property
     def ok(self) -> bool:
-        """Whether no rule is broken."""
+        """Whether no rule is known to be broken."""
         return not self.violations
+
+    @property
+    def stopped(self) -> str | None:
+        """The limit that came before all rules were examined, or None."""
+        return self.undecided.get(CLAIMS[-1])  # no rule of the last claim is ever too hard
 
     @property
     def first(self) -> Violation | None:

@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 
 from verify.rules.case import Case, Found
-from verify.undecided import UNDECIDED
 
 
 def window_presence(case: Case) -> Found | None:
@@ -98,10 +97,7 @@ def suffix_replan(case: Case) -> Found | None:
     for expected, (epoch, i) in enumerate(rest, start=window.end):
         if epoch != expected:
             return Found(f"the human waits in epoch {expected} before all is done", epoch, case.name(i))
-    try:
-        optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
-    except UNDECIDED:
-        return None  # left to the integer program
+    optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
     done = (sum(case.task.actions[i].cost for _, i in rest), len(rest))
     if optimum is None or done <= optimum:
         return None
@@ -136,7 +132,7 @@ def preserved_state(case: Case) -> Found | None:
     mentioned = _own_facts(case)
     state = case.replay.state_after(window.end - 1)
     expected = case.task.init
-    for i in case.pi_h[:j]:
+    for i in case.alone.deadline.each(case.pi_h[:j]):
         expected = expected.difference(case.task.actions[i].delete).union(case.task.actions[i].add)
     missing = (expected & mentioned) - state
     if not missing:
@@ -148,7 +144,7 @@ def preserved_state(case: Case) -> Found | None:
 def _own_facts(case: Case) -> frozenset[int]:
     """The facts that the human's own domain mentions."""
     facts = {*case.task.goal.positive, *case.task.goal.negative}
-    for i in case.task.human_actions:
+    for i in case.alone.deadline.each(case.task.human_actions):
         action = case.task.actions[i]
         facts.update(action.pre, action.neg, action.add, action.delete)
     return frozenset(facts)
@@ -157,7 +153,7 @@ def _own_facts(case: Case) -> frozenset[int]:
 def _follows(case: Case, *, last: int) -> Found | None:
     """Whether the human executes exactly ``pi_H[t]`` in each epoch up to ``last``."""
     does = case.human_does()
-    for epoch in range(1, last + 1):
+    for epoch in case.alone.deadline.each(range(1, last + 1)):
         planned = case.pi_h[epoch - 1] if epoch <= len(case.pi_h) else None
         done = does.get(epoch)
         if done is not None and not case.own(done):

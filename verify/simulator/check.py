@@ -48,7 +48,9 @@ class _Examination:
         self.task = task
         self.result = result
         self.person = Person(task, plans)
-        self.human_plan = () if result.human_plan is None else replay_human(task, result.human_plan)
+        self.human_plan = (
+            () if result.human_plan is None else replay_human(task, result.human_plan, plans.deadline)
+        )
         self.steps = [Step(step.epoch, _action(task, step.action, step.agents)) for step in result.plan or ()]
 
     def faults(self) -> Iterator[str]:

@@ -12,12 +12,13 @@ class Person:
     """What he would do and pay alone; kept between questions about one task.
 
     Every method but :meth:`cost_of` raises :class:`verify.undecided.TooManyStatesError` where
-    his own problem is too large.
+    his own problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline.
     """
 
     def __init__(self, task: Task, plans: OptimalPlans) -> None:
         self._task = task
         self._plans = plans
+        self.deadline = plans.deadline
 
     def cost(self, state: State) -> Fraction | None:
         """``h``: his optimal cost alone; None for infinity."""

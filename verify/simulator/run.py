@@ -96,16 +96,24 @@ def play(
 
     Raises:
         TooManyStatesError: his own problem is too large for this checker.
+        LimitReachedError: the deadline of ``person`` came first.
     """
     orders: dict[int, list[int]] = {}
     for step in steps:
         if task.actions[step.action].participants != (task.human,):
             orders.setdefault(step.epoch, []).append(step.action)
-    sees = (visible or surroundings(task).visible) if human_model == "local" else None
-    game = Game(task, options, person or Person(task, OptimalPlans(task)), sees)
+    person = person or Person(task, OptimalPlans(task))
+    deadline = person.deadline
+    if human_model != "local":
+        visible = None
+    elif visible is None:
+        task.variables_within(deadline)
+        visible = surroundings(task, deadline.tick).visible
+    game = Game(task, options, person, visible)
     last = max(orders, default=0)
     now, deeds = game.start(human_plan), list[Deed]()
     while not game.done(now.state) and len(deeds) != horizon:
+        deadline.check()
         before = now
         deed, now = game.epoch(now, orders.get(len(deeds) + 1, ()))
         deeds.append(deed)

@@ -121,13 +121,13 @@ class HumanControl:
 
 def expected_states(question: Question) -> tuple[frozenset[int], ...]:
     """``delta(I, pi_H[1..j])`` for each j, cut down to facts that the human's own domain mentions."""
-    task = question.task
+    task, deadline = question.task, question.deadline
     mentioned = {*task.goal.positive, *task.goal.negative}
-    for i in task.human_actions:
+    for i in deadline.each(task.human_actions):
         action = task.actions[i]
         mentioned.update(action.pre, action.neg, action.add, action.delete)
     states = [task.init]
-    for i in question.human_plan:
+    for i in deadline.each(question.human_plan):
         action = task.actions[i]
         states.append((states[-1] - frozenset(action.delete)) | frozenset(action.add))
     return tuple(state & mentioned for state in states)

@@ -11,13 +11,14 @@ from verify.encodings.automata.network import (
     goal_states,
 )
 from verify.encodings.automata.product import Automaton, automata
-from verify.encodings.automata.program import Program
+from verify.encodings.automata.program import BYTES_AN_ARC, Program
 from verify.encodings.automata.pruning import prune
 from verify.encodings.automata.setting import Setting
 from verify.encodings.automata.suffixes import bound_suffix
 from verify.encodings.relevance import Relevant, relevant_part
 from verify.question import WINDOW, Question
 from verify.solver import Model
+from verify.undecided import during
 
 
 class AutomataEncoding:
@@ -30,17 +31,25 @@ class AutomataEncoding:
     def __init__(self, question: Question) -> None:
         """Build the program.  The horizon has to be at least 1."""
         self.question = question
+        self.deadline = question.deadline
         self.program: Program | None = None
         literal = question.rule == WINDOW and question.options.preservation == "state"
         expected = expected_states(question) if literal else ()
         part = relevant_part(question, frozenset().union(*expected))
         if part is None:
             return
-        groups = [frozenset(variable.facts) for variable in question.task.variables]
+        variables = question.task.variables_within(self.deadline)
+        groups = [frozenset(variable.facts) for variable in variables]
         groups = [group for group in groups if _moves_by_value(question, part, group)]
-        setting = self._setting(part, groups, expected)
-        if prune(setting):
-            self.program = Program(question, setting, groups, complete=self.needs_whole_state(part))
+        with during("building the agents' automata"):
+            setting = self._setting(part, groups, expected)
+        with during(f"pruning the agents' automata over {question.horizon} epochs"):
+            promising = prune(setting)
+        if promising:
+            arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
+            with during(f"writing a program for {arcs:,} arcs of the agents' automata"):
+                self.deadline.require(arcs * BYTES_AN_ARC)
+                self.program = Program(question, setting, groups, complete=self.needs_whole_state(part))
 
     @property
     def model(self) -> Model | None:
@@ -71,7 +80,8 @@ class AutomataEncoding:
         ):
             return False
         task = question.task
-        costs = {task.actions[i].cost for i in part.actions if task.actions[i].participants == (task.human,)}
+        his = (task.actions[i] for i in self.deadline.each(part.actions))
+        costs = {action.cost for action in his if action.participants == (task.human,)}
         talk = any(question.prices.talk[i] for i in task.human_actions)
         return len(costs) > 1 or 0 in costs or talk or bool(task.robot_goal)
 
@@ -80,7 +90,7 @@ class AutomataEncoding:
     ) -> Setting:
         question = self.question
         task = question.task
-        machines = automata(task, part, groups)
+        machines = automata(task, part, groups, self.deadline)
         wanted_true = frozenset(task.goal.positive).union(*expected) & part.facts
         wanted_false = frozenset(task.goal.negative) & part.facts
         if question.robots_goal:
@@ -91,7 +101,7 @@ class AutomataEncoding:
         networks: list[Network] = []
         for agent, machine in enumerate(machines):
             if agent == task.human:
-                human = HumanNetwork(machine, weights[agent], control, task, part)
+                human = HumanNetwork(machine, weights[agent], control, question, part)
                 networks.append(human)
             else:
                 open_end = self.needs_whole_state(part) or self._watched(
@@ -109,7 +119,8 @@ class AutomataEncoding:
             wanted_true=wanted_true,
             wanted_false=wanted_false,
             finals=finals,
-            bounds=distances(machines[task.human], weights[task.human], finals[task.human]),
+            deadline=self.deadline,
+            bounds=distances(machines[task.human], weights[task.human], finals[task.human], self.deadline),
         )
 
     def _watched(self, part: Relevant, machine: Automaton, wanted: frozenset[int]) -> bool:
@@ -118,7 +129,7 @@ class AutomataEncoding:
             return True
         return any(
             not machine.facts.isdisjoint((*part.pre[i], *part.neg[i]))
-            for i in part.actions
+            for i in self.deadline.each(part.actions)
             if machine.agent not in self.question.task.actions[i].participants
         )
 
@@ -130,7 +141,7 @@ class AutomataEncoding:
         question = self.question
         task = question.task
         weights = [[0] * len(task.actions) for _ in task.agents]
-        for i, action in enumerate(task.actions):
+        for i, action in enumerate(self.deadline.each(task.actions)):
             payer = task.human if task.human in action.participants else action.participants[0]
             weights[payer][i] = question.prices.team[i] + question.prices.talk[i]
         return weights
@@ -145,7 +156,7 @@ def _moves_by_value(question: Question, part: Relevant, group: frozenset[int]) -
     task = question.task
     if len(group) < 2 or len(group & task.init) != 1 or group.isdisjoint(part.facts):
         return False
-    return all(_moves(task.actions[i], group) for i in part.actions)
+    return all(_moves(task.actions[i], group) for i in question.deadline.each(part.actions))
 
 
 def _moves(action: GroundAction, group: frozenset[int]) -> bool:

@@ -3,9 +3,15 @@ then, and, for a joint action, an arc of the same action for each participant.
 """
 
 from collections.abc import Callable
+from typing import Final
 
 from verify.encodings.automata.network import FAR, WAIT, Arc
 from verify.encodings.automata.setting import Setting
+
+_MANY: Final = 50_000
+"""Arcs of an epoch from which on there may be no memory for those of the next one."""
+
+_BYTES_AN_ARC: Final = 150
 
 
 class Forward:
@@ -17,6 +23,7 @@ class Forward:
 
     def __init__(self, setting: Setting) -> None:
         self.setting = setting
+        self.deadline = setting.deadline
         self.reach: list[list[dict[int, int]]] = []
         self.watched = self._watched()
 
@@ -57,15 +64,17 @@ class Forward:
         if not fresh:
             return [
                 arc
-                for arc in network.layers[epoch - 1]
+                for arc in self.deadline.each(network.layers[epoch - 1])
                 if arc[0] in reached and usable(arc[2]) and arc[4] <= self.true
             ]
         found = []
         if k != setting.task.human:
-            return [arc for node in reached for arc in network.outgoing(node, epoch) if usable(arc[2])]
+            nodes = self.deadline.each(reached)
+            return [arc for node in nodes for arc in network.outgoing(node, epoch) if usable(arc[2])]
         weights, actions = setting.bounds
         left = setting.horizon - epoch
         for node, done in reached.items():
+            self.deadline.check()
             for arc in network.outgoing(node, epoch):
                 state = network.state_of[arc[1]]
                 if (
@@ -90,10 +99,10 @@ class Forward:
 
     def _one_sided(self, candidates: list[list[Arc]]) -> set[int]:
         """Joint actions for which a participant has no arc."""
-        present = [{arc[2] for arc in arcs} for arcs in candidates]
+        present = [{arc[2] for arc in self.deadline.each(arcs)} for arcs in candidates]
         blocked = set()
         for actions in present:
-            for i in actions:
+            for i in self.deadline.each(actions):
                 if i != WAIT:
                     participants = self.setting.task.actions[i].participants
                     if len(participants) > 1 and not all(i in present[agent] for agent in participants):
@@ -101,9 +110,11 @@ class Forward:
         return blocked
 
     def _advance(self, k: int, epoch: int, arcs: list[Arc]) -> None:
+        if len(arcs) > _MANY:
+            self.deadline.require(len(arcs) * _BYTES_AN_ARC)
         before = self.reach[k][-1]
         reached: dict[int, int] = {}
-        for source, target, _, weight, _ in arcs:
+        for source, target, _, weight, _ in self.deadline.each(arcs):
             total = before[source] + weight
             if total < reached.get(target, FAR):
                 reached[target] = total
@@ -114,13 +125,13 @@ class Forward:
         """Facts that may be true, or false, after the epoch."""
         setting = self.setting
         for k, network in enumerate(setting.networks):
-            for action in {arc[2] for arc in network.layers[epoch - 1]}:
+            for action in {arc[2] for arc in self.deadline.each(network.layers[epoch - 1])}:
                 if action != WAIT:
                     self.true.update(setting.task.actions[action].add)
                     self.false.update(setting.task.actions[action].delete)
             watched = self.watched[k]
             if watched:
-                for node in self.reach[k][-1]:
+                for node in self.deadline.each(self.reach[k][-1]):
                     facts = network.true_facts(node)
                     self.true |= watched & facts
                     self.false |= watched - facts

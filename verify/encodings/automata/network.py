@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from typing import Final
 
-from serendipity.model import Task
+from serendipity.model import Deadline
 from verify.encodings.automata.control import ALL, OWN, SUFFIX, Control, HumanControl
 from verify.encodings.automata.product import Automaton
 from verify.encodings.relevance import Relevant
@@ -82,7 +82,12 @@ class HumanNetwork(Network):
     """The human's automaton times his control automaton."""
 
     def __init__(
-        self, automaton: Automaton, weights: list[int], control: HumanControl, task: Task, part: Relevant
+        self,
+        automaton: Automaton,
+        weights: list[int],
+        control: HumanControl,
+        question: Question,
+        part: Relevant,
     ) -> None:
         super().__init__(automaton, [0])
         self.weights = weights
@@ -90,7 +95,9 @@ class HumanNetwork(Network):
         self.facts = part.facts
         self.controls: list[Control] = [control.start]
         self.numbers: dict[tuple[int, Control], int] = {(0, control.start): 0}
-        self.own = {i for i in part.actions if task.actions[i].participants == (task.human,)}
+        task = question.task
+        own = question.deadline.each(part.actions)
+        self.own = {i for i in own if task.actions[i].participants == (task.human,)}
 
     def node(self, state: int, control: Control) -> int:
         """The number of a node, new or old."""
@@ -137,22 +144,28 @@ class HumanNetwork(Network):
         return self.controls[node][0] == SUFFIX
 
 
-def distances(automaton: Automaton, weights: list[int], goals: set[int]) -> tuple[list[int], list[int]]:
+def distances(
+    automaton: Automaton, weights: list[int], goals: set[int], deadline: Deadline
+) -> tuple[list[int], list[int]]:
     """Least weight and fewest actions from each automaton state to a goal state; a lower bound."""
     backward: list[list[tuple[int, int]]] = [[] for _ in automaton.states]
-    for state, moves in enumerate(automaton.moves):
+    for state, moves in enumerate(deadline.each(automaton.moves)):
         for action, target in moves:
             backward[target].append((state, weights[action]))
-    return _dijkstra(backward, goals, unit=False), _dijkstra(backward, goals, unit=True)
+    weight = _dijkstra(backward, goals, deadline, unit=False)
+    return weight, _dijkstra(backward, goals, deadline, unit=True)
 
 
-def _dijkstra(backward: list[list[tuple[int, int]]], goals: set[int], *, unit: bool) -> list[int]:
+def _dijkstra(
+    backward: list[list[tuple[int, int]]], goals: set[int], deadline: Deadline, *, unit: bool
+) -> list[int]:
     best = [FAR] * len(backward)
     queue: list[tuple[int, int]] = []
     for goal in goals:
         best[goal] = 0
         queue.append((0, goal))
     while queue:
+        deadline.tick()
         done, state = heappop(queue)
         if done > best[state]:
             continue

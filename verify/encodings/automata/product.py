@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
-from serendipity.model import GroundAction, Task
+from serendipity.model import Deadline, GroundAction, Task
 from verify.encodings.relevance import Relevant
 
 MOST_STATES: Final = 2000
@@ -18,6 +18,9 @@ MOST_STATES: Final = 2000
 
 Move = tuple[int, int]
 """An action's id and the state it leads to."""
+
+_Entry = tuple[int, frozenset[int], frozenset[int], frozenset[int], frozenset[int]]
+"""An action's id, and what it needs, excludes, adds and deletes of some facts."""
 
 
 @dataclass(slots=True)
@@ -37,95 +40,106 @@ class Automaton:
     moves: list[list[Move]] = field(default_factory=list)
 
 
-def private_facts(task: Task, part: Relevant) -> dict[int, int]:
+def private_facts(task: Task, part: Relevant, deadline: Deadline) -> dict[int, int]:
     """The agent to whom each private fact belongs; the human goes first where two could."""
     owners: dict[int, set[int]] = {}
-    for i in part.actions:
+    for i in deadline.each(part.actions):
         action = task.actions[i]
         for f in {*action.add, *action.delete} & part.facts:
             owners.setdefault(f, set(action.participants)).intersection_update(action.participants)
     order = sorted(range(len(task.agents)), key=lambda agent: (agent != task.human, agent))
-    return {f: next(a for a in order if a in agents) for f, agents in owners.items() if agents}
+    return {f: next(a for a in order if a in agents) for f, agents in deadline.each(owners.items()) if agents}
 
 
-def automata(task: Task, part: Relevant, units: Iterable[frozenset[int]]) -> tuple[Automaton, ...]:
+def automata(
+    task: Task, part: Relevant, units: Iterable[frozenset[int]], deadline: Deadline
+) -> tuple[Automaton, ...]:
     """The automaton of each agent, in the order of ids.
 
     Args:
+        task: the task.
+        part: what of it matters.
         units: groups of facts that go into an automaton, or stay out, together.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came first.
     """
-    owner = private_facts(task, part)
+    owner = private_facts(task, part, deadline)
     result = []
     for agent in range(len(task.agents)):
-        mine = frozenset(f for f, a in owner.items() if a == agent)
-        actions = {i: task.actions[i] for i in part.actions if agent in task.actions[i].participants}
-        result.append(_largest(task, part, agent, mine, actions, units))
+        mine = frozenset(f for f, a in deadline.each(owner.items()) if a == agent)
+        actions = {
+            i: task.actions[i] for i in deadline.each(part.actions) if agent in task.actions[i].participants
+        }
+        result.append(_Explorer(task, part, agent, actions, deadline).largest(mine, units))
     return tuple(result)
 
 
-def _largest(
-    task: Task,
-    part: Relevant,
-    agent: int,
-    mine: frozenset[int],
-    actions: Mapping[int, GroundAction],
-    units: Iterable[frozenset[int]],
-) -> Automaton:
-    """The product of all private facts, or of as many units as stay below the limit."""
-    whole = _explore(task, part, agent, mine, actions)
-    if whole is not None:
-        return whole
-    pieces = [unit for unit in units if unit <= mine]
-    grouped = frozenset().union(*pieces)
-    pieces += [frozenset((f,)) for f in sorted(mine - grouped)]
-    best = _explore(task, part, agent, frozenset(), actions)
-    assert best is not None
-    for piece in sorted(pieces, key=lambda piece: (-len(piece), min(piece))):
-        larger = _explore(task, part, agent, best.facts | piece, actions)
-        best = larger or best
-    return best
+class _Explorer:
+    """Makes automata of one agent."""
 
+    def __init__(
+        self,
+        task: Task,
+        part: Relevant,
+        agent: int,
+        actions: Mapping[int, GroundAction],
+        deadline: Deadline,
+    ) -> None:
+        self._task = task
+        self._part = part
+        self._agent = agent
+        self._actions = actions
+        self._deadline = deadline
 
-def _explore(
-    task: Task, part: Relevant, agent: int, facts: frozenset[int], actions: Mapping[int, GroundAction]
-) -> Automaton | None:
-    """The reachable states over ``facts``, or None if they are too many."""
-    table = _by_first_fact(part, facts, actions)
-    start = task.init & facts
-    found = Automaton(agent, facts, [start])
-    index = {start: 0}
-    for state in found.states:  # grows while it is walked
-        moves: list[Move] = []
-        for f in (-1, *state):
-            for i, pre, neg, add, delete in table.get(f, ()):
-                if pre <= state and neg.isdisjoint(state):
-                    target = (state - delete) | add
-                    if target not in index:
-                        if len(index) >= MOST_STATES:
-                            return None
-                        index[target] = len(index)
-                        found.states.append(target)
-                    moves.append((i, index[target]))
-        found.moves.append(moves)
-    return found
+    def largest(self, mine: frozenset[int], units: Iterable[frozenset[int]]) -> Automaton:
+        """The product of all private facts, or of as many units as stay below the limit."""
+        whole = self._explore(mine)
+        if whole is not None:
+            return whole
+        pieces = [unit for unit in self._deadline.each(units) if unit <= mine]
+        grouped = frozenset().union(*pieces)
+        pieces += [frozenset((f,)) for f in sorted(mine - grouped)]
+        best = self._explore(frozenset())
+        assert best is not None
+        for piece in sorted(pieces, key=lambda piece: (-len(piece), min(piece))):
+            best = self._explore(best.facts | piece) or best
+        return best
 
+    def _explore(self, facts: frozenset[int]) -> Automaton | None:
+        """The reachable states over ``facts``, or None if they are too many."""
+        table = self._by_first_fact(facts)
+        start = self._task.init & facts
+        found = Automaton(self._agent, facts, [start])
+        index = {start: 0}
+        for state in found.states:  # grows while it is walked
+            self._deadline.check()
+            moves: list[Move] = []
+            for f in (-1, *state):
+                for i, pre, neg, add, delete in table.get(f, ()):
+                    if pre <= state and neg.isdisjoint(state):
+                        target = (state - delete) | add
+                        if target not in index:
+                            if len(index) >= MOST_STATES:
+                                return None
+                            index[target] = len(index)
+                            found.states.append(target)
+                        moves.append((i, index[target]))
+            found.moves.append(moves)
+        return found
 
-_Entry = tuple[int, frozenset[int], frozenset[int], frozenset[int], frozenset[int]]
-
-
-def _by_first_fact(
-    part: Relevant, facts: frozenset[int], actions: Mapping[int, GroundAction]
-) -> dict[int, list[_Entry]]:
-    """Actions projected on ``facts``, by one fact that they need (-1: none)."""
-    needs = {i: facts.intersection(part.pre[i]) for i in actions}
-    popular: dict[int, int] = {}
-    for pre in needs.values():
-        for f in pre:
-            popular[f] = popular.get(f, 0) + 1
-    table: dict[int, list[_Entry]] = {}
-    for i, action in actions.items():
-        pre = needs[i]
-        first = min(pre, key=lambda f: (popular[f], f), default=-1)
-        entry = (i, pre, facts.intersection(part.neg[i]), facts.intersection(action.add))
-        table.setdefault(first, []).append((*entry, facts.intersection(action.delete)))
-    return table
+    def _by_first_fact(self, facts: frozenset[int]) -> dict[int, list[_Entry]]:
+        """Actions projected on ``facts``, by one fact that they need (-1: none)."""
+        needs = {i: facts.intersection(self._part.pre[i]) for i in self._deadline.each(self._actions)}
+        popular: dict[int, int] = {}
+        for pre in self._deadline.each(needs.values()):
+            for f in pre:
+                popular[f] = popular.get(f, 0) + 1
+        table: dict[int, list[_Entry]] = {}
+        for i, action in self._deadline.each(self._actions.items()):
+            pre = needs[i]
+            first = min(pre, key=lambda f: (popular[f], f), default=-1)
+            entry = (i, pre, facts.intersection(self._part.neg[i]), facts.intersection(action.add))
+            table.setdefault(first, []).append((*entry, facts.intersection(action.delete)))
+        return table

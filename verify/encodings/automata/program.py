@@ -8,15 +8,19 @@ state-change family), else the exact frame, which negative preconditions need to
 
 from collections import defaultdict
 from collections.abc import Iterable
+from typing import Final
 
 from serendipity.model import Condition, Step, Window
 from verify.encodings.automata.control import INSIDE
 from verify.encodings.automata.network import WAIT
 from verify.encodings.automata.setting import Setting
 from verify.question import Question
-from verify.solver import Model, Terms
+from verify.solver import BYTES_A_TERM, Model, Terms
 
 _Sum = dict[int, int]
+
+BYTES_AN_ARC: Final = 350 + 6 * BYTES_A_TERM
+"""Memory for each arc of a program, from its column to its solution."""
 
 
 class Program:
@@ -29,14 +33,15 @@ class Program:
         self.question = question
         self.setting = setting
         self.task = setting.task
-        self.model = Model()
+        self.deadline = setting.deadline
+        self.model = Model(self.deadline)
         self.columns: list[list[list[int]]] = []
         self.by_action: list[list[dict[int, _Sum]]] = []
         self.inflow: list[list[dict[int, _Sum]]] = []
         self.inside = {f: k for k, network in enumerate(setting.networks) for f in network.automaton.facts}
         self._flows()
         self._joint_actions()
-        self.owner = {i: self._fewest_arcs(i) for i in setting.part.actions}
+        self.owner = {i: self._fewest_arcs(i) for i in self.deadline.each(setting.part.actions)}
         self.values: dict[int, list[_Sum | None]] = {}
         self.frames: dict[int, list[int]] = {}
         shared = set(setting.part.facts) if complete else self._touched()
@@ -95,7 +100,7 @@ class Program:
 
     def _joint_actions(self) -> None:
         """Every participant does his part of a joint action, or none does (eq. 10)."""
-        for i in self.setting.part.actions:
+        for i in self.deadline.each(self.setting.part.actions):
             agents = self.task.actions[i].participants
             for t in range(self.setting.horizon) if len(agents) > 1 else ():
                 first = self.by_action[agents[0]][t].get(i, {})
@@ -128,7 +133,7 @@ class Program:
         """Facts whose truth some row has to refer to."""
         facts = set(self.setting.wanted_true | self.setting.wanted_false)
         for epoch in range(1, self.setting.horizon + 1):
-            for i in self.present(epoch):
+            for i in self.deadline.each(self.present(epoch)):
                 facts.update(self.setting.outer_pre[i], self.setting.outer_neg[i])
         return facts
 
@@ -141,7 +146,7 @@ class Program:
         for epoch in range(1, self.setting.horizon + 1):
             consumed: dict[int, _Sum] = defaultdict(dict)
             produced: dict[int, _Sum] = defaultdict(dict)
-            for i in self.present(epoch):
+            for i in self.deadline.each(self.present(epoch)):
                 action = self.task.actions[i]
                 for f in action.add:
                     if f in group:
@@ -175,7 +180,7 @@ class Program:
             adders: dict[int, _Sum] = defaultdict(dict)
             every_adder: _Sum = {}
             deleters: _Sum = {}
-            for i in self.present(epoch):
+            for i in self.deadline.each(self.present(epoch)):
                 action = self.task.actions[i]
                 if f in action.add:
                     every_adder.update(self.action(i, epoch))
@@ -216,7 +221,7 @@ class Program:
         for epoch in range(1, self.setting.horizon + 1):
             positive: dict[tuple[int, int], _Sum] = defaultdict(dict)
             negative: dict[tuple[int, int], _Sum] = defaultdict(dict)
-            for i in self.present(epoch):
+            for i in self.deadline.each(self.present(epoch)):
                 agent, action = self.owner[i], self.task.actions[i]
                 for f in self.setting.outer_pre[i]:
                     if not (f in self.values and f in action.delete):
@@ -238,7 +243,7 @@ class Program:
         network, columns = self.setting.human, self.columns[self.task.human]
         for epoch, layer in enumerate(network.layers, start=1):
             wanted: dict[int, _Sum] = defaultdict(dict)
-            for arc, x in zip(layer, columns[epoch - 1], strict=True):
+            for arc, x in zip(self.deadline.each(layer), columns[epoch - 1], strict=True):
                 for f in arc[4]:
                     wanted[f][x] = 1
             for f, sums in wanted.items():
@@ -269,7 +274,7 @@ class Program:
             deleters: dict[int, list[int]] = defaultdict(list)
             adders: dict[int, list[int]] = defaultdict(list)
             needers: dict[tuple[int, bool], list[int]] = defaultdict(list)
-            for i in self.present(epoch):
+            for i in self.deadline.each(self.present(epoch)):
                 action = self.task.actions[i]
                 for f in action.delete:
                     deleters[f].append(i)
@@ -324,7 +329,7 @@ class Program:
         for epoch, layer in enumerate(human.layers, start=1):
             columns = self.columns[self.task.human][epoch - 1]
             free: _Sum = {}
-            for arc, x in zip(layer, columns, strict=True):
+            for arc, x in zip(self.deadline.each(layer), columns, strict=True):
                 if not human.in_suffix(arc[1]):
                     free[x] = -1
             if len(free) == len(layer):
@@ -345,7 +350,7 @@ class Program:
         if question.most_cost is not None:
             cost: _Sum = {}
             for epoch in range(1, question.horizon + 1):
-                for i in self.present(epoch):
+                for i in self.deadline.each(self.present(epoch)):
                     if question.prices.team[i]:
                         cost.update(dict.fromkeys(self.action(i, epoch), question.prices.team[i]))
             if cost:
@@ -357,7 +362,7 @@ class Program:
         """The plan and the window that the values stand for."""
         steps = []
         for epoch in range(1, self.question.horizon + 1):
-            for i in self.present(epoch):
+            for i in self.deadline.each(self.present(epoch)):
                 if any(values[x] for x in self.action(i, epoch)):
                     steps.append(Step(epoch, i))
         return tuple(steps), self._window(values)
@@ -368,7 +373,8 @@ class Program:
         network = self.setting.human
         inside = []
         for epoch, layer in enumerate(network.layers, start=1):
-            for arc, x in zip(layer, self.columns[self.task.human][epoch - 1], strict=True):
+            columns = self.columns[self.task.human][epoch - 1]
+            for arc, x in zip(self.deadline.each(layer), columns, strict=True):
                 if values[x] and network.controls[arc[1]][0] == INSIDE:
                     inside.append(epoch)
         return Window(inside[0], inside[-1] + 1)

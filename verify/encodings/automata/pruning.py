@@ -66,7 +66,7 @@ class _Providers:
         self.his_true: set[int] = set()
         self.his_false: set[int] = set()
         for layer in setting.human.layers:
-            for action in {arc[2] for arc in layer} - {WAIT}:
+            for action in {arc[2] for arc in setting.deadline.each(layer)} - {WAIT}:
                 self.his_true.update(task.actions[action].add)
                 self.his_false.update(task.actions[action].delete)
         for k in robots:
@@ -75,12 +75,12 @@ class _Providers:
 
     def _collect(self, k: int, epoch: int, layer: list[Arc], before: dict[int, int]) -> None:
         cheapest: dict[int, int] = {}
-        for source, _, action, weight, _ in layer:
+        for source, _, action, weight, _ in self.setting.deadline.each(layer):
             if action != WAIT:
                 total = before[source] + weight
                 if total < cheapest.get(action, FAR):
                     cheapest[action] = total
-        for i, total in cheapest.items():
+        for i, total in self.setting.deadline.each(cheapest.items()):
             ground = self.setting.task.actions[i]
             if len(ground.participants) > 1:
                 self.joint.setdefault((i, epoch), []).append(total)
@@ -155,7 +155,7 @@ def _human_backward(setting: Setting, forward: Forward, provided: _Providers) ->
         totals: dict[tuple[int, frozenset[int]], int] = {}
         kept: list[Arc] = []
         before: dict[int, int] = {}
-        for arc in network.layers[epoch - 1]:
+        for arc in setting.deadline.each(network.layers[epoch - 1]):
             source, target, action, weight, needs = arc
             if target not in after:
                 continue
@@ -174,7 +174,7 @@ def _human_backward(setting: Setting, forward: Forward, provided: _Providers) ->
             if total < through.active.get(epoch, FAR) and not network.in_suffix(target):
                 through.active[epoch] = total
         network.layers[epoch - 1] = kept
-        for (action, needs), total in totals.items():
+        for (action, needs), total in setting.deadline.each(totals.items()):
             through.note(action, epoch, needs, total)
         after = before
         through.cheapest = min(totals.values(), default=FAR)
@@ -195,7 +195,7 @@ def _open_backward(setting: Setting, forward: Forward, k: int, others: int, acti
         reached = forward.reach[k][epoch - 1]
         kept: list[Arc] = []
         before: dict[int, int] = {}
-        for arc in network.layers[epoch - 1]:
+        for arc in setting.deadline.each(network.layers[epoch - 1]):
             if arc[1] not in after:
                 continue
             rest = arc[3] + after[arc[1]]
@@ -222,7 +222,7 @@ def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Throu
         active = through.active.get(epoch, FAR)
         kept: list[Arc] = []
         before: dict[int, int] = {}
-        for arc in network.layers[epoch - 1]:
+        for arc in setting.deadline.each(network.layers[epoch - 1]):
             source, target, i, weight, _ = arc
             if i not in exits:
                 action = task.actions[i]
@@ -250,7 +250,7 @@ def _uses(setting: Setting, k: int, wanted: frozenset[int], outer: dict[int, tup
     for other, network in enumerate(setting.networks):
         if other not in (k, setting.task.human):
             for layer in network.layers:
-                for action in {arc[2] for arc in layer} - {WAIT}:
+                for action in {arc[2] for arc in setting.deadline.each(layer)} - {WAIT}:
                     used.update(outer[action])
     return used
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from serendipity.model import Task
+from serendipity.model import Deadline, Task
 from verify.encodings.automata.network import HumanNetwork, Network
 from verify.encodings.relevance import Relevant
 
@@ -20,6 +20,7 @@ class Setting:
         wanted_true: facts that a goal, or a state to be preserved, wants true.
         wanted_false: facts that a goal wants false.
         finals: end nodes' automaton states that the goals allow, by agent.
+        deadline: polled by the pruning and the program.
         bounds: for the human's automaton states, least weight and actions to a goal state.
         outer_pre: facts outside the participants' automata that each action needs true.
         outer_neg: the same, false.
@@ -34,12 +35,13 @@ class Setting:
     wanted_true: frozenset[int]
     wanted_false: frozenset[int]
     finals: list[set[int]]
+    deadline: Deadline
     bounds: tuple[list[int], list[int]]
     outer_pre: dict[int, tuple[int, ...]] = field(default_factory=dict)
     outer_neg: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for i in self.part.actions:
+        for i in self.deadline.each(self.part.actions):
             inside: set[int] = set()
             for agent in self.task.actions[i].participants:
                 inside |= self.networks[agent].automaton.facts

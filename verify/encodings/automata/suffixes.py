@@ -10,7 +10,9 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
     The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
     """
     literals, constant = _suffix_starts(program, xi2, state)
-    for f in sorted(program.setting.part.facts - program.setting.human.automaton.facts):
+    for f in program.deadline.each(
+        sorted(program.setting.part.facts - program.setting.human.automaton.facts)
+    ):
         terms, fixed = program.truth(f, xi2 - 1)
         sign = 1 if f in state else -1
         literals = plus(literals, terms, sign)
@@ -27,7 +29,7 @@ def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[d
     network = program.setting.human
     layer, columns = network.layers[xi2 - 1], program.columns[program.task.human][xi2 - 1]
     starts: dict[int, int] = {}
-    for arc, x in zip(layer, columns, strict=True):
+    for arc, x in zip(program.deadline.each(layer), columns, strict=True):
         begins = network.controls[arc[0]][0] == INSIDE and network.controls[arc[1]][0] == SUFFIX
         if begins and network.true_facts(arc[0]) == state & network.automaton.facts:
             starts[x] = 1
@@ -37,7 +39,7 @@ def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[d
 def _suffix_weights(program: Program) -> dict[int, int]:
     weights: dict[int, int] = {}
     for layer, columns in zip(program.setting.human.layers, program.columns[program.task.human], strict=True):
-        for arc, x in zip(layer, columns, strict=True):
+        for arc, x in zip(program.deadline.each(layer), columns, strict=True):
             if arc[3] and program.setting.human.controls[arc[1]][0] == SUFFIX:
                 weights[x] = arc[3]
     return weights
