@@ -163,11 +163,9 @@ class Call:
         if self.may_tie(than):
             limits.append(question.below(objective, cost - 1))
         for limited in limits:
-            minimum = minimise(limited, self.effort, self.plans)
-            if minimum.found is not None:
-                return minimum.found
-            if minimum.status == "undecided":
-                raise UndecidedError(minimum.reason, minimum.bound)
+            found = minimise(limited, self.effort, self.plans).settled()
+            if found is not None:
+                return found
         return None
 
     def best(self, question: Question, than: Score | None) -> Found | None:

@@ -141,10 +141,9 @@ class Examiner:
             return "refuted", f"doing nothing has the objective {self._amount(nothing[0] - shift)}", None
         question = self._question().below(least - 1)
         minimum = cheapest(question) if self._endless else minimise(question, call.effort, call.plans)
-        if minimum.found is not None:
-            return "refuted", "a plan below the bound", minimum.found
-        if minimum.status == "undecided":
-            raise UndecidedError(minimum.reason, minimum.bound)
+        found = minimum.settled()
+        if found is not None:
+            return "refuted", "a plan below the bound", found
         return "proved", f"no plan has an objective below {bound:.12g}", None
 
     def infeasible(self) -> Verdict:
@@ -184,7 +183,7 @@ class Examiner:
     def _better(self, score: Score) -> Found | None:
         if not self._endless:
             return self.call.better(self.call.question, score)
-        return self.call.decided(cheapest(self.call.endless.below(score[0] - 1)))
+        return cheapest(self.call.endless.below(score[0] - 1)).settled()
 
     def _score(self) -> Score:
         """Objective and cost of the result's own plan, recomputed."""

@@ -92,6 +92,16 @@ class Minimum:
     bound: int | None = None
     reason: str = ""
 
+    def settled(self) -> Found | None:
+        """Some plan, best or not; None: there is provably none.
+
+        Raises:
+            UndecidedError: neither is known; with the bound that is.
+        """
+        if self.found is None and self.status == "undecided":
+            raise UndecidedError(self.reason, self.bound)
+        return self.found
+
 
 def minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimum:
     """Answer a question.

@@ -7,7 +7,7 @@
   #3090; a test has such a program).  A model says whether a presolve is worth it at all;
 * values are rounded; whoever asked re-checks the plan they stand for against the task.
 
-A solver keeps a time limit only roughly.  CBC and, for large programs, HiGHS run as processes, which
+A solver keeps a time limit only roughly.  CBC and, for more than a moment, HiGHS run as processes, which
 are killed where the deadline comes.
 """
 

@@ -131,6 +131,14 @@ def test_a_process_says_what_a_call_says(seed: int, presolve: bool, monkeypatch:
     assert optimise(model).status == "infeasible"
 
 
+def test_what_takes_longer_than_a_moment_is_solved_in_a_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(highs, "_MOMENT", 0.0)
+    model = _cover(3, 12, 8)
+    assert optimise(model, deadline=Deadline(60)).status == "optimal"
+    monkeypatch.setattr(worker, "__file__", "missing.py")
+    assert "exit status" in optimise(model, deadline=Deadline(60)).reason
+
+
 def _stubborn(folder: Path, does: str) -> Path:
     """A solver that knows a bound, and then keeps no limit."""
     script = folder / "stubborn.py"

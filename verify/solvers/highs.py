@@ -1,7 +1,7 @@
-"""HiGHS on a program of ours: a small one in this process, a large one in a process that can be killed.
+"""HiGHS on a program of ours: what is quickly solved in this process, all else in one that can be killed.
 
 HiGHS looks at its time limit between the steps of its work, and on large programs a single step
-has taken twenty seconds.
+has taken twenty seconds.  While it works here, nobody looks at the memory, at ``cancelled`` or at Ctrl-C.
 """
 
 import json
@@ -21,6 +21,12 @@ from verify.solvers.process import run, seconds_for
 _SMALL: Final = 15_000
 """Coefficients up to which HiGHS overruns its limit by some 20 ms at most."""
 
+_MOMENT: Final = 0.25
+"""Seconds for which it may work here, and about what it takes to start a process."""
+
+_SHORT: Final = 4 * _MOMENT
+"""Seconds of a limit that is too short for trying both."""
+
 _UNENDING: Final = 1e9
 
 
@@ -31,9 +37,14 @@ def minimise(model: Model, deadline: Deadline) -> Answer:
         LimitReachedError: the deadline came before HiGHS was asked.
     """
     tables = _tables(model, deadline)
-    if len(model.index) > _SMALL:
-        return _apart(tables, deadline, presolve=model.presolve)
-    return Answer(**worker.minimise(tables, _end(deadline), presolve=model.presolve))
+    if len(model.index) <= _SMALL:
+        left = deadline.left()
+        short = left is not None and left < _SHORT
+        end = _end(deadline) if short else time() + _MOMENT
+        answer = Answer(**worker.minimise(tables, end, presolve=model.presolve))
+        if short or answer.status != "time-limit":
+            return answer
+    return _apart(tables, deadline, presolve=model.presolve)
 
 
 def _apart(tables: worker.Tables, deadline: Deadline, *, presolve: bool) -> Answer:
