@@ -150,7 +150,7 @@ class _Certifier:
         wanted = [name for name in needed(self.result) if name not in (*BY_RULES, "realised")]
         if report.stopped is not None:
             yield from (Claim(name, "undecided", report.stopped) for name in wanted)
-        elif report.ok:
+        elif report.ok and self.result.status != "unknown":
             yield from self._solved_claims(wanted)
         else:
             refuted = {violation.claim for violation in report.violations}

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 
+import serendipity
 from serendipity.model import Certificate, Claim, InputError, Options, Task, UsageError
 from tests.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8, case_10
 from tests.strategies import Call, calls
@@ -84,6 +85,14 @@ def test_another_given_plan_is_refuted() -> None:
     assert certify(task, answer, human_plan=CASE_3_PLAN).verdict == "proved"
     other = _claim(certify(task, answer, human_plan=CASE_3_PLAN[1:]), "replay")
     assert other.verdict == "refuted"
+
+
+def test_no_answer_in_time_is_not_refuted() -> None:
+    """Not even where the horizon was to be taken from a plan of his that was not found in time."""
+    task = case_4()
+    answer = serendipity.plan(task, mode="communication", time_limit=0)
+    assert (answer.status, answer.human_plan, answer.horizon) == ("unknown", None, None)
+    assert certify(task, answer).verdict != "refuted"
 
 
 # -- doctored results
