@@ -88,6 +88,8 @@ def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None =
         outcome = _optimise(model, solver, deadline)
     except LIMITS as limit:
         outcome = Outcome("undecided", reason=_reason(limit_reason(limit), model))
+    except OSError as error:  # no process, no room for a temporary file
+        outcome = Outcome("undecided", reason=f"the solver could not be run: {error.strerror or error}")
     return replace(outcome, seconds=perf_counter() - started)
 
 

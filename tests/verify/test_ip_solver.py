@@ -192,6 +192,19 @@ def test_a_solver_that_breaks_proves_nothing(
     assert "exit status" in outcome.reason
 
 
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_disk_that_is_full_proves_nothing(solver: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(highs, "_SMALL", 0)
+    monkeypatch.setattr(highs, "TemporaryFile", full)
+    monkeypatch.setattr(cbc, "TemporaryDirectory", full)
+    outcome = optimise(_cover(1, 10, 5), solver=solver)
+    assert outcome.status == "undecided"
+    assert outcome.reason == "the solver could not be run: No space left on device"
+
+
 def test_a_program_larger_than_memory_is_not_handed_to_a_solver() -> None:
     limit = (resident() or 0) / 2**20 + 1
     outcome = optimise(_cover(1, 1000, 2000), deadline=Deadline(memory_limit=limit))
