@@ -16,6 +16,11 @@ from verify.encodings.relevance import Relevant
 MOST_STATES: Final = 2000
 """Facts are left out of an automaton, and become shared ones, rather than pass this size."""
 
+_MANY: Final = 500_000
+"""Moves from which on there may be no memory for more."""
+
+_BYTES_A_MOVE: Final = 80
+
 Move = tuple[int, int]
 """An action's id and the state it leads to."""
 
@@ -113,6 +118,7 @@ class _Explorer:
         start = self._task.init & facts
         found = Automaton(self._agent, facts, [start])
         index = {start: 0}
+        size, enough = 0, _MANY
         for state in found.states:  # grows while it is walked
             self._deadline.check()
             moves: list[Move] = []
@@ -127,6 +133,10 @@ class _Explorer:
                             found.states.append(target)
                         moves.append((i, index[target]))
             found.moves.append(moves)
+            size += len(moves)
+            if size > enough:  # there has to be memory for as many again
+                self._deadline.require(size * _BYTES_A_MOVE)
+                enough = 2 * size
         return found
 
     def _by_first_fact(self, facts: frozenset[int]) -> dict[int, list[_Entry]]:
