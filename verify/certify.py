@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from fractions import Fraction
 from time import perf_counter
 from typing import Final
 
@@ -282,7 +281,8 @@ class _Certifier:
             right = result.cost is None
             return "proved" if right else "refuted", "the goal can't be reached alone"
         least = float(worth[0])
-        right = result.cost == least and (result.lower_bound is None or result.lower_bound <= least)
+        right = result.status == "unknown" or result.cost == least
+        right = right and (result.lower_bound is None or result.lower_bound <= least)
         if result.human_plan is not None:
             given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
             right = right and result.saving_alone == float(given - worth[0])

@@ -22,10 +22,10 @@ from verify.goals.timelines import (
 )
 from verify.goals.together import Better, Rank, Together
 from verify.minimise import Effort
+from verify.obligations import BY_RULES, needed
 from verify.rules.alone import Alone
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
-from verify.undecided import UNDECIDED, why
 from verify.undecided import UNDECIDED, UndecidedError, why
 
 _PROVED = {
@@ -65,7 +65,7 @@ def check_goals(
         fault = str(error)
     except UNDECIDED as error:
         yield Claim("replay", "undecided", why(error), seconds=perf_counter() - started)
-        others = ("cost", "window", *_wanted(result)) if result.plan is not None else _wanted(result)
+        others = (name for name in needed(result) if name != "replay")
         yield from (Claim(name, "undecided", f"as 'replay': {why(error)}") for name in others)
         return
     if fault is not None:
@@ -81,15 +81,6 @@ def check_goals(
     else:
         goals = [believed.goal for believed in chosen]
         yield from _Claims(result, timelines(task, result, goals, served, deadline), effort).claims()
-
-
-def _wanted(result: Result) -> list[str]:
-    """The claims that need an optimiser."""
-    if result.status == "infeasible":
-        return ["infeasible"]
-    if result.status != "optimal":
-        return ["lower_bound"]
-    return ["optimal" if result.opportunity else "no_opportunity", "lower_bound"]
 
 
 def _considered(task: Task, recognised: Recognised, deadline: Deadline) -> list[Believed]:
@@ -193,9 +184,9 @@ class _Claims:
                 refuted.add(name)
             if claim.verdict == "undecided" and name == "replay":
                 unknown = claim.reason
-            if claim.verdict == "refuted" or name != "lower_bound":
+            if claim.verdict != "proved" or name != "lower_bound":
                 yield claim
-        wanted = _wanted(self.result)
+        wanted = [name for name in needed(self.result) if name not in BY_RULES]
         out = "the answer breaks a rule already" if refuted else None
         if out is None and self.effort is None:
             out = "not examined: the rules alone can't prove it"

@@ -91,7 +91,7 @@ def _own_faults(task: Task, board: Board, result: Result, value: Costs) -> Itera
             yield "cost", "a saving, or the cost of a plan, but no pi_H"
         return
     try:
-        cost = task.cost_of(replay_human(task, result.human_plan))
+        cost = task.cost_of(replay_human(task, result.human_plan, board.deadline))
     except PlanError as error:
         yield "replay", f"pi_H: {error.message}"
         return
