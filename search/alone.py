@@ -225,7 +225,7 @@ class Alone:
         if not goals:
             self._known[start] = INFINITE_KEY
             return None
-        edges = _edges_into(goals, expanded, distance)
+        edges = _edges_into(goals, expanded, distance, self._deadline)
         for state in (*edges, *goals):
             self._known[state] = optimum - distance[state]
         return PlanGraph(start, edges, len(expanded), sum(map(len, expanded.values())))
@@ -273,10 +273,14 @@ def canonical(alone: Alone | Priced, state: int) -> tuple[int, ...]:
 
 
 def _edges_into(
-    goals: list[int], expanded: dict[int, list[tuple[int, int, int]]], distance: dict[int, int]
+    goals: list[int],
+    expanded: dict[int, list[tuple[int, int, int]]],
+    distance: dict[int, int],
+    deadline: Deadline,
 ) -> Edges:
     tight: dict[int, list[tuple[int, int]]] = {}
     for state, steps in expanded.items():
+        deadline.tick()
         for action, after, cost in steps:
             if distance.get(after) == cost:
                 tight.setdefault(after, []).append((action, state))

@@ -31,9 +31,9 @@ def backward(
     heapify(queue)
     found: dict[Place, int] = {}
     while queue:
-        deadline.check()
         distance = heappop(queue)
         for at in levels.pop(distance):
+            deadline.tick()
             if at in found:
                 continue
             found[at] = distance

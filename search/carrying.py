@@ -1,8 +1,7 @@
 """Replanning calls: what was packed for a task serves it in another state."""
 
-from search.encoding import encoding, plain_encoding
+from search.encoding import plain_encoding
 from search.projection import human_graph
-from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
 
@@ -14,10 +13,10 @@ def at_state(task: Task, state: frozenset[int]) -> Task:
         state: ids of the facts that are true now.
     """
     moved = task.at(state)
-    if moved.variables is task.variables:
-        packed = encoding(task, Deadline())
-        graph = packed.derived(human_graph, Deadline())
+    packed = task.kept(plain_encoding)
+    if packed is not None and moved.variables is task.variables:
+        graph = packed.kept(human_graph)
         # What can be reached from a state that was reached has been reached.
-        known = packed.pack(state) & graph.mask in graph.moves
+        known = graph is not None and packed.pack(state) & graph.mask in graph.moves
         moved.keep_derived(plain_encoding, packed.moved_to(moved, derived=known))
     return moved

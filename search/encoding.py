@@ -86,7 +86,7 @@ class Encoding:
         self._values: dict[int, list[int]] = {0: [0]}
         shift = 0
         for variable in task.variables:
-            deadline.tick()
+            deadline.check()  # a place may have thousands of facts
             if not any(f in relevant for f in variable.facts):
                 continue
             width = 1 if variable.boolean else max(1, (len(variable.facts) - 1).bit_length())
@@ -160,9 +160,9 @@ class Encoding:
         led: dict[int, list[Form]] = {}
         for form in self.other_forms:
             led.setdefault(form.agents & -form.agents, []).append(form)
-        self.own_index = OpIndex(self.own_forms, self.fields)
-        self.joint_index = OpIndex(self.joint_forms, self.fields)
-        self.robot_indices = tuple(OpIndex(forms, self.fields) for _, forms in sorted(led.items()))
+        self.own_index = OpIndex(self.own_forms, self.fields, deadline)
+        self.joint_index = OpIndex(self.joint_forms, self.fields, deadline)
+        self.robot_indices = tuple(OpIndex(forms, self.fields, deadline) for _, forms in sorted(led.items()))
 
     @cached_property
     def outside(self) -> int:
@@ -193,6 +193,10 @@ class Encoding:
         if build not in self._derived:
             self._derived[build] = build(self, *args, **kwargs)
         return self._derived[build]  # type: ignore[no-any-return]
+
+    def kept(self, build: "Callable[Concatenate[Encoding, P], T]") -> T | None:
+        """What :meth:`derived` keeps already; None where nobody has asked for it yet."""
+        return self._derived.get(build)
 
     def pack(self, state: Iterable[int]) -> int:
         """The packed form of a set of true facts."""

@@ -40,7 +40,7 @@ class Weighed:
         self.initial = tables.encoding.init
         self.horizon = horizon
         self.steps = tables.followed(plan)
-        self.successors = Successors(tables.encoding, weight, strict=tables.options.strict)
+        self.successors = Successors(tables.encoding, weight, tables.deadline, strict=tables.options.strict)
         self.suffix: Suffix = suffix_rule(tables, plan)
         opened = [0] * len(plan)
         on_the_way, self._helped = bounds_along(tables, plan, horizon, limit, opened, robots, idle=False)

@@ -5,7 +5,7 @@ human pays comes first in the one objective and what the team pays in the other,
 can be as small as any plan that fits the window makes it.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -14,7 +14,7 @@ from search.fixed_window import FixedWindow, Weighed
 from search.keys import INFINITE_KEY
 from search.ops import Op
 from search.outcome import path_steps, plan_steps
-from search.planner import solve
+from search.planner import left_alone
 from search.tables import Tables
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
@@ -49,13 +49,15 @@ class Interruptions:
         horizon: ``T``.
         baseline: what doing nothing for the human costs the team, or None if that is
             impossible (robots that can't reach their own goal).
-        windows: ascending.
+        windows: all of them, examined when they are asked for: the largest first, for its plans
+            are no worse than any other's (under ``preservation="kernel"``).  Asking raises
+            ``LimitReachedError`` when the deadline has run out.
     """
 
     human_plan: HumanPlan
     horizon: int
     baseline: Fraction | None
-    windows: tuple[WindowOutcome, ...]
+    windows: Iterator[WindowOutcome]
 
 
 def interruptions(
@@ -77,29 +79,35 @@ def interruptions(
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``.
-        LimitReachedError: the deadline ran out.
+        LimitReachedError: the deadline ran out before ``pi_H`` was known.
     """
-    deadline = deadline or Deadline()
     asked = options.but(
         mode="serendipity", max_cost=None, max_window=None, keep_prefix=False, window_weight=0
     )
-    *_, idle = solve(task, asked.but(max_window=1), human_plan=human_plan, deadline=deadline)
-    plan = idle.human_plan
-    if plan is None:
+    tables = Tables(task, asked, deadline or Deadline())
+    nothing = left_alone(tables, human_plan)
+    if nothing is None:
         return None
-    horizon = int(idle.horizon or 0)
-    tables = Tables(task, asked, deadline).for_plan(plan)
-    starts = range(1, len(plan) + 1)
-    windows = [Window(start, end) for start in starts for end in range(start + 1, horizon + 2)]
-    count = _Count(2 * len(windows), on_progress)
+    windows = _examined(tables, nothing.plan, nothing.horizon, on_progress)
+    return Interruptions(nothing.plan, nothing.horizon, nothing.cost, windows)
+
+
+def _examined(
+    tables: Tables, plan: HumanPlan, horizon: int, on_progress: Callable[[int, int], None] | None
+) -> Iterator[WindowOutcome]:
+    """What is possible in each window, those first that say most of the others."""
+    windows = _ordered(len(plan), horizon)
+    if not windows:
+        return
+    tables = tables.for_plan(plan)
     idling = _idle_key(tables, plan)
-    found: list[dict[Window, Incumbent]] = []
-    for weight, robots in (_human_first(tables), (tables.weights.team, tables.weights.robots)):
-        weighed = Weighed(tables, plan, horizon, weight, robots, idling)
-        found.append(_Objective(tables, weighed, idling, count).best(windows) if windows else {})
-    human, team = found
-    outcomes = (_outcome(tables, plan, window, human[window], team[window]) for window in windows)
-    return Interruptions(plan, horizon, idle.baseline, tuple(outcomes))
+    count = _Count(2 * len(windows), on_progress)
+    human, team = (
+        _Objective(tables, Weighed(tables, plan, horizon, weight, robots, idling), idling, count)
+        for weight, robots in (_human_first(tables), (tables.weights.team, tables.weights.robots))
+    )
+    for window in windows:
+        yield _outcome(tables, plan, window, human.best(window), team.best(window))
 
 
 def _idle_key(tables: Tables, plan: HumanPlan) -> int:
@@ -133,6 +141,23 @@ def _outcome(
     return WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 
+def _ordered(starts: int, horizon: int) -> list[Window]:
+    """All windows: first those that reach to either end, each of which bounds a row or a column of the rest.
+
+    Args:
+        starts: length of ``pi_H``: a window begins no later.
+        horizon: ``T``.
+    """
+    if not starts:
+        return []
+    last = horizon + 1
+    late = [Window(start, last) for start in (1, *range(starts, 1, -1))]
+    early = [Window(1, end) for end in range(2, last)]
+    rest = [Window(start, end) for start in range(1, starts + 1) for end in range(start + 1, last + 1)]
+    rest.sort(key=lambda window: (len(window), window))
+    return list(dict.fromkeys((*late, *early, *rest)))
+
+
 class _Count:
     """Tells how many searches are done."""
 
@@ -153,8 +178,7 @@ class _Objective:
 
     A plan that fits a window fits every larger one, as long as the suffix only asks for what
     is left to do.  So a window is at least as good as those inside it, and at most as good as
-    those around it; where the two meet there is nothing to search.  The windows that reach to
-    either end come first, since each of them bounds a row or a column of the rest.
+    those around it; where the two meet there is nothing to search.
     """
 
     def __init__(self, tables: Tables, weighed: Weighed, idle: int, count: _Count) -> None:
@@ -165,17 +189,11 @@ class _Objective:
         self._nested = tables.options.preservation == "kernel"
         self._found: dict[Window, Incumbent] = {}
 
-    def best(self, windows: list[Window]) -> dict[Window, Incumbent]:
-        """By window; an infinite key where no plan fits."""
-        last = self._weighed.horizon + 1
-        early = [Window(1, end) for end in range(2, last)]
-        late = [Window(start, last) for start in range(len(self._weighed.steps), 1, -1)]
-        rest = sorted(windows, key=lambda window: (len(window), window))
-        for window in (Window(1, last), *late, *early, *rest):
-            if window not in self._found:
-                self._found[window] = self._best(window)
-                self._count.one_more()
-        return self._found
+    def best(self, window: Window) -> Incumbent:
+        """The best plan of a window; an infinite key where none fits."""
+        found = self._found[window] = self._best(window)
+        self._count.one_more()
+        return found
 
     def _best(self, window: Window) -> Incumbent:
         known, least = self._inside(window), self._around(window)

@@ -110,7 +110,7 @@ class OpIndex:
 
     __slots__ = ("always", "by_value", "field")
 
-    def __init__(self, forms: Sequence[Form], fields: Sequence[int]) -> None:
+    def __init__(self, forms: Sequence[Form], fields: Sequence[int], deadline: Deadline) -> None:
         by_lowest_bit = {field & -field: field for field in fields}
         asked: Counter[int] = Counter()
         for form in forms:
@@ -121,6 +121,7 @@ class OpIndex:
         self.always: list[Op] = []
         field = self.field
         for form in forms:
+            deadline.check()
             if not form.need_mask & field:
                 self.always += form.ops
                 continue

@@ -1,7 +1,7 @@
 """From a task and options to answers: which space, from which incumbent (SPEC 3)."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from search.alone import PlanGraph
@@ -63,6 +63,42 @@ def optimal_human_plans(task: Task, deadline: Deadline | None = None) -> PlanGra
         LimitReachedError: the deadline ran out.
     """
     return Tables(task, Options(), deadline or Deadline()).optimal_plans()
+
+
+@dataclass(frozen=True, slots=True)
+class LeftAlone:
+    """What happens where nobody helps.
+
+    Attributes:
+        plan: ``pi_H``.
+        horizon: ``T``.
+        cost: what it costs the team, or None where robots can't reach their own goal meanwhile.
+    """
+
+    plan: HumanPlan
+    horizon: int
+    cost: Fraction | None
+
+
+def left_alone(tables: Tables, human_plan: HumanPlan | None) -> LeftAlone | None:
+    """Doing nothing for the human, in a mode with windows; None where he has no plan alone.
+
+    Args:
+        tables: tables of the call.
+        human_plan: ``pi_H``, already replayed, or None to predict it.
+
+    Raises:
+        UsageError: the horizon is shorter than ``pi_H``, or one is missing.
+        LimitReachedError: the deadline ran out.
+    """
+    graph = tables.optimal_plans() if human_plan is None else None
+    plan = human_plan if graph is None else graph.canonical()
+    if plan is None:
+        return None
+    call = _Call(tables, plan, given=human_plan is not None)
+    call.leave_alone()
+    key = call.baseline.key
+    return LeftAlone(plan, int(call.horizon), call.keys.cost(key) if key < INFINITE_KEY else None)
 
 
 def _individual(tables: Tables, plan: HumanPlan) -> Outcome:
@@ -132,7 +168,7 @@ class _Call:
     def answers(self) -> Iterator[Outcome]:
         """Each better answer, then the last one with what is proved of it."""
         try:
-            self._leave_alone()
+            self.leave_alone()
             self._improve_alone()
             self.progress.bound = self._least()
             if self._answer().key < INFINITE_KEY:
@@ -147,7 +183,7 @@ class _Call:
             status = "feasible" if self._answer().key < INFINITE_KEY else "unknown"
         yield self._outcome(status)
 
-    def _leave_alone(self) -> None:
+    def leave_alone(self) -> None:
         """The first incumbent: the human follows ``pi_H``; robots, without him, see to ``G_R``."""
         plan, epochs = self.plan, self.epochs
         if plan is not None and (epochs is None or len(plan) <= epochs):

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from search.encoding import Encoding
 from search.ops import Op, OpIndex, applicable
 from serendipity.model.actions import disables
+from serendipity.model.deadline import Deadline
 
 
 class Option(NamedTuple):
@@ -32,6 +33,10 @@ Idle = tuple[int, ...]
 
 NOTHING = Option(0, -1, 0, (), 0)
 """Everybody waits."""
+
+
+_MANY = 1023
+"""All ones in binary: sets of actions between two looks at the deadline, less one."""
 
 
 class Lookup:
@@ -72,14 +77,22 @@ class Successors:
     Args:
         encoding: the packed task.
         weight: key increment of an op.
+        deadline: asked for time; sets of several robots' actions can be many.
         strict: strict interference (SPEC 2).
         idle: robots do nothing.
     """
 
     def __init__(
-        self, encoding: Encoding, weight: Callable[[Op], int], *, strict: bool, idle: bool = False
+        self,
+        encoding: Encoding,
+        weight: Callable[[Op], int],
+        deadline: Deadline,
+        *,
+        strict: bool,
+        idle: bool = False,
     ) -> None:
         self._encoding = encoding
+        self._deadline = deadline
         self._strict = strict
         self._own = Lookup(encoding.own_index, weight)
         self._joint = Lookup(encoding.joint_index, weight) if encoding.joint and not idle else None
@@ -187,12 +200,15 @@ class Successors:
 
     def _extend(self, sets: list[Option], more: list[Option]) -> Iterator[Option]:
         for chosen in sets:
+            self._deadline.tick()
             for option in more:
                 if not chosen.agents & option.agents and self._fits(option, chosen):
                     yield together(chosen, option)
 
     def _combine(self, first: Option, sets: list[Option]) -> Iterator[Option]:
-        for chosen in sets:
+        for number, chosen in enumerate(sets):
+            if not number & _MANY:
+                self._deadline.check()
             if not chosen.actions:
                 yield first
             elif not chosen.agents & first.agents and self._fits(first, chosen):

@@ -98,7 +98,9 @@ class Tables:
 
     def successors(self, *, idle: bool = False) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing."""
-        return Successors(self.encoding, self.weights.team, strict=self.options.strict, idle=idle)
+        return Successors(
+            self.encoding, self.weights.team, self.deadline, strict=self.options.strict, idle=idle
+        )
 
     def walks(self, plan: HumanPlan) -> Walks | None:
         """Robots' walks where they can be folded, and it pays: with several robots."""
@@ -111,7 +113,9 @@ class Tables:
 
     def folded(self, walks: Walks) -> FoldedSuccessors:
         """:meth:`successors` with walks left out."""
-        return FoldedSuccessors(self.encoding, walks, self.weights.team, strict=self.options.strict)
+        return FoldedSuccessors(
+            self.encoding, walks, self.weights.team, self.deadline, strict=self.options.strict
+        )
 
     @property
     def goals(self) -> tuple[Goal, ...]:

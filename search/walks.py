@@ -55,7 +55,6 @@ class Walks:
 
     def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
         self._encoding = encoding
-        self._deadline = deadline
         places = encoding.derived(Places, deadline)
         self._bits = [1 << robot for robot in encoding.task.robots]
         self.fields = [places.field[bit] for bit in self._bits]
@@ -215,13 +214,20 @@ class FoldedSuccessors(Successors):
         encoding: the packed task.
         walks: the robots' walks, foldable.
         weight: key increment of an op.
+        deadline: asked for time.
         strict: strict interference (SPEC 2).
     """
 
     def __init__(
-        self, encoding: Encoding, walks: Walks, weight: Callable[[Op], int], *, strict: bool
+        self,
+        encoding: Encoding,
+        walks: Walks,
+        weight: Callable[[Op], int],
+        deadline: Deadline,
+        *,
+        strict: bool,
     ) -> None:
-        super().__init__(encoding, weight, strict=strict, idle=True)
+        super().__init__(encoding, weight, deadline, strict=strict, idle=True)
         self._walks = walks
         self._weight = weight
         self._step = walks.weights(weight)
@@ -245,14 +251,14 @@ class FoldedSuccessors(Successors):
                 and self._fits(deed, first)
                 and promising(together(first, deed))
             ]
-            found += [
-                together(chosen, deed)
-                for deed in more
-                for chosen in found
-                if not deed.agents & chosen.agents and self._fits(deed, chosen)
-            ]
+            found += [together(chosen, deed) for deed in more for chosen in self._beside(deed, found)]
         found.sort(key=lambda option: option.weight)
         return found
+
+    def _beside(self, deed: Option, sets: list[Option]) -> list[Option]:
+        """The sets that a deed fits."""
+        self._deadline.tick()
+        return [chosen for chosen in sets if not deed.agents & chosen.agents and self._fits(deed, chosen)]
 
     def rested(self, idle: Idle, option: Option, state: int) -> Idle:
         """See :class:`Successors`."""

@@ -5,8 +5,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final
 
+from search.interruptions import Interruptions, WindowOutcome
 from search.interruptions import interruptions as search_windows
-from serendipity.model import Options, PlanStep, Step, Task, UsageError, Window
+from serendipity.limits import limits_from
+from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
+from serendipity.model.collection import no_collection
+from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.planning import options_from
 
 SCHEMA: Final = "serendipity.interruptions/1"
@@ -88,9 +92,10 @@ class InterruptionReport:
         human_cost: cost(pi_H).
         team_cost: what doing nothing for him costs the team.
         horizon: ``T``.
-        interruptible: whether he pays less in some window (Def. 2.1).
-        windows: ascending.
+        interruptible: whether he pays less in some window (Def. 2.1); None where a limit came first.
+        windows: ascending; where a limit came first, those that were examined.
         options: in force.
+        limit: which limit that was (as ``Result.reason`` has it); None where the report is complete.
     """
 
     human: str
@@ -98,15 +103,23 @@ class InterruptionReport:
     human_cost: Fraction | None
     team_cost: Fraction | None
     horizon: int | None
-    interruptible: bool
+    interruptible: bool | None
     windows: tuple[Interruption, ...]
     options: Options
+    limit: str | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether every window was examined."""
+        return self.limit is None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object (schema ``serendipity.interruptions/1``)."""
         options = self.options.to_dict()
         return {
             "schema": SCHEMA,
+            "complete": self.complete,
+            "limit": self.limit,
             "human": self.human,
             "human_plan": None if self.human_plan is None else list(self.human_plan),
             "human_cost": _float(self.human_cost),
@@ -124,55 +137,82 @@ def interruptions(
     *,
     human_plan: Iterable[str] | None = None,
     on_progress: Callable[[int, int], None] | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
     **options: Any,
 ) -> InterruptionReport:
     """For each window the best for the human and the best for the team.
+
+    Where a limit comes first, the report is about the windows that were examined by then, and
+    says that it is not complete.
 
     Args:
         task: the task.
         human_plan: names of the actions that the human is going to do; None predicts them.
         on_progress: called with the number of searches done, and of all (two for each window).
+        time_limit: seconds, or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
+        deadline: one that other work shares; it holds beside both limits.
         **options: ``discount``, ``horizon``, ``suffix``, ``preservation``, ``interference``.
 
     Raises:
         UsageError: an option is not one of these, or has no legal value.
         PlanError: ``human_plan`` can't be executed, or misses the goal.
+        LimitReachedError: a limit came before it was known what the human is going to do.
     """
+    limits = limits_from(time_limit, memory_limit, deadline)
     for name in options:
         if name not in _OPTIONS:
             raise UsageError(f"interruptions: expected options among {', '.join(_OPTIONS)}, got '{name}'")
     chosen = options_from(options)
     given = None if human_plan is None else task.plan_from_names(human_plan)
-    found = search_windows(task, chosen, human_plan=given, on_progress=on_progress)
+    with no_collection():  # beside a large task a collection takes longer than a short deadline
+        found = search_windows(task, chosen, human_plan=given, deadline=limits, on_progress=on_progress)
+        return _alone_impossible(task, chosen) if found is None else _reported(task, chosen, found)
+
+
+def _alone_impossible(task: Task, options: Options) -> InterruptionReport:
     human = task.agents[task.human]
-    if found is None:
-        return InterruptionReport(
-            human, None, None, None, None, interruptible=False, windows=(), options=chosen
-        )
-    alone = task.cost_of(found.human_plan)
-    windows = []
-    for outcome in found.windows:
-        steps = outcome.steps
-        windows.append(
-            Interruption(
-                window=outcome.window,
-                human_cost=outcome.human_cost,
-                team_cost=outcome.team_cost,
-                human_saving=_less(alone, outcome.human_cost),
-                team_saving=_less(found.baseline, outcome.team_cost),
-                removal=None if steps is None else _removal(task, found.human_plan, steps),
-                plan=None if steps is None else tuple(_named(task, chosen, step) for step in steps),
-            )
-        )
+    return InterruptionReport(human, None, None, None, None, interruptible=False, windows=(), options=options)
+
+
+def _reported(task: Task, options: Options, found: Interruptions) -> InterruptionReport:
+    """The windows examined before a limit comes, each put into words at once: that takes time, too."""
+    windows: dict[Window, Interruption] = {}
+    limit = None
+    try:
+        for outcome in found.windows:
+            windows[outcome.window] = _interruption(task, options, found, outcome)
+    except LIMITS as error:
+        limit = limit_reason(error)
+    helps = any(w.human_saving is not None and w.human_saving > 0 for w in windows.values())
+    # What fits some window fits the largest one, but for what `state` asks of its end.
+    largest = options.preservation == "kernel" and any(len(window) == found.horizon for window in windows)
+    known = helps or limit is None or largest
     return InterruptionReport(
-        human=human,
+        human=task.agents[task.human],
         human_plan=tuple(task.actions[i].name for i in found.human_plan),
-        human_cost=alone,
+        human_cost=task.cost_of(found.human_plan),
         team_cost=found.baseline,
         horizon=found.horizon,
-        interruptible=any(w.human_saving is not None and w.human_saving > 0 for w in windows),
-        windows=_marked(windows),
-        options=chosen,
+        interruptible=helps if known else None,
+        windows=_marked([windows[window] for window in sorted(windows)]),
+        options=options,
+        limit=limit,
+    )
+
+
+def _interruption(task: Task, options: Options, found: Interruptions, outcome: WindowOutcome) -> Interruption:
+    steps = outcome.steps
+    return Interruption(
+        window=outcome.window,
+        human_cost=outcome.human_cost,
+        team_cost=outcome.team_cost,
+        human_saving=_less(task.cost_of(found.human_plan), outcome.human_cost),
+        team_saving=_less(found.baseline, outcome.team_cost),
+        removal=None if steps is None else _removal(task, found.human_plan, steps),
+        plan=None if steps is None else tuple(_named(task, options, step) for step in steps),
     )
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from search import Outcome, least_over_ties, optimal_human_plans, solve
 from search.simulation import solve_for_human
 from serendipity.gap import Gap, news
+from serendipity.limits import limits_from
 from serendipity.model.actions import GroundAction
 from serendipity.model.collection import no_collection
 from serendipity.model.deadline import Deadline
@@ -71,17 +72,18 @@ def plan(
     if goals is not None:
         if human_plan is not None:
             raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
-        # Loaded only here: who knows the goal has nothing to do with it.
+        # Loaded only here, before time counts: who knows the goal has nothing to do with it.
         from serendipity.goals.planning import plan_for_goals
 
-        def known(about: Task, names: tuple[str, ...] | None) -> Result:
-            return plan(
-                about, human_plan=names, visible=visible, cancelled=cancelled, deadline=deadline, **options
-            )
-
         chosen = options_from(options)
-        limits = (deadline or Deadline()).within(chosen.time_limit, chosen.memory_limit, cancelled)
-        return plan_for_goals(task, goals, observed, beta, chosen, known, limits)
+        limits = limits_from(chosen.time_limit, chosen.memory_limit, deadline, cancelled)
+
+        def known(about: Task, names: tuple[str, ...] | None) -> Result:
+            return plan(about, human_plan=names, visible=visible, deadline=limits, **options)
+
+        with no_collection():
+            early = limits.sooner(_ANSWER_SHARE)
+            return plan_for_goals(task, goals, observed, beta, chosen, known, early)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
         *_, last = _answers(task, human_plan, visible, options, cancelled, deadline)
         return last()
@@ -145,15 +147,18 @@ def _answers(
 ) -> Iterator[Callable[[], Result]]:
     """Answers that are put into words only if somebody asks for them."""
     chosen = options_from(options)
+    if chosen.mode == "assistance":
+        # Loaded only here, before time counts: the other modes have nothing to do with it.
+        from serendipity.assistance import assistance_answers
     if visible is not None and chosen.human_model != "local":
         raise UsageError(f"visible: is for human_model 'local' only, not for '{chosen.human_model}'")
-    limits = (outer or Deadline()).within(chosen.time_limit, chosen.memory_limit, cancelled)
+    limits = limits_from(chosen.time_limit, chosen.memory_limit, outer, cancelled)
     deadline = limits.sooner(_ANSWER_SHARE)
     given = None if human_plan is None else task.plan_from_names(human_plan)
     if chosen.mode == "assistance":
         if given is not None:
             raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")
-        yield from _assistance(task, chosen, deadline)
+        yield from assistance_answers(task, chosen, deadline)
         return
     if given is not None:
         chosen = chosen.but(ties="fixed")  # there is but one plan
@@ -165,13 +170,6 @@ def _answers(
     for outcome in news(call.outcomes(given)):
         gap.record(outcome)
         yield partial(_to_result, call, outcome, gap.known())
-
-
-def _assistance(task: Task, options: Options, deadline: Deadline) -> Iterator[Callable[[], Result]]:
-    # Loaded only here: the other modes have nothing to do with it.
-    from serendipity.assistance import assistance_answers
-
-    return assistance_answers(task, options, deadline)
 
 
 def options_from(given: dict[str, Any]) -> Options:
@@ -258,19 +256,16 @@ def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
     """
     if outcome.steps is None or outcome.cost is None:
         return {}
-    try:
-        return realised(
-            call.task,
-            call.options,
-            outcome.human_plan or (),
-            outcome.steps,
-            cost=outcome.cost,
-            horizon=outcome.horizon,
-            visible=call.visible,
-            deadline=call.limits.sooner(-_VERDICT_SHARE),
-        )
-    except LIMITS:
-        return {}
+    return realised(
+        call.task,
+        call.options,
+        outcome.human_plan or (),
+        outcome.steps,
+        cost=outcome.cost,
+        horizon=outcome.horizon,
+        visible=call.visible,
+        deadline=call.limits.sooner(-_VERDICT_SHARE),
+    )
 
 
 def _saving(outcome: Outcome) -> Fraction | None:

@@ -2,7 +2,6 @@
 
 import threading
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
 from search import at_state
@@ -27,7 +26,6 @@ class Session:
 
     def __init__(self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> None:
         self._task = task
-        _ = task.named  # what every epoch's actions are looked up in
         self._options = options
         self._human_plan = None if human_plan is None else tuple(human_plan)
         self._cancelled = threading.Event()
@@ -109,7 +107,7 @@ class Session:
         literals = list(goal)
         positive = sorted(self._fact(name) for name in literals if not name.startswith("!"))
         negative = sorted(self._fact(name[1:]) for name in literals if name.startswith("!"))
-        self._task = replace(self._task, goal=Condition(tuple(positive), tuple(negative)))
+        self._task = self._task.with_goal(Condition(tuple(positive), tuple(negative)))
         self._human_plan = None
 
     def _follow(self, his: list[GroundAction]) -> None:

@@ -6,8 +6,9 @@ from typing import Final
 
 from search.simulation import Epoch, Simulated
 from search.simulation import simulate as play
+from serendipity.limits import limits_from
 from serendipity.model.deadline import Deadline
-from serendipity.model.errors import InputError, UsageError
+from serendipity.model.errors import LIMITS, InputError, UsageError
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.result import PlanStep, Result
@@ -20,7 +21,14 @@ HUMAN_MODELS: Final = ("observant", "local")
 
 
 def simulate(
-    task: Task, result: Result, human_model: str = "observant", *, visible: Visible | None = None
+    task: Task,
+    result: Result,
+    human_model: str = "observant",
+    *,
+    visible: Visible | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
 ) -> Trace:
     """Play a result's plan against a human who looks up in each epoch and replans.
 
@@ -30,11 +38,16 @@ def simulate(
         human_model: ``observant`` (he sees everything) or ``local`` (what is where he is).
         visible: ``visible(agent, fact, state)`` says what a local human sees, by ids of the
             task; None for the default of ``docs/semantics.md``, section 6.
+        time_limit: seconds, or None; the epochs played by then are told, as far as they go.
+        memory_limit: what the process may have in memory, in MiB, or None.
+        deadline: one that other work shares; it holds beside both limits.
 
     Raises:
-        UsageError: there is no such human model.
+        UsageError: there is no such human model, or a limit is wrong.
         InputError: the result has no plan, or is for another task.
+        LimitReachedError: a limit came before the first epoch was over.
     """
+    limits = limits_from(time_limit, memory_limit, deadline)
     if human_model not in HUMAN_MODELS:
         raise UsageError(f"human_model: expected one of {', '.join(HUMAN_MODELS)}, got {human_model!r}")
     if result.plan is None or result.cost is None:
@@ -45,7 +58,14 @@ def simulate(
     horizon = result.horizon if isinstance(result.horizon, int) else None
     steps = [Step(step.epoch, _action(task, step)) for step in result.plan]
     simulated = play(
-        task, result.options, plan, steps, human_model=human_model, horizon=horizon, visible=visible
+        task,
+        result.options,
+        plan,
+        steps,
+        human_model=human_model,
+        horizon=horizon,
+        visible=visible,
+        deadline=limits,
     )
     return _Story(task, result, human_model, simulated).trace()
 
@@ -63,25 +83,30 @@ def realised(
 ) -> dict[str, bool]:
     """The verdicts that a result carries: always ``observant``, ``local`` if it was planned for.
 
-    Raises:
-        LimitReachedError: the deadline ran out.
+    Those that the deadline leaves no time for are missing.
     """
     models = ("observant",) if options.human_model != "local" else HUMAN_MODELS
     epochs = horizon if isinstance(horizon, int) else None
     verdicts = {}
     for model in models:
-        deadline.check()  # what comes first can't be interrupted, and takes milliseconds on big tasks
-        simulated = play(
-            task,
-            options,
-            human_plan,
-            steps,
-            human_model=model,
-            horizon=epochs,
-            visible=visible,
-            deadline=deadline,
-        )
-        verdicts[model] = simulated.realised(cost)
+        try:
+            deadline.check()  # what comes first can't be interrupted, and takes milliseconds on big tasks
+            simulated = play(
+                task,
+                options,
+                human_plan,
+                steps,
+                human_model=model,
+                horizon=epochs,
+                visible=visible,
+                deadline=deadline,
+            )
+        except LIMITS:
+            break
+        verdict = simulated.realised(cost)
+        if verdict is None:
+            break
+        verdicts[model] = verdict
     return verdicts
 
 
@@ -117,25 +142,28 @@ class _Story:
         self.cost = float(simulated.cost)
 
     def trace(self) -> Trace:
-        reason = self._reason()
+        reason, limit = self._reason(), self.simulated.limit
         return Trace(
             human=self.task.agents[self.task.human],
             human_model=self.human_model,
-            realised=reason is None,
+            realised=False if reason is not None else True if limit is None else None,
             reason=reason,
-            goals_hold=self.simulated.goals_hold,
+            goals_hold=self.simulated.goals_hold if limit is None else None,
             promised_cost=self.promised,
             cost=self.cost,
             epochs=tuple(self._epochs()),
+            limit=limit,
         )
 
     def _reason(self) -> str | None:
         for epoch in self.simulated.epochs:
             for skip in epoch.skipped:
                 return f"epoch {epoch.epoch}: {self._name(skip.action)} does not happen, {WHY[skip.why]}"
-        if self.simulated.goals_hold and self.cost <= self.promised:
+        unfinished = self.simulated.limit is not None
+        if self.cost <= self.promised and (self.simulated.goals_hold or unfinished):
             return None
-        miss = "it costs more" if self.simulated.goals_hold else "the goals do not hold at the end"
+        dearer = self.simulated.goals_hold or unfinished
+        miss = "it costs more" if dearer else "the goals do not hold at the end"
         return f"{self._departure()}{miss}"
 
     def _departure(self) -> str:

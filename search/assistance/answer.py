@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TypeVar
+from typing import Final, TypeVar
 
 from search.assistance.bound import Bound
 from search.assistance.branching import Branching
@@ -22,6 +22,9 @@ from serendipity.model.policy import Policy
 from serendipity.model.task import HumanPlan, Task
 
 _T = TypeVar("_T")
+
+_BOUND_SHARE: Final = 0.04
+"""What a first bound may add to the time limit: a share of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,8 +89,10 @@ def assist(task: Task, options: Options, deadline: Deadline) -> Iterator[Assista
 
 
 def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:
-    """Bounds where the prime's optimal cost could not be worked out in half of the time."""
-    lower = game.pair(min(joint_lower_bound(game), INFINITE - 1))
+    """Bounds where the prime's optimal cost could not be worked out in half of the time, or in memory."""
+    if limit == "memory-limit":
+        game.forget_own()
+    lower = _bound_without_search(game, game.deadline)
     try:
         upper = upper_bound_alone(game)
     except LIMITS:
@@ -100,17 +105,13 @@ def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:
 
 def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None, limit: str) -> Assistance:
     """What is known when the time is up: doing nothing is always an answer, if he has a plan."""
-    if search is not None:
-        known = search.solution(floors=False)
-        if known.upper is not None:
-            if known.lower == known.upper:
-                return _answer(writer, search, "optimal")
-            answer = _answer(writer, search, "feasible")
-            lower = max(answer.lower, game.pair(joint_lower_bound(game)))
-            return replace(answer, lower=lower, status="optimal" if lower == answer.upper else "feasible")
-    lower = game.pair(min(joint_lower_bound(game), INFINITE - 1))
-    if search is not None:
-        lower = max(lower, search.solution(floors=False).lower or ZERO)
+    known = Solution(None, None) if search is None else search.solution(floors=False)
+    if search is not None and known.upper is not None and known.lower == known.upper:
+        return _answer(writer, search, "optimal")
+    lower = max(_bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE)), known.lower or ZERO)
+    if search is not None and known.upper is not None:
+        answer = _answer(writer, search, "feasible")
+        return replace(answer, lower=lower, status="optimal" if lower == answer.upper else "feasible")
     alone = game.alone(game.init)  # known since the first phase
     if alone >= INFINITE:
         return Assistance("unknown", lower, reason=limit)
@@ -123,6 +124,14 @@ def _unfinished(game: Game, writer: Writer, search: Shortest | Branching | None,
         policy=Policy((), None),
         plan=_in_time(partial(writer.plan, idle)),
     )
+
+
+def _bound_without_search(game: Game, deadline: Deadline) -> Costs:
+    """A lower bound from the initial state alone; nothing where there is no time even for that."""
+    try:
+        return game.pair(min(joint_lower_bound(game, deadline), INFINITE - 1))
+    except LIMITS:
+        return ZERO
 
 
 def _search(game: Game, options: Options) -> Shortest | Branching:
@@ -141,7 +150,7 @@ def _answer(writer: Writer, search: Shortest | Branching, status: str) -> Assist
         lower=solution.lower or ZERO,
         upper=solution.upper,
         human_plan=_in_time(writer.human_plan),
-        policy=writer.policy(solution, with_floors=status == "optimal") if has_policy else None,
+        policy=writer.policy(solution) if has_policy else None,
         plan=_in_time(partial(writer.plan, solution)) if has_policy else None,
         reason="no-plan" if status == "infeasible" else None,
         expanded=search.expanded,

@@ -6,6 +6,7 @@ in an array, so that it takes two or four bytes and only where the ball has been
 Fields that change together and have few combinations in reach (who is where) share bits.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
 from itertools import product
@@ -17,6 +18,7 @@ import numpy as np
 from search.encoding import Goal
 from search.keys import INFINITE_KEY
 from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, LimitReachedError
 
 if TYPE_CHECKING:
     from search.assistance.closure import Arc
@@ -30,7 +32,10 @@ MAX_BITS: Final = 28
 """Of a place, which has to fit an ``int32``."""
 
 _WIDE_BITS: Final = 24
-"""Up to here a distance has four bytes."""
+"""Up to here a distance is wide."""
+
+_WIDE, _NARROW = 4, 2
+"""Bytes of a distance."""
 
 _MOST_TOGETHER: Final = 64
 """Combinations of fields that share bits."""
@@ -39,6 +44,12 @@ _MOST_STEPS: Final = 5_000
 """Each is tried at every distance; where there are more, trying takes longer than looking them up."""
 
 _MOST_GOALS: Final = 1_000_000
+
+_SORTING: Final = 16
+"""Bytes for each place that is concatenated and sorted, at the least."""
+
+_LARGE: Final = 1 << 24
+"""Bytes; what is smaller is noticed in time when it has been allocated."""
 
 
 class _Axis(NamedTuple):
@@ -84,7 +95,8 @@ class Places:
             else:
                 parts.append((group, found))
         # The busiest come last, in the highest bits: neighbours in the order share their actions.
-        parts.sort(key=lambda part: sum(arc.condition.mask & part[0] != 0 for arc in arcs))
+        asked = Counter(arc.condition.mask for arc in arcs)
+        parts.sort(key=lambda part: sum(times for mask, times in asked.items() if mask & part[0]))
         self.bits = 0
         axes = []
         for mask, combinations in parts:
@@ -93,6 +105,11 @@ class Places:
             axes.append(_Axis(mask, combinations, at, self.bits, width))
             self.bits += width
         self.axes = axes[::-1]
+
+    @property
+    def item(self) -> int:
+        """Bytes of a distance."""
+        return _WIDE if self.bits <= _WIDE_BITS else _NARROW
 
     def place(self, state: int) -> int:
         """The place of a state; -1 if it has none."""
@@ -174,7 +191,7 @@ def _pairs(axis: _Axis, condition: Goal, keep: int, put: int) -> Iterator[tuple[
 def _changed_together(arcs: "Sequence[Arc]", fields: Sequence[int]) -> list[int]:
     """Masks of fields, those together that are linked by arcs that change two of them."""
     groups = list(fields)
-    for changed in {sum(field for field in fields if field & ~arc.keep) for arc in arcs}:
+    for changed in {sum(field for field in fields if field & ~keep) for keep in {arc.keep for arc in arcs}}:
         linked = [group for group in groups if group & changed]
         if len(linked) > 1:
             groups = [group for group in groups if not group & changed]
@@ -195,7 +212,7 @@ class Ball:
     def __init__(self, places: Places, arcs: "Sequence[Arc]", goals: Array, deadline: Deadline) -> None:
         self._places = places
         self._deadline = deadline
-        wide = places.bits <= _WIDE_BITS
+        wide = places.item == _WIDE
         self._minor_bits, major_bits = (14, 17) if wide else (8, 8)
         heaviest = max((arc.weight >> MINOR_BITS for arc in arcs), default=0)
         longest = max((arc.weight % (1 << MINOR_BITS) for arc in arcs), default=0)
@@ -251,14 +268,21 @@ class Ball:
             return False
         known, minor_mask = self._known, (1 << self._minor_bits) - 1
         while self._buckets[level]:  # steps without a major part stay on the level
+            size = _SORTING * sum(map(len, self._buckets[level]))
+            if size > _LARGE:
+                self._deadline.require(size)
             places = _distinct(np.concatenate(self._buckets[level]))
-            self._buckets[level] = [places]  # still there if the time is up
+            self._buckets[level] = [places]  # the same, once each
             places = places[(known[places] - 1 >> self._minor_bits) == level]
             if int((known[places] - 1 & minor_mask).max(initial=0)) > self._most_minor:
                 return False
             self._deadline.check()
             self._buckets[level] = []
-            self._expand(places)
+            try:
+                self._expand(places)
+            except LIMITS:
+                self._buckets[level].append(places)  # to be gone through again, should anybody ask again
+                raise
         del self._buckets[heappop(self._queue)]
         return True
 
@@ -271,6 +295,7 @@ class Ball:
             here = places[first:last]
             distances = known[here]
             for mask, want, offset, weight in steps:
+                self._deadline.check()
                 matching = np.flatnonzero((here & mask) == want)
                 if not len(matching):
                     continue
@@ -304,11 +329,19 @@ def ball_around(
     start: int,
     deadline: Deadline,
 ) -> Ball | None:
-    """A ball that a state can be asked of; None where it would be too large, or a step is free."""
+    """A ball that a state can be asked of; None where it would be too large, or a step is free.
+
+    Too large is also what memory has no room for, were all of it touched.
+    """
     if not fields or not all(arc.weight for arc in arcs):
         return None  # a step that costs nothing at all may go round for ever
     places = Places(arcs, fields, values, start)
+    deadline.check()
     if places.bits > MAX_BITS or places.steps(arcs) > _MOST_STEPS:
+        return None
+    try:
+        deadline.require(places.item << places.bits)
+    except LimitReachedError:
         return None
     goals = places.holding(goal)
     return None if goals is None else Ball(places, arcs, goals, deadline)

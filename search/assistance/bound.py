@@ -55,6 +55,7 @@ def _joint_closure(game: Game) -> Closure:
     arcs = []
     for ops, shift in ((game.encoding.own, _SUPPORTER_BITS), (game.supporter_ops, 0)):
         for op in ops:
+            game.deadline.tick()
             condition = Goal(op.need_mask, op.need, op.forbidden)
             arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << shift))
     fields = game.encoding.fields

@@ -15,9 +15,8 @@ from search.assistance.evaluate import Option, evaluate
 from search.assistance.game import INFINITE, Game, Move
 from search.assistance.graph import Graph
 from search.assistance.rules import Rule, Value
-from search.assistance.solution import Costs, Entry, Solution
+from search.assistance.solution import MAX_FLOORS, Costs, Entry, Solution
 
-_CHECK_EVERY = 32
 _MOST_BACKUPS = 1000
 _MOST_IDLE_PASSES = 20
 
@@ -84,7 +83,8 @@ class Branching:
         stack = [self._game.init]
         while stack:
             state = stack[-1]
-            self._count()
+            self._game.deadline.tick()
+            self.expanded += 1
             step = self._step(state, seen)
             rose |= step[0]
             if step[1] is None:
@@ -117,11 +117,6 @@ class Branching:
                 return outcome.after
         return None
 
-    def _count(self) -> None:
-        self.expanded += 1
-        if not self.expanded % _CHECK_EVERY:
-            self._game.deadline.check()
-
     def _outside(self, state: int) -> Value:
         """States without a move are final, or lost."""
         return self._rule.lift(0) if self._graph.final(state) else self._rule.infinite
@@ -132,6 +127,7 @@ class Branching:
         policy: dict[int, Option] = {}
         pending = [self._game.init]
         while pending:
+            self._game.deadline.tick()
             state = pending.pop()
             if state in policy:
                 continue
@@ -150,11 +146,10 @@ class Branching:
             value = rule.costs(game, self._values[state])
             if value is not None:
                 policy[state] = Entry(value, move.action, move.after)
-        proof: dict[int, Costs] = {}
-        for state in graph.choices if floors else ():
-            low = rule.costs(game, graph.low[state])
-            if low is not None:
-                proof[state] = low
+        proof: dict[int, Costs] | None = None
+        if floors and len(graph.choices) <= MAX_FLOORS:
+            lows = ((state, rule.costs(game, graph.low[state])) for state in graph.choices)
+            proof = {state: low for state, low in lows if low is not None}
         # Bounding the initial state takes time, too: there may be no bound yet.
         lower = graph.low.get(game.init, rule.lift(0)) if not graph.final(game.init) else rule.lift(0)
         return Solution(rule.costs(game, lower), rule.costs(game, self._upper), policy, proof)

@@ -5,6 +5,7 @@ a state costs work once.  Small closures are explored state by state, large ones
 layers in arrays.
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
@@ -23,8 +24,6 @@ SMALL: Final = 3_000
 
 MEDIUM: Final = 200_000
 """States that are all looked at before only those near the goal are."""
-
-_CHECK_EVERY: Final = 512
 
 
 class TooManyStatesError(Exception):
@@ -111,12 +110,9 @@ class Closure:
         pending = [start]
         seeds: list[tuple[int, int]] = []
         known, holds = self._known, self._goal.holds
-        count = 0
         while pending:
             state = pending.pop()
-            count += 1
-            if not count % _CHECK_EVERY:
-                self._deadline.check()
+            self._deadline.tick()
             if state in known:
                 seeds.append((known[state], state))
             elif holds(state):
@@ -151,6 +147,7 @@ class Closure:
         queue = [seed for seed in seeds if seed[0] < INFINITE_KEY]
         heapify(queue)
         while queue:
+            self._deadline.tick()
             distance, state = heappop(queue)
             if state in distances:
                 continue
@@ -191,8 +188,8 @@ class Closure:
 
 
 def _by_field(arcs: list[Arc], fields: Sequence[int]) -> _ByField:
-    masks = [arc.condition.need_mask for arc in arcs]
-    field = max(fields, key=lambda field: sum(mask & field != 0 for mask in masks), default=0)
+    asked = Counter(arc.condition.need_mask for arc in arcs)
+    field = max(fields, key=lambda field: sum(n for mask, n in asked.items() if mask & field), default=0)
     by_value: dict[int, list[Arc]] = {}
     always = []
     for arc in arcs:

@@ -16,12 +16,13 @@ from serendipity.model.deadline import Deadline
 
 Model = dict[int, list[Option]]
 
-_CHECK_EVERY = 256
-
 
 def solve_all(graph: Graph, deadline: Deadline) -> None:
     """Raise all bounds to the values of what has been looked at, and set ``graph.pick``."""
-    model = {state: [graph.option(state, move) for move in moves] for state, moves in graph.choices.items()}
+    model: Model = {}
+    for state, moves in graph.choices.items():
+        deadline.tick()
+        model[state] = [graph.option(state, move) for move in moves]
     solve = _mean if isinstance(graph.rule, Mean) else _worst
     values, policy = solve(graph, model, deadline)
     for state in model:
@@ -31,6 +32,7 @@ def solve_all(graph: Graph, deadline: Deadline) -> None:
         if state in policy:
             graph.pick[state] = policy[state].move
     for reply in graph.replies:
+        deadline.tick()
         graph.back_up_reply(reply)
 
 
@@ -57,14 +59,14 @@ class _Settling:
     def run(self, deadline: Deadline) -> Solved:
         """Values and options of all states from which the end can be forced."""
         for state, options in self._model.items():
+            deadline.tick()
             for i, option in enumerate(options):
                 self._enter(state, i, {move.after for move in option.outcomes if move.after in self._model})
         while self._queue:
+            deadline.tick()
             value, state = heappop(self._queue)
             if state in self._values:
                 continue
-            if not len(self._values) % _CHECK_EVERY:
-                deadline.check()
             self._values[state] = value
             for before, i in self._waiting.get(state, ()):
                 self._missing[before, i] -= 1
@@ -94,7 +96,7 @@ class _Settling:
 def _mean(graph: Graph, model: Model, deadline: Deadline) -> Solved:
     rule = graph.rule
     model = _certain(graph, model, deadline)
-    policy = _attracted(model)
+    policy = _attracted(model, deadline)
     while True:
         deadline.check()
         values = evaluate(policy, rule, graph.choice_value, deadline)
@@ -104,6 +106,7 @@ def _mean(graph: Graph, model: Model, deadline: Deadline) -> Solved:
 
         improved = False
         for state, options in model.items():
+            deadline.tick()
             best = min(options, key=lambda option: option_value(option, rule, value_of))
             if option_value(best, rule, value_of) < values[state]:
                 policy[state] = best
@@ -115,12 +118,11 @@ def _mean(graph: Graph, model: Model, deadline: Deadline) -> Solved:
 def _certain(graph: Graph, model: Model, deadline: Deadline) -> Model:
     """The states from which some policy ends with certainty, with the options that stay among them."""
     while True:
-        deadline.check()
-        kept = {
-            state: [option for option in options if _stays(graph, model, option)]
-            for state, options in model.items()
-        }
-        reached = _attracted(kept)
+        kept: Model = {}
+        for state, options in model.items():
+            deadline.tick()
+            kept[state] = [option for option in options if _stays(graph, model, option)]
+        reached = _attracted(kept, deadline)
         if len(reached) == len(model):
             return kept
         model = {state: kept[state] for state in reached}
@@ -140,12 +142,13 @@ def _finite(graph: Graph, state: int) -> bool:
     return bool(graph.choice_value(state) < graph.rule.infinite)
 
 
-def _attracted(model: Model) -> dict[int, Option]:
+def _attracted(model: Model, deadline: Deadline) -> dict[int, Option]:
     """States that may end under some policy, each with an option that brings the end nearer."""
     waiting: dict[int, list[tuple[int, Option]]] = {}
     policy: dict[int, Option] = {}
     pending: list[int] = []
     for state, options in model.items():
+        deadline.tick()
         for option in options:
             ends = option.end is not None or any(move.after not in model for move in option.outcomes)
             if ends and state not in policy:
@@ -154,6 +157,7 @@ def _attracted(model: Model) -> dict[int, Option]:
             for move in option.outcomes:
                 waiting.setdefault(move.after, []).append((state, option))
     while pending:
+        deadline.tick()
         for state, option in waiting.get(pending.pop(), ()):
             if state not in policy:
                 policy[state] = option

@@ -58,14 +58,14 @@ def evaluate(
         if len(component) == 1 and first not in onward[first]:
             values[first] = option_value(policy[first], rule, value_of)
         elif isinstance(rule, Mean):
-            values.update(_returning(policy, component, rule, value_of))
+            values.update(_returning(policy, component, rule, value_of, deadline))
         else:
             values.update(dict.fromkeys(component, rule.infinite))
     return values
 
 
 def _returning(
-    policy: Mapping[int, Option], component: list[int], rule: Rule, value_of: Outside
+    policy: Mapping[int, Option], component: list[int], rule: Rule, value_of: Outside, deadline: Deadline
 ) -> dict[int, Value]:
     """Mean values of states that a run may visit again."""
     index = {state: i for i, state in enumerate(component)}
@@ -85,7 +85,7 @@ def _returning(
         if total[0] == rule.infinite[0]:
             return dict.fromkeys(component, rule.infinite)
         rows.append((len(outcomes), coefficients, total))
-    solved = solve_linear(rows)
+    solved = solve_linear(rows, deadline)
     if solved is None:
         return dict.fromkeys(component, rule.infinite)
     return {state: solved[i] for state, i in index.items()}

@@ -5,7 +5,6 @@ comparing them compares lexicographically.  Costs are scaled to integers.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
@@ -52,7 +51,7 @@ class Game:
     def __init__(self, task: Task, deadline: Deadline, own_deadline: Deadline | None = None) -> None:
         if len(task.robots) != 1:
             raise UsageError(f"mode: 'assistance' is for one robot, the task has {len(task.robots)}")
-        self.task = replace(task, robot_goal=Condition()) if task.robot_goal else task
+        self.task = task.with_goal(task.goal, Condition()) if task.robot_goal else task
         self.deadline = deadline
         self._own_deadline = own_deadline or deadline
         self.encoding: Encoding = encoding(self.task, deadline)
@@ -62,13 +61,17 @@ class Game:
         self._scaled = [int(cost * self.scale) for cost in self.encoding.costs]
         robot = 1 << task.robots[0]
         self.supporter_ops = tuple(op for op in self.encoding.others if op.agents == robot)
-        self._supporter_index = Watched(self.supporter_ops, self.encoding.fields)
+        self._supporter_index = Watched(self.supporter_ops, self.encoding.fields, deadline)
         self._prime_moves: dict[int, tuple[Move, ...]] = {}
 
     @cached_property
     def own(self) -> OwnCosts:
         """The prime by himself."""
         return OwnCosts(self.encoding, self._scaled, self._own_deadline)
+
+    def forget_own(self) -> None:
+        """Drop what was found about the prime by himself, which may be what fills the memory."""
+        self.__dict__.pop("own", None)
 
     def cost(self, op: Op) -> int:
         """Scaled cost of an op."""

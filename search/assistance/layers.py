@@ -19,6 +19,12 @@ _WORD_BITS: Final = 62
 _FAR: Final = np.iinfo(np.int64).max // 4
 _MAX_WEIGHT: Final = 1 << 48
 
+_SORTING: Final = 32
+"""Bytes for each element of what is concatenated, sorted and gathered, at the least."""
+
+_LARGE: Final = 1 << 24
+"""Bytes; what is smaller is noticed in time when it has been allocated."""
+
 
 class _Compressed:
     """Packs the bits of some fields next to each other, so that a state fits a machine word."""
@@ -71,8 +77,11 @@ class Layers:
         self._too_many_unless(self._compressed.bits <= _WORD_BITS and heaviest < _MAX_WEIGHT)
         self._deadline = deadline
         self._limit = limit
-        self._tests = [self._test(arc.condition) for arc in arcs]
-        self._effects = [self._effect(arc) for arc in arcs]
+        self._tests, self._effects = [], []
+        for arc in arcs:
+            deadline.tick()
+            self._tests.append(self._test(arc.condition))
+            self._effects.append(self._effect(arc))
         self._arc_weights = [arc.weight for arc in arcs]
         self._weights = sorted({arc.weight for arc in arcs})
         self._goal = self._test(goal)
@@ -87,6 +96,11 @@ class Layers:
             return None
         found = int(self._distances[at])
         return INFINITE_KEY if found >= _FAR else found
+
+    def _require(self, size: int) -> None:
+        """Ask for the memory of arrays that are large; asking takes a moment."""
+        if size > _LARGE:
+            self._deadline.require(size)
 
     def _too_many_unless(self, fits: bool) -> None:
         if not fits:
@@ -114,16 +128,17 @@ class Layers:
         """Every state reachable from ``start``, ascending; the goal goes nowhere."""
         known = frontier = start
         while len(frontier):
-            self._deadline.check()
             frontier = np.delete(frontier, self._where(self._goal, frontier))
             found = [np.empty(0, dtype=np.int64)]
             size = 0
             for test, (keep, put) in zip(self._tests, self._effects, strict=True):
+                self._deadline.check()
                 at = self._where(test, frontier)
                 if len(at):
                     found.append(frontier[at] & keep | put)
                     size += len(found[-1])
                     self._too_many_unless(size <= 16 * self._limit)
+            self._require(_SORTING * (size + len(known)))
             after = _distinct(np.concatenate(found))
             frontier = after[~_contains(known, after)]
             known = np.sort(np.concatenate([known, frontier]), kind="stable")
@@ -144,6 +159,7 @@ class Layers:
             level = heappop(queue)
             nodes = _distinct(np.concatenate(buckets.pop(level)))
             nodes = nodes[distances[nodes] == level]
+            self._require(_SORTING * int((pointers[nodes + 1] - pointers[nodes]).sum()))
             edges = _slices(pointers, nodes)
             before, kinds = sources[edges], weight_ids[edges]
             for kind, weight in enumerate(self._weights):
@@ -159,6 +175,7 @@ class Layers:
     def _predecessors(self) -> tuple[Array, Array, Array]:
         """Edges sorted by target: where each target's begin, their sources, their weights' index."""
         parts = list(self._edges())
+        self._require(_SORTING * sum(len(target) for _, target, _ in parts))
         empty = np.empty(0, dtype=np.int32)
         targets = np.concatenate([empty, *(target for _, target, _ in parts)])
         sources = np.concatenate([empty, *(source for source, _, _ in parts)])

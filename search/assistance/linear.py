@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
+from serendipity.model.deadline import Deadline
+
 Number = int | Fraction
 Row = tuple[int, dict[int, int], tuple[Number, Number]]
 """``n_i``, the coefficients ``m_ij`` by ``j``, the pair ``c_i``."""
 
 
-def solve_linear(rows: Sequence[Row]) -> list[tuple[Fraction, Fraction]] | None:
+def solve_linear(rows: Sequence[Row], deadline: Deadline) -> list[tuple[Fraction, Fraction]] | None:
     """The pairs ``x_i``; None if the equations do not determine them.
 
     They do where every ``i`` leads out of the system in the end: its rows then sum to less
@@ -27,6 +29,7 @@ def solve_linear(rows: Sequence[Row]) -> list[tuple[Fraction, Fraction]] | None:
         for k in range(len(system)):
             factor = system[k][0].pop(i, None) if k != i else None
             if factor is not None:
+                deadline.tick()
                 system[k] = _substitute(system[k], system[i], factor)
     return [(first, second) for _, first, second in system]
 

@@ -39,7 +39,7 @@ class OwnCosts:
         self._changed = encoding.changed_by(encoding.own)
         self._mask = encoding.own_mask | encoding.goal.mask
         self._tables: dict[int, Closure | None] = {}
-        self._index = Watched(sorted(encoding.own, key=lambda op: op.action), encoding.fields)
+        self._index = Watched(encoding.own, encoding.fields, deadline)
         self._single: Alone | None = None
         self._too_large = False
 
@@ -85,6 +85,7 @@ class OwnCosts:
             return None
         arcs = []
         for op in self._encoding.own:
+            self._deadline.tick()
             condition = _within(Goal(op.need_mask, op.need, op.forbidden), changed, context)
             if condition is not None:
                 arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))

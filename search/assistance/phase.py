@@ -28,3 +28,7 @@ class PhaseDeadline(Deadline):
         self._deadline.check()
         if self._until is not None and time.perf_counter() >= self._until:
             raise LimitReachedError("time-limit")
+
+    def require(self, size: float) -> None:
+        """See :class:`Deadline`."""
+        self._deadline.require(size)

@@ -9,6 +9,7 @@ every action that asks for it sets, for the first time, one and the same fact th
 nothing ever unsets.  No plan of both together, with turns or without, is cheaper.
 """
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -16,8 +17,6 @@ from typing import NamedTuple
 
 from search.assistance.game import INFINITE, UNIT_BITS, Game
 from search.ops import Op
-
-_CHECK_EVERY = 256
 
 Pair = tuple[int, int]
 """A field and a value of it."""
@@ -93,6 +92,7 @@ class Provision:
     def _find_setters(self) -> dict[Pair, list[Op]]:
         setters: dict[Pair, list[Op]] = {}
         for op in self._game.supporter_ops:
+            self._game.deadline.tick()
             for field in self._game.encoding.fields:
                 if field & self._provided and not field & op.keep:
                     setters.setdefault((field, op.put & field), []).append(op)
@@ -107,6 +107,7 @@ class Provision:
         """For each condition that is charged its price and the bit that is set with it."""
         together: dict[Pair, int] = {}
         for op in self._game.encoding.own:
+            self._game.deadline.tick()
             for pair in self._asked(op):
                 first_set = op.put & self._monotone
                 together[pair] = together.get(pair, first_set) & first_set
@@ -115,6 +116,7 @@ class Provision:
         for pair, bit in bits.items():
             prices = []
             for op in self._setters[pair]:
+                self._game.deadline.tick()
                 also = sum((field, op.put & field) in bits for field in self._fields_set(op))
                 prices.append(self._game.cost(op) // also)
             charged[pair] = (min(prices), bit)
@@ -141,6 +143,7 @@ class Provision:
         steps: dict[int, list[Step]] = {}
         least: dict[int, Pair] = {}
         for op in self._game.encoding.own:
+            self._game.deadline.tick()
             step = self._step(op, provided)
             if step is None:
                 continue
@@ -207,8 +210,7 @@ class Provision:
             if at in closed:
                 continue
             closed.add(at)
-            if not len(closed) % _CHECK_EVERY:
-                self._game.deadline.check()
+            self._game.deadline.tick()
             g = best[at]
             if at in known or self._holds(at):
                 if at not in known:
@@ -273,6 +275,6 @@ def _monotone(ops: Iterable[Op], private: int, fields: list[int]) -> int:
 
 
 def _busiest(ops: Iterable[Op], fields: list[int], among: int) -> int:
-    masks = [op.need_mask for op in ops]
+    asked = Counter(op.need_mask for op in ops)
     private = [field for field in fields if field & among]
-    return max(private, key=lambda field: sum(mask & field != 0 for mask in masks), default=0)
+    return max(private, key=lambda field: sum(n for mask, n in asked.items() if mask & field), default=0)

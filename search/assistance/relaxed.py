@@ -10,6 +10,7 @@ from heapq import heappop, heappush
 from typing import NamedTuple
 
 from search.assistance.game import INFINITE, UNIT_BITS, Game
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
 
@@ -17,14 +18,20 @@ class _Action(NamedTuple):
     pre: tuple[int, ...]
     add: tuple[int, ...]
     value: int
-    action: int
 
 
-def joint_lower_bound(game: Game) -> int:
-    """A value that no policy undercuts from the initial state."""
+def joint_lower_bound(game: Game, deadline: Deadline) -> int:
+    """A value that no policy undercuts from the initial state.
+
+    Raises:
+        LimitReachedError: the deadline ran out before it was worked out.
+    """
     task = game.task
-    actions = [*_actions(game, prime=True, shift=UNIT_BITS), *_actions(game, prime=False, shift=0)]
-    costs = _Relaxation(task, actions, max).costs(task.init)
+    actions = [
+        *_actions(game, deadline, prime=True, shift=UNIT_BITS),
+        *_actions(game, deadline, prime=False, shift=0),
+    ]
+    costs = _Relaxation(task, actions, max, deadline).costs(task.init)
     return max((costs.get(fact, INFINITE) for fact in task.goal.positive), default=0)
 
 
@@ -35,7 +42,8 @@ def upper_bound_alone(game: Game) -> int:
         LimitReachedError: none was found in time.
     """
     task, goal = game.task, game.task.goal
-    relaxation = _Relaxation(task, _actions(game, prime=True, shift=UNIT_BITS), _sum)
+    deadline = game.deadline
+    relaxation = _Relaxation(task, _actions(game, deadline, prime=True, shift=UNIT_BITS), _sum, deadline)
     start = frozenset(task.init)
     queue = [(0, 0, 0, start)]
     seen = {start}
@@ -45,6 +53,7 @@ def upper_bound_alone(game: Game) -> int:
         if goal.holds(state):
             return cost
         for i in task.human_actions:
+            deadline.tick()
             action = task.actions[i]
             if not action.applicable(state):
                 continue
@@ -52,7 +61,6 @@ def upper_bound_alone(game: Game) -> int:
             if after in seen:
                 continue
             seen.add(after)
-            game.deadline.check()
             facts = relaxation.costs(after)
             estimate = sum(facts.get(fact, INFINITE) for fact in goal.positive)
             if estimate < INFINITE:
@@ -62,14 +70,15 @@ def upper_bound_alone(game: Game) -> int:
     return INFINITE
 
 
-def _actions(game: Game, *, prime: bool, shift: int) -> list[_Action]:
+def _actions(game: Game, deadline: Deadline, *, prime: bool, shift: int) -> list[_Action]:
     task = game.task
     agent = task.human if prime else task.robots[0]
-    return [
-        _Action(action.pre, action.add, int(action.cost * game.scale) << shift, i)
-        for i, action in enumerate(task.actions)
-        if action.participants == (agent,)
-    ]
+    found = []
+    for action in task.actions:
+        deadline.tick()
+        if action.participants == (agent,):
+            found.append(_Action(action.pre, action.add, int(action.cost * game.scale) << shift))
+    return found
 
 
 def _sum(values: Iterable[int]) -> int:
@@ -79,11 +88,19 @@ def _sum(values: Iterable[int]) -> int:
 class _Relaxation:
     """Costs of facts when nothing is ever unset; an action needs the ``combine`` of its facts' costs."""
 
-    def __init__(self, task: Task, actions: list[_Action], combine: Callable[[Iterable[int]], int]) -> None:
+    def __init__(
+        self,
+        task: Task,
+        actions: list[_Action],
+        combine: Callable[[Iterable[int]], int],
+        deadline: Deadline,
+    ) -> None:
         self._actions = actions
         self._combine = combine
+        self._deadline = deadline
         self._needing: list[list[int]] = [[] for _ in task.facts]
         for k, action in enumerate(actions):
+            deadline.tick()
             for fact in action.pre:
                 self._needing[fact].append(k)
 
@@ -96,6 +113,7 @@ class _Relaxation:
             if not action.pre:
                 self._apply(k, 0, queue)
         while queue:
+            self._deadline.tick()
             cost, fact = heappop(queue)
             if fact in settled:
                 continue

@@ -11,9 +11,7 @@ from typing import NamedTuple
 
 from search.assistance.bound import Bound
 from search.assistance.game import INFINITE, NOOP, Game, Move
-from search.assistance.solution import ZERO, Costs, Entry, Solution
-
-_CHECK_EVERY = 16
+from search.assistance.solution import MAX_FLOORS, ZERO, Costs, Entry, Solution
 
 
 class _Node(NamedTuple):
@@ -75,6 +73,7 @@ class Shortest:
             self._best = _Best(0, root)
         self._push(root, self._bound(game.init), ready=True)
         while self._queue:
+            game.deadline.tick()
             f, _, ready, node = heappop(self._queue)
             if f >= self._best.value:
                 break
@@ -86,8 +85,6 @@ class Shortest:
                 if estimate > f:
                     self._push(node, estimate, ready=True)
                     continue
-            if not self.expanded % _CHECK_EVERY:
-                game.deadline.check()
             self.expanded += 1
             known = self._best.value
             self._expand(node, f)
@@ -157,9 +154,10 @@ class Shortest:
                 value = game.pair(best.value - node.parent.cost)
                 policy[node.parent.state] = Entry(value, node.action, node.state)
             node = node.parent
-        proof: dict[int, Costs] = {}
-        if floors and self.lower < INFINITE:
-            proof = {s: self._rest(cost) for s, cost in self._closed.items()}
+        proof: dict[int, Costs] | None = None
+        if floors and len(self._closed) <= MAX_FLOORS:
+            known = self._closed if self.lower < INFINITE else {}
+            proof = {s: self._rest(cost) for s, cost in known.items()}
         return Solution(
             lower=None if self.lower >= INFINITE else game.pair(self.lower),
             upper=None if best.value >= INFINITE else game.pair(best.value),

@@ -10,6 +10,9 @@ Costs = tuple[Fraction, Fraction]
 
 ZERO: Final[Costs] = (Fraction(0), Fraction(0))
 
+MAX_FLOORS: Final = 20_000
+"""Lower bounds that are written down; more would be megabytes."""
+
 
 class Entry(NamedTuple):
     """What the supporter does in a state: the value of it, the action, the state after it."""
@@ -28,10 +31,11 @@ class Solution:
         upper: what this one is worth; None where none was found.
         policy: per packed state with the supporter to move what it does; in a state that is
             not listed it does nothing, for ever.
-        floors: lower bounds of packed states with the supporter to move, which prove each other.
+        floors: lower bounds of packed states with the supporter to move, which prove each other;
+            None where they were not asked for, or are too many.
     """
 
     lower: Costs | None
     upper: Costs | None
     policy: Mapping[int, Entry] = field(default_factory=dict)
-    floors: Mapping[int, Costs] = field(default_factory=dict)
+    floors: Mapping[int, Costs] | None = None

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from operator import itemgetter
 
 from search.ops import Op
+from serendipity.model.deadline import Deadline
 
 _RANK = itemgetter(0)
 
@@ -17,15 +18,23 @@ class Watched:
     Args:
         ops: the ops; candidates come in this order.
         fields: masks of the fields.
+        deadline: asked for time.
     """
 
-    def __init__(self, ops: Sequence[Op], fields: Sequence[int]) -> None:
+    def __init__(self, ops: Sequence[Op], fields: Sequence[int], deadline: Deadline) -> None:
         by_lowest_bit = {field & -field: field for field in fields}
-        asked = [_asked(op, by_lowest_bit) for op in ops]
-        count = Counter(pair for pairs in asked for pair in pairs)
+        asked = []
+        count: Counter[tuple[int, int]] = Counter()
+        for op in ops:
+            deadline.tick()
+            pairs = _asked(op, by_lowest_bit)
+            asked.append(pairs)
+            for pair in pairs:
+                count[pair] += 1
         self._always: list[tuple[int, Op]] = []
         under: dict[int, dict[int, list[tuple[int, Op]]]] = {}
         for rank, (op, pairs) in enumerate(zip(ops, asked, strict=True)):
+            deadline.tick()
             if pairs:
                 field, value = min(pairs, key=lambda pair: count[pair])
                 under.setdefault(field, {}).setdefault(value, []).append((rank, op))

@@ -1,16 +1,12 @@
 """Writes solutions in the model's terms: names of facts and actions, plans by epochs."""
 
-from typing import Final
-
 from search.assistance.game import INFINITE, NOOP, Game, Move
 from search.assistance.solution import Costs, Solution
 from serendipity.model.actions import NOOP as NOOP_NAME
+from serendipity.model.errors import LIMITS
 from serendipity.model.plans import Step
 from serendipity.model.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.task import HumanPlan
-
-MAX_FLOORS: Final = 20_000
-"""Lower bounds that are written down; more would be megabytes."""
 
 
 class Writer:
@@ -42,16 +38,25 @@ class Writer:
             state = move.after
         return tuple(plan)
 
-    def policy(self, solution: Solution, *, with_floors: bool) -> Policy:
-        """The policy, with its lower bounds unless they are too many."""
+    def policy(self, solution: Solution) -> Policy:
+        """The policy, with its lower bounds where there is time to write them down."""
         decisions = tuple(
             Decision(self._delta(state), self._name(entry.action), entry.value)
             for state, entry in solution.policy.items()
         )
-        if not with_floors or len(solution.floors) > MAX_FLOORS:
+        try:
+            return Policy(decisions, self._floors(solution))
+        except LIMITS:
             return Policy(decisions, None)
-        floors = tuple(Floor(self._delta(state), value) for state, value in solution.floors.items())
-        return Policy(decisions, floors)
+
+    def _floors(self, solution: Solution) -> tuple[Floor, ...] | None:
+        if solution.floors is None:
+            return None
+        floors = []
+        for state, value in solution.floors.items():
+            self._game.deadline.tick()
+            floors.append(Floor(self._delta(state), value))
+        return tuple(floors)
 
     def plan(self, solution: Solution) -> tuple[Step, ...] | None:
         """The only run of a policy; None where the prime's choices make several."""

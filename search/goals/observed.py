@@ -6,7 +6,7 @@ matched) is exact; a plan that does not embed them never matches the last one.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heappop, heappush
 
@@ -52,10 +52,7 @@ def explanations(
     """
     deadline = deadline or Deadline()
     nothing = Condition()
-    return [
-        _Search(replace(task, goal=goal, robot_goal=nothing), tuple(observed), deadline).explanation()
-        for goal in goals
-    ]
+    return [_Search(task.with_goal(goal, nothing), tuple(observed), deadline).explanation() for goal in goals]
 
 
 class _Search:
@@ -68,7 +65,7 @@ class _Search:
         weights = Weights(packed, Options(), None)
         own = sorted({op.action for op in packed.own} | seen)
         forms = forms_of((packed.op(i) for i in own), packed.all_ones, deadline)
-        self._lookup = Lookup(OpIndex(forms, packed.fields), weights.alone)
+        self._lookup = Lookup(OpIndex(forms, packed.fields, deadline), weights.alone)
         self._keys = weights.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal
@@ -136,6 +133,7 @@ class _Search:
         onward: dict[_At, list[tuple[int, _At]]] = {}
         pending, seen = list(ends), set(ends)
         while pending:
+            self._deadline.tick()
             after = pending.pop()
             for action, at, reached in into.get(after, ()):
                 if reached != distance[after]:

@@ -214,6 +214,7 @@ class _Search:
 
     def _child(self, node: _Node, robots: Option, acting: Successors) -> _Node | None:
         after = []
+        self._deadline.tick()
         for i, line in enumerate(self._timelines):
             situation = line.after(node.situations[i], node.epoch + 1, robots, acting, self._limit(i))
             if situation is None:

@@ -1,7 +1,6 @@
 """Tables for several candidate goals over one packing, so that robots' actions mean the same in all."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from search.encoding import Encoding, human_facts
 from search.goals.outcome import Candidate
@@ -59,9 +58,10 @@ def timeline(tables: SharedTables, candidate: Candidate, horizon: int) -> Timeli
         max_window=options.max_window or horizon,
         per_start=options.preservation == "state",
         strict=options.strict,
+        deadline=tables.deadline,
     )
 
 
 def task_for(task: Task, candidate: Candidate) -> Task:
     """The task in which the candidate is the human's goal."""
-    return replace(task, goal=candidate.goal)
+    return task.with_goal(candidate.goal)

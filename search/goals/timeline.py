@@ -16,6 +16,7 @@ from search.projection import Projection
 from search.successors import NOTHING, Option, Successors
 from search.suffix import Suffix
 from search.windowed import PREFIX, WINDOW
+from serendipity.model.deadline import Deadline
 
 _Place = tuple[int, int]
 """Packed state, and the window's start where that tells labels apart."""
@@ -63,6 +64,7 @@ class Timeline:
         max_window: most epochs of a window.
         per_start: whether labels that differ in their window's start are told apart.
         strict: strict interference.
+        deadline: asked for time.
     """
 
     encoding: Encoding
@@ -75,6 +77,7 @@ class Timeline:
     max_window: int
     per_start: bool
     strict: bool
+    deadline: Deadline
 
     def first(self) -> Situation:
         """Before the first epoch."""
@@ -100,6 +103,7 @@ class Timeline:
         inside: dict[_Place, Node] = {}
         ended = None if robots.actions else now.ended
         for node in self._open(now):
+            self.deadline.tick()
             for child in self._play(node, epoch, robots, acting, limit):
                 place = self._place(child)
                 known = inside.get(place)

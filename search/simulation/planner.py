@@ -170,7 +170,13 @@ class _Call:
         )
 
     def _successors(self, *, idle: bool) -> Successors:
-        return Successors(self.human.encoding, self.human.weights.team, strict=self.options.strict, idle=idle)
+        return Successors(
+            self.human.encoding,
+            self.human.weights.team,
+            self.deadline,
+            strict=self.options.strict,
+            idle=idle,
+        )
 
     def _most_cost(self) -> int | None:
         """``max_cost`` (eq. 11), scaled and rounded down."""

@@ -8,6 +8,7 @@ from search.ops import Op, applicable
 from search.simulation.human import Human, Look
 from search.simulation.intention import Intention
 from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.task import HumanPlan, Task
@@ -67,23 +68,26 @@ class Simulated:
 
     Attributes:
         epochs: until the goals hold, the horizon, or nothing can happen any more.
-        goals_hold: whether the goals hold at the end.
+        goals_hold: whether the goals hold after the last of them.
         cost: of the actions that took place, for the team.
+        limit: which limit came before the end (as ``Result.reason`` has it), or None.
     """
 
     epochs: tuple[Epoch, ...]
     goals_hold: bool
     cost: Fraction
+    limit: str | None = None
 
     @property
     def steps(self) -> tuple[Step, ...]:
         """The actions that took place."""
         return tuple(Step(e.epoch, i) for e in self.epochs for i in sorted(e.executed))
 
-    def realised(self, promised: Fraction) -> bool:
-        """Whether the plan works out at the promised cost or less."""
-        undisturbed = not any(epoch.skipped for epoch in self.epochs)
-        return self.goals_hold and undisturbed and self.cost <= promised
+    def realised(self, promised: Fraction) -> bool | None:
+        """Whether the plan works out at the promised cost or less; None where a limit left that open."""
+        if self.cost > promised or any(epoch.skipped for epoch in self.epochs):
+            return False
+        return self.goals_hold if self.limit is None else None
 
 
 def simulate(
@@ -110,17 +114,16 @@ def simulate(
         deadline: asked for time.
 
     Raises:
-        LimitReachedError: the deadline ran out.
+        LimitReachedError: the deadline ran out in the first epoch, or before it.
     """
+    deadline = deadline or Deadline()
     planned: dict[int, list[int]] = {}
     for step in steps:
         if task.actions[step.action].participants != (task.human,):
             planned.setdefault(step.epoch, []).append(step.action)
     asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
-    human = Human(
-        task, options, deadline or Deadline(), human_model=human_model, actions=asked, visible=visible
-    )
-    return _Run(task, options, human, planned).play(human_plan, horizon)
+    human = Human(task, options, deadline, human_model=human_model, actions=asked, visible=visible)
+    return _Run(task, options, human, planned, deadline).play(human_plan, horizon)
 
 
 def variants(task: Task, action: int) -> tuple[int, ...]:
@@ -133,8 +136,16 @@ def variants(task: Task, action: int) -> tuple[int, ...]:
 class _Run:
     """One simulation: true state, his belief, what he expects to see next."""
 
-    def __init__(self, task: Task, options: Options, human: Human, planned: dict[int, list[int]]) -> None:
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        human: Human,
+        planned: dict[int, list[int]],
+        deadline: Deadline,
+    ) -> None:
         self.task = task
+        self.deadline = deadline
         self.strict = options.strict
         self.human = human
         self.encoding = human.encoding
@@ -146,13 +157,21 @@ class _Run:
         intention = self.human.intentions.of(human_plan)
         last = max(self.planned, default=0)
         epochs: list[Epoch] = []
+        limit = None
         while not self._done() and (horizon is None or len(epochs) < horizon):
             before = self.expected
-            epoch, intention = self._epoch(len(epochs) + 1, intention)
+            try:
+                self.deadline.check()
+                epoch, intention = self._epoch(len(epochs) + 1, intention)
+            except LIMITS as error:
+                if not epochs:
+                    raise
+                limit = limit_reason(error)
+                break
             epochs.append(epoch)
             if epoch.epoch >= last and not epoch.executed and self.expected == before:
                 break  # nothing will ever change again
-        return Simulated(tuple(epochs), self._done(), self._cost(epochs))
+        return Simulated(tuple(epochs), self._done(), self._cost(epochs), limit)
 
     def _epoch(self, number: int, intention: Intention) -> tuple[Epoch, Intention]:
         human, encoding = self.human, self.encoding

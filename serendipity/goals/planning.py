@@ -4,7 +4,7 @@ Epoch 1 is the first epoch of the human's plans, and observations are actions of
 his current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
@@ -21,6 +21,7 @@ from serendipity.goals.recognise import posterior, strictness
 from serendipity.goals.recognition import Recognition
 from serendipity.model import Options, PlanStep, Result, Step, Task, UsageError
 from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import Number
 from serendipity.model.task import HumanPlan
 
@@ -45,7 +46,7 @@ def plan_for_goals(
     ``cost``, ``human_cost``, ``saving`` and ``objective`` are expectations, ``plan`` is what
     robots do by themselves whatever the goal is, and ``statistics["goals"]`` says for each
     goal what happens then.  Goals of posterior 0, or that the human can't reach alone, are not
-    considered.
+    considered.  Without the time for the posterior the answer is ``unknown``, and has none of that.
 
     Raises:
         InputError: a file or an entry of it is wrong.
@@ -57,12 +58,17 @@ def plan_for_goals(
     names = observed_actions(task, observed)
     if len(candidates) > 1:
         _refuse(task, options)
-    conditions = [candidate.goal for candidate in candidates]
-    found = explanations(task, conditions, names)
-    recognition = posterior(task, candidates, names, found, strictness(beta))
-    if not recognition.explained:  # his plans, as if nothing had been observed
-        found = explanations(task, conditions, ())
-    plans = [explanation.plan for explanation in found]
+    try:
+        recognition, plans = _recognised(task, candidates, names, strictness(beta), deadline)
+    except LIMITS as limit:
+        return Result(
+            options.mode,
+            "unknown",
+            task.agents[task.human],
+            options,
+            reason=limit_reason(limit),
+            statistics={"elapsed_seconds": deadline.elapsed()},
+        )
     considered = [i for i, known in enumerate(recognition.goals) if plans[i] is not None and known.weight > 0]
     if not considered:
         result = Result("serendipity", "infeasible", recognition.human, options, reason="no-human-plan")
@@ -88,6 +94,26 @@ def plan_for_goals(
     return _with(_result(task, options, answer, asked), recognition, deadline, entries)
 
 
+def _recognised(
+    task: Task,
+    candidates: Sequence[CandidateGoal],
+    observed: tuple[str, ...],
+    beta: float,
+    deadline: Deadline,
+) -> tuple[Recognition, list[HumanPlan | None]]:
+    """The posterior, and for each goal the plan of his that is considered.
+
+    Raises:
+        LimitReachedError: the deadline ran out.
+    """
+    conditions = [candidate.goal for candidate in candidates]
+    found = explanations(task, conditions, observed, deadline)
+    recognition = posterior(task, candidates, observed, found, beta)
+    if not recognition.explained:  # his plans, as if nothing had been observed
+        found = explanations(task, conditions, (), deadline)
+    return recognition, [explanation.plan for explanation in found]
+
+
 def _refuse(task: Task, options: Options) -> None:
     for name, value in _FIXED.items():
         if getattr(options, name) != value:
@@ -105,7 +131,7 @@ def _certain(
     solve: Solve,
 ) -> Result:
     """One goal is left: section 3, with the plan that explains the observations."""
-    goal = replace(task, goal=candidates[index].goal)
+    goal = task.with_goal(candidates[index].goal)
     plan = plans[index]
     names = None
     if recognition.observed and recognition.explained and plan is not None:

@@ -13,11 +13,22 @@ from serendipity.goals.candidates import (
     observed_actions,
 )
 from serendipity.goals.recognition import GoalPosterior, Recognition
-from serendipity.model import Task, UsageError, exact
+from serendipity.limits import limits_from
+from serendipity.model import Deadline, Task, UsageError, exact
+from serendipity.model.collection import no_collection
 from serendipity.model.numbers import Number
 
 
-def recognise(task: Task, goals: GoalsGiven, observed: ObservedGiven = (), beta: Number = 1) -> Recognition:
+def recognise(
+    task: Task,
+    goals: GoalsGiven,
+    observed: ObservedGiven = (),
+    beta: Number = 1,
+    *,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+) -> Recognition:
     """How probable each candidate goal is, given what the human has done from ``I`` on.
 
     ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``.  Where only one of the costs
@@ -30,14 +41,21 @@ def recognise(task: Task, goals: GoalsGiven, observed: ObservedGiven = (), beta:
             are ``"fact"``, ``"!fact"`` or ``"(not (fact))"``.
         observed: a file with an action a line, or a list of names.
         beta: at least 0; 0 learns only from what is impossible.
+        time_limit: seconds, or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
+        deadline: one that other work shares; it holds beside both limits.
 
     Raises:
         InputError: a file or an entry in it is wrong; it says where, and what was expected.
-        UsageError: ``beta`` is not a number of at least 0.
+        UsageError: ``beta`` or a limit is not a number of at least 0.
+        LimitReachedError: a limit came first.  A posterior takes the costs of all goals, so
+            there is none then.
     """
+    limits = limits_from(time_limit, memory_limit, deadline)
     candidates = candidate_goals(task, goals)
     names = observed_actions(task, observed)
-    found = explanations(task, [candidate.goal for candidate in candidates], names)
+    with no_collection():  # beside a large task a collection takes longer than a short deadline
+        found = explanations(task, [candidate.goal for candidate in candidates], names, limits)
     return posterior(task, candidates, names, found, strictness(beta))
 
 

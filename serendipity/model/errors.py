@@ -29,13 +29,20 @@ class LimitReachedError(SerendipityError):
     def __init__(self, reason: str, doing: str | None = None) -> None:
         self.reason = reason
         self.doing = doing
-        words = {"time-limit": "the time limit came first", "memory-limit": "memory is used up"}
-        what = words.get(reason, reason)
+        what = limit_words(reason)
         super().__init__(what if doing is None else f"{what}, {doing}")
 
 
 LIMITS: Final = (LimitReachedError, MemoryError)
 """What to catch where an incumbent can be answered; :func:`limit_reason` says which it was."""
+
+
+_WORDS: Final = {"time-limit": "the time limit came first", "memory-limit": "memory is used up"}
+
+
+def limit_words(reason: str) -> str:
+    """A limit's reason for people."""
+    return _WORDS.get(reason, reason)
 
 
 def limit_reason(error: LimitReachedError | MemoryError) -> str:

@@ -1,7 +1,7 @@
 """The task: agents, facts, ground actions, initial state, goals."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -10,6 +10,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 from serendipity.model.actions import NOOP, Condition, Disjunction, GroundAction
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import PlanError, UsageError
+from serendipity.model.names import ActionNames
 from serendipity.model.variables import Variable, find_variables
 
 T = TypeVar("T")
@@ -73,12 +74,9 @@ class Task:
         return tuple(i for i, a in enumerate(self.actions) if a.participants == (self.human,))
 
     @cached_property
-    def named(self) -> dict[str, tuple[int, ...]]:
+    def named(self) -> Mapping[str, tuple[int, ...]]:
         """Action ids by name (names are not unique, see the class)."""
-        found: dict[str, list[int]] = {}
-        for i, action in enumerate(self.actions):
-            found.setdefault(action.name, []).append(i)
-        return {name: tuple(ids) for name, ids in found.items()}
+        return ActionNames(self.actions)
 
     @cached_property
     def variables(self) -> tuple[Variable, ...]:
@@ -108,6 +106,10 @@ class Task:
         if build not in self._derived:
             self._derived[build] = build(self, *args, **kwargs)
         return self._derived[build]  # type: ignore[no-any-return]
+
+    def kept(self, build: "Callable[Concatenate[Task, P], T]") -> T | None:
+        """What :meth:`derived` keeps already; None where nobody has asked for it yet."""
+        return self._derived.get(build)
 
     def keep_derived(self, build: "Callable[Concatenate[Task, P], T]", value: T) -> None:
         """Let :meth:`derived` give ``value``, which is known to be what ``build`` would give."""
@@ -193,14 +195,23 @@ class Task:
         """
         held = {d.fact for d in self.disjunctions if d.holds(state)}
         state = state.difference([d.fact for d in self.disjunctions]) | held
-        moved = replace(self, init=state)
-        for table in ("named", "human_actions"):  # cached properties that no state changes
-            if table in self.__dict__:
-                moved.__dict__[table] = self.__dict__[table]
+        moved = self._with_tables(replace(self, init=state), "human_actions")
         groups = (variable for variable in self.variables if not variable.boolean)
         if all(len(state.intersection(group.facts)) == 1 for group in groups):
             moved.__dict__["variables"] = self.variables  # what the cached property would find, or better
         return moved
+
+    def with_goal(self, goal: Condition, robot_goal: Condition | None = None) -> "Task":
+        """The same task with another goal of the human's and, unless that is None, of the robots'."""
+        other = replace(self, goal=goal, robot_goal=self.robot_goal if robot_goal is None else robot_goal)
+        return self._with_tables(other, "human_actions", "variables")
+
+    def _with_tables(self, other: "Task", *tables: str) -> "Task":
+        """``other``, with those cached properties of this task that hold for it as well."""
+        for table in tables:
+            if table in self.__dict__:
+                other.__dict__[table] = self.__dict__[table]
+        return other
 
     def with_human(self, human: str) -> "Task":
         """The same task with another agent as the human.

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any, Final
 
+from serendipity.model.errors import limit_words
 from serendipity.model.result import PlanStep
 
 SCHEMA: Final = "serendipity.trace/1"
@@ -72,27 +73,35 @@ class Trace:
         human: his name.
         human_model: ``observant`` or ``local``.
         realised: the goals hold, nothing was skipped or refused, and the cost is at most
-            the promised one.
-        reason: why it is not realised, None where it is.
-        goals_hold: whether the goals hold at the end.
+            the promised one; None where a limit came before that was known.
+        reason: why it is not realised, else None.
+        goals_hold: whether the goals hold at the end; None where that was not reached.
         promised_cost: of the plan, for the team.
         cost: of what took place, for the team.
-        epochs: until the goals hold, the horizon, or nothing can happen any more.
+        epochs: until the goals hold, the horizon, or nothing can happen any more; fewer where a
+            limit came first.
+        limit: which limit that was (as ``Result.reason`` has it); None where it was played to its end.
     """
 
     human: str
     human_model: str
-    realised: bool
+    realised: bool | None
     reason: str | None
-    goals_hold: bool
+    goals_hold: bool | None
     promised_cost: float
     cost: float
     epochs: tuple[TraceEpoch, ...]
+    limit: str | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether it was played to its end."""
+        return self.limit is None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
         plain: dict[str, Any] = _plain(asdict(self))
-        return {"schema": SCHEMA, **plain}
+        return {"schema": SCHEMA, "complete": self.complete, **plain}
 
     def lines(self) -> Iterator[str]:
         """The story in words, a line for each thing that happened."""
@@ -121,6 +130,8 @@ class Trace:
 
     def _verdict(self) -> str:
         costs = f"cost {self.cost:.10g}, promised {self.promised_cost:.10g}"
+        if self.realised is None and self.limit is not None:
+            return f"{limit_words(self.limit)}, after epoch {len(self.epochs)}: {costs} so far"
         if self.realised:
             return f"realised with the {self.human_model} human: {costs}"
         return f"not realised with the {self.human_model} human: {self.reason} ({costs})"

@@ -14,7 +14,7 @@ from tests.assistance.strategies import games
 def test_every_applicable_op_is_a_candidate(task: Task) -> None:
     packed = encoding(task, Deadline())
     ops = packed.own + packed.others
-    watched = Watched(ops, packed.fields)
+    watched = Watched(ops, packed.fields, Deadline())
     pending, seen = [packed.init], {packed.init}
     while pending:
         state = pending.pop()

@@ -1,0 +1,28 @@
+"""The limits of a call: its own, and a deadline that other work shares."""
+
+import threading
+
+from serendipity.model.deadline import Deadline
+from serendipity.model.options import limit_of
+
+
+def limits_from(
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+    cancelled: threading.Event | None = None,
+) -> Deadline:
+    """A deadline for a call that starts now.
+
+    Args:
+        time_limit: seconds of the call, or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
+        deadline: one that other work shares; it holds as well.
+        cancelled: set from another thread to end the call.
+
+    Raises:
+        UsageError: a limit is not a number of at least 0.
+    """
+    seconds = None if time_limit is None else limit_of("time_limit", time_limit, "seconds")
+    mebibytes = None if memory_limit is None else limit_of("memory_limit", memory_limit, "MiB")
+    return (deadline or Deadline()).within(seconds, mebibytes, cancelled)
