@@ -3,11 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction
-from typing import Any
+from typing import Any, Final
 
-from serendipity.model import Options, Result, Task
+from serendipity.model import Deadline, LimitReachedError, Options, Result, Task
 from serendipity.model.task import canonical_name
 from serendipity.planning import plan
+
+PROVED: Final = ("optimal", "infeasible")
+"""The statuses of answers that say how things are."""
 
 
 class Ask:
@@ -17,23 +20,49 @@ class Ask:
         task: the task.
         options: of the call that is explained.
         human_plan: names of ``pi_H``, or None to predict it.
+        deadline: of all calls together.
     """
 
-    def __init__(self, task: Task, options: Options, human_plan: Sequence[str] | None) -> None:
+    def __init__(
+        self, task: Task, options: Options, human_plan: Sequence[str] | None, deadline: Deadline
+    ) -> None:
         self.task = task
         self.options = options
         self.human_plan = human_plan
+        self.deadline = deadline
         self._answers: dict[Options, Result] = {}
 
     def __call__(self, **changes: Any) -> Result:
-        """The proved answer under changed options."""
+        """The proved answer under changed options.
+
+        Raises:
+            LimitReachedError: the limit came before the proof.
+        """
+        answer = self.attempt(**changes)
+        if answer.status not in PROVED:
+            raise LimitReachedError(self.limit_of(answer))
+        return answer
+
+    def attempt(self, **changes: Any) -> Result:
+        """The answer under changed options, proved or as far as the limit allows."""
         options = self.options.but(**changes)
         answer = self._answers.get(options)
         if answer is None:
             keywords = {field.name: getattr(options, field.name) for field in fields(options)}
-            answer = plan(self.task, human_plan=self.human_plan, **keywords)
+            answer = plan(self.task, human_plan=self.human_plan, deadline=self.deadline, **keywords)
             self._answers[options] = answer
         return answer
+
+    def limit_of(self, answer: Result) -> str:
+        """Which limit kept an answer from being proved, as ``Result.reason`` has it."""
+        if answer.reason is not None:
+            return answer.reason
+        try:
+            self.deadline.check()
+        except LimitReachedError as limit:
+            return limit.reason
+        # A call ends a little before its limit, and gives back what it took.
+        return "memory-limit" if self.deadline.left() is None else "time-limit"
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,16 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from serendipity.explanation.break_even import Threshold
 from serendipity.explanation.misses import RULES, Miss
 from serendipity.explanation.moments import WHY, Moment
 from serendipity.model import Result, Window
+from serendipity.model.errors import limit_words
 from serendipity.model.numbers import plain
 
 if TYPE_CHECKING:
     from serendipity.explanation.explain import Explanation
+
+_MISSING: Final = {
+    "moment": "why the window starts when it does",
+    "discount": "from which discount on help pays",
+    "announcement": "what a word in advance would gain",
+    "miss": "what would help if a rule were relaxed",
+}
+"""What a topic that is left out would have told."""
 
 Sentence = tuple[str, str]
 """A topic and a sentence."""
@@ -36,6 +45,15 @@ def sentences(found: Explanation) -> Iterator[Sentence]:
     ):
         for text in part:
             yield topic, text
+    yield from _left_out(found)
+
+
+def _left_out(found: Explanation) -> Iterator[Sentence]:
+    if found.limit is None:
+        return
+    missing = "; ".join(_MISSING[topic] for topic in found.left_out)
+    rest = f" Left out: {missing}." if missing else ""
+    yield "limit", f"This is not all: {limit_words(found.limit)}.{rest}"
 
 
 def _without_a_plan(answer: Result) -> Iterator[Sentence]:
@@ -69,6 +87,8 @@ def _help(found: Explanation) -> Iterator[Sentence]:
         f"together {plain(answer.cost or 0)}, "
         f"{plain(answer.saving or 0)} less.",
     )
+    if answer.status == "feasible":
+        yield "help", "It is the best plan found so far, and not proved to be the best there is."
     if answer.mode == "serendipity" and answer.realised.get("observant") is False:
         yield (
             "help",
@@ -79,6 +99,9 @@ def _help(found: Explanation) -> Iterator[Sentence]:
 
 def _no_help(found: Explanation) -> Iterator[Sentence]:
     answer = found.answer
+    if answer.status == "feasible":
+        yield "help", "No help was found so far; that there is none is not proved."
+        return
     yield (
         "help",
         f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "

@@ -58,6 +58,10 @@ EXAMPLES: Final = {
 def example(name: str, *, deadline: Deadline | None = None) -> Task:
     """A task shipped with the program; ``serendipity examples`` lists them.
 
+    Args:
+        name: its name.
+        deadline: asked for time; it may be one that planning shares.
+
     Raises:
         UsageError: there is no example of that name.
         LimitReachedError: the deadline came first.
