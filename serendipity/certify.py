@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator
 from time import perf_counter
 from typing import Final
 
-from serendipity.model import Certificate, Claim, Deadline, InputError, Options, Result, Task
+from serendipity.limits import limits_from
+from serendipity.model import Certificate, Claim, Deadline, InputError, Result, Task
 from serendipity.model.collection import no_collection
 from verify.obligations import complete
 from verify.rules import RuleReport
@@ -38,14 +39,14 @@ def check(
         deadline: one that other work shares, such as planning; it holds beside ``time_limit``.
 
     Returns:
-        A certificate that refutes what breaks a rule; what only an optimiser can prove, and
-        what there was no time for, is not in its scope.
+        A certificate that refutes what breaks a rule; what only an optimiser can prove is not
+        in its scope, and what there was no time for is undecided.
 
     Raises:
         InputError: the result is for another task.
     """
     start = perf_counter()
-    limits = (deadline or Deadline()).within(*_legal(time_limit, None))
+    limits = limits_from(time_limit, None, deadline)
     result = result.checked()
     _require_same_task(task, result)
     with no_collection():
@@ -100,16 +101,10 @@ def verify(
         InputError: the result is for another task.
         UsageError: there is no such solver or encoding, or a limit has no legal value.
     """
-    limits = (deadline or Deadline()).within(*_legal(time_limit, memory_limit))
-    from verify.certify import certify
+    limits = limits_from(time_limit, memory_limit, deadline)
+    from verify.certify import certify  # loads the solvers
 
     return certify(task, result, encoding=encoding, solver=solver, deadline=limits)
-
-
-def _legal(time_limit: float | None, memory_limit: float | None) -> tuple[float | None, float | None]:
-    """The limits as numbers of at least 0; as options they are checked."""
-    options = Options(time_limit=time_limit, memory_limit=memory_limit)
-    return options.time_limit, options.memory_limit
 
 
 def _require_same_task(task: Task, result: Result) -> None:

@@ -22,7 +22,7 @@ _UNFIT: Final = "#c8cdd3"
 def heat_map(report: InterruptionReport) -> Picture:
     """Two maps beside each other: what he saves, and what the team saves, by window.
 
-    Grey cells are windows that no plan fits.
+    Grey cells are windows that no plan fits; where none is, a limit came before it was examined.
     """
     horizon, starts = report.horizon or 0, len(report.human_plan or ())
     width = _LEFT + horizon * _CELL + _GAP

@@ -7,8 +7,8 @@ from serendipity.model.options import limit_of
 
 
 def limits_from(
-    time_limit: float | None = None,
-    memory_limit: float | None = None,
+    time_limit: float | str | None = None,
+    memory_limit: float | str | None = None,
     deadline: Deadline | None = None,
     cancelled: threading.Event | None = None,
 ) -> Deadline:

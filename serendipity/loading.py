@@ -11,8 +11,8 @@ from typing import Final
 
 from search import prepare
 from serendipity import pddl
-from serendipity.model import Deadline
-from serendipity.model.options import limit_of
+from serendipity.limits import limits_from
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 from serendipity.pddl.files import PathArgument
 from serendipity.pddl.layouts import Pair
@@ -41,7 +41,7 @@ def load(
         deadline: one that other work shares, such as planning; it holds beside the two limits.
         on_progress: is told what is being done.
     """
-    limits = _limits(deadline, time_limit, memory_limit)
+    limits = limits_from(time_limit, memory_limit, deadline)
     return _ready(pddl.load(path, human, deadline=limits, on_progress=on_progress), limits, on_progress)
 
 
@@ -60,7 +60,7 @@ def load_agents(
 
     See :func:`serendipity.pddl.load_agents`; limits as in :func:`load`.
     """
-    limits = _limits(deadline, time_limit, memory_limit)
+    limits = limits_from(time_limit, memory_limit, deadline)
     task = pddl.load_agents(agents, team, human, name=name, deadline=limits, on_progress=on_progress)
     return _ready(task, limits, on_progress)
 
@@ -81,15 +81,9 @@ def load_pddl(
 
     See :func:`serendipity.pddl.load_pddl`; limits as in :func:`load`.
     """
-    limits = _limits(deadline, time_limit, memory_limit)
+    limits = limits_from(time_limit, memory_limit, deadline)
     task = pddl.load_pddl(domain, problem, human, robots, name=name, deadline=limits, on_progress=on_progress)
     return _ready(task, limits, on_progress)
-
-
-def _limits(deadline: Deadline | None, time_limit: float | None, memory_limit: float | None) -> Deadline:
-    seconds = None if time_limit is None else limit_of("time_limit", time_limit, "seconds")
-    size = None if memory_limit is None else limit_of("memory_limit", memory_limit, "MiB")
-    return (deadline or Deadline()).within(seconds, size)
 
 
 def _ready(task: Task, limits: Deadline, on_progress: OnProgress | None) -> Task:

@@ -4,7 +4,7 @@ import io
 import sys
 from collections.abc import Sequence
 from contextvars import copy_context
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
@@ -14,7 +14,7 @@ from serendipity.cli.commands import Commands
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.help_examples import epilog
 from serendipity.cli.stderr import tell
-from serendipity.model.errors import SerendipityError
+from serendipity.model.errors import LimitReachedError, SerendipityError, limit_words
 
 app = typer.Typer(
     name="serendipity",
@@ -66,6 +66,10 @@ def _run(argv: Sequence[str]) -> int:
         output.flush()
     except typer.TyperException as error:
         return _fail(error.format_message())
+    except LimitReachedError as error:
+        return _stop(str(error), error.reason)
+    except MemoryError:
+        return _stop(limit_words("memory-limit"), "memory-limit")
     except (SerendipityError, ImportError) as error:
         output.log_origin()
         return _fail(str(error))
@@ -75,6 +79,18 @@ def _run(argv: Sequence[str]) -> int:
     except SystemExit as left:  # typer's way out where the reader of its help has stopped, and of completion
         return ExitCode.ANSWERED if left.code == 1 else int(left.code or 0)
     return code
+
+
+_MORE: Final = {
+    "time-limit": "; give more with --time-limit",
+    "memory-limit": "; give more with --memory-limit, or on a machine that has more",
+}
+"""What to do about a limit that came before there was anything to answer."""
+
+
+def _stop(message: str, reason: str) -> int:
+    tell(f"{message[0].upper()}{message[1:]}{_MORE.get(reason, '')}")
+    return ExitCode.UNDECIDED
 
 
 def _fail(message: str) -> int:

@@ -1,6 +1,7 @@
 """``serendipity crosscheck``: search, integer programs and certificates on the same calls."""
 
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -8,7 +9,7 @@ import typer
 
 from serendipity.cli import naming, output, progress
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.model import UsageError
+from serendipity.model import Deadline, UsageError
 
 _MODES: Final = ("individual", "serendipity", "communication", "composite")
 _DISCOUNTS: Final = ("0", "0.5", "0.9")
@@ -27,6 +28,13 @@ def crosscheck(
     judges: Annotated[
         str, typer.Option(help="Who answers, separated by commas: search, automata, paper, cbc.")
     ] = "search,automata,paper",
+    time_limit: Annotated[
+        float | None,
+        typer.Option(min=0, help="Seconds for each answer and each certificate.", metavar="SECONDS"),
+    ] = None,
+    memory_limit: Annotated[
+        float | None, typer.Option(min=0, help="MiB of memory for the process.", metavar="MIB")
+    ] = None,
     folder: Annotated[
         Path, typer.Option("-o", "--output", help="Where a disagreement is written.", metavar="DIR")
     ] = Path("disagreement"),
@@ -43,20 +51,22 @@ def crosscheck(
             raise UsageError(f"judges: expected some of {', '.join(JUDGES)}, got '{name}'")
         chosen[name] = JUDGES[name]
 
+    judged = partial(compare, judges=chosen, time_limit=time_limit, memory_limit=memory_limit)
     calls: Iterable[PlanCall]
     if not files and not agent and example is None:
         calls, total = (random_call(seed + k) for k in range(count)), count
     else:
-        task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
+        reading = Deadline(time_limit, memory_limit)
+        task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=reading)
         calls = [PlanCall(task, {"mode": mode, "discount": d}) for mode in _MODES for d in _DISCOUNTS]
         total = len(calls)
     with progress.counting("calls", quiet=quiet) as on_progress:
         for checked, call in enumerate(calls):
             on_progress(checked, total)
-            found = compare(call, chosen)
+            found = judged(call)
             if found is not None:
-                smallest = shrink(found.call, lambda smaller: compare(smaller, chosen) is not None)
-                found = compare(smallest, chosen) or found
+                smallest = shrink(found.call, lambda smaller: judged(smaller) is not None)
+                found = judged(smallest) or found
                 break
         else:
             output.say(f"{total} calls, {', '.join(chosen)}: 0 disagreements\n")

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, plan_options, progress
+from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import OF_STATUS
 from serendipity.cli.human_plan import read_human_plan
 from serendipity.cli.reading import read_json
-from serendipity.model import InputError, Result, Task
+from serendipity.model import Deadline, InputError, Result, Task
 
 if TYPE_CHECKING:
     from serendipity.explanation import Explanation
@@ -42,6 +42,8 @@ def explain(
     interference: plan_options.Interference = None,
     max_cost: plan_options.MaxCost = None,
     communication_weight: plan_options.CommunicationWeight = None,
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -49,9 +51,10 @@ def explain(
 ) -> int:
     """Explain an answer: what changes, why then, from which discount on; or what stands in the way."""
     form = output.prepare(format, output_file, verbose)
+    deadline = limits.begin(time_limit, memory_limit, "explain", "check")
     named = list(files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
-    task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
+    task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = plan_options.given(
         mode=mode,
         discount=discount,
@@ -66,18 +69,18 @@ def explain(
     )
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
-    result = None if answer is None else _read(task, answer)
-    with progress.counting("searches", quiet=quiet) as on_progress:
-        found = serendipity.explain(task, result, on_progress=on_progress, **options)
+    result = None if answer is None else _read(task, answer, deadline)
+    with progress.counting("searches", quiet=quiet) as on_progress, limits.during("planning"):
+        found = serendipity.explain(task, result, on_progress=on_progress, deadline=deadline, **options)
     output.write_answer(_shown(found, form), output_file)
     return OF_STATUS[found.answer.status]
 
 
-def _read(task: Task, path: Path) -> Result:
+def _read(task: Task, path: Path, deadline: Deadline) -> Result:
     """A result that the rules do not refute for the task."""
     result = Result.from_dict(read_json(path), path)
     try:
-        certificate = serendipity.check(task, result)
+        certificate = serendipity.check(task, result, deadline=deadline)
     except InputError as error:
         raise InputError(error.message, path) from None
     wrong = certificate.refuted

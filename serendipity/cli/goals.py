@@ -60,6 +60,9 @@ def plan_text(result: Result) -> "Iterator[Line | Grid]":
     """The robots' plan, and what happens for each goal that is considered."""
     from serendipity.cli.render import Grid, Line
 
+    if result.status == "unknown":
+        yield Line("the limit came before any answer")
+        return
     entries: list[dict[str, Any]] = result.statistics["goals"]
     if not result.statistics["recognition"]["explained"]:
         yield Line(_UNEXPLAINED)

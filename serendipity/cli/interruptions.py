@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, plan_options, progress
+from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.human_plan import read_human_plan
 from serendipity.model import UsageError
+from serendipity.model.errors import limit_words
 from serendipity.model.numbers import plain
 
 _PICTURES: Final = (".svg", ".png")
@@ -39,6 +40,8 @@ def interruptions(
     every: Annotated[
         bool, typer.Option("--all", help="Every window, also where a smaller one within saves as much.")
     ] = False,
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -49,7 +52,8 @@ def interruptions(
     output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
-    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
+    deadline = limits.begin(time_limit, memory_limit, "interruptions")
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = plan_options.given(
         discount=discount,
         horizon=horizon,
@@ -59,13 +63,19 @@ def interruptions(
     )
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
-    with progress.counting("searches", quiet=quiet) as on_progress:
-        report = serendipity.interruptions(task, on_progress=on_progress, **options)
+    with progress.counting("searches", quiet=quiet) as on_progress, limits.during("planning"):
+        report = serendipity.interruptions(task, on_progress=on_progress, deadline=deadline, **options)
     answers = [output.Answer(_shown(report, form, every=every), output_file)]
     if heat_map is not None:
         answers.append(output.Answer(_drawn(report, heat_map.suffix), heat_map, "--heat-map"))
     output.write_answers(answers)
-    return ExitCode.ANSWERED if report.human_plan is not None else ExitCode.INFEASIBLE
+    return _code(report)
+
+
+def _code(report: "InterruptionReport") -> ExitCode:
+    if report.human_plan is None:
+        return ExitCode.INFEASIBLE
+    return ExitCode.ANSWERED if report.complete or report.windows else ExitCode.UNDECIDED
 
 
 def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str:
@@ -95,11 +105,13 @@ def _text(report: "InterruptionReport", *, every: bool) -> "Iterator[Line | Grid
     if report.human_plan is None:
         yield Line(f"{report.human} can't reach the goal alone: there is no plan to interrupt")
         return
-    verdict = "can" if report.interruptible else "can't"
+    verdicts = {True: "can be", False: "can't be", None: "may or may not be"}
     yield Line(
         f"{report.human}'s plan ({len(report.human_plan)} actions, cost {plain(report.human_cost)}) "
-        f"{verdict} be interrupted to {report.human}'s advantage"
+        f"{verdicts[report.interruptible]} interrupted to {report.human}'s advantage"
     )
+    if report.limit is not None:
+        yield Line(f"{limit_words(report.limit)}: only these windows were examined", "yellow")
     shown = [entry for entry in report.windows if every or entry.informative]
     if len(shown) < len(report.windows):
         less = f"{len(shown)} of {len(report.windows)} windows save more than every window within them"

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from serendipity.cli import output, progress
+from serendipity.cli import limits, output, progress
+from serendipity.model.deadline import Deadline
 from serendipity.model.errors import UsageError
 from serendipity.model.task import Task
 
@@ -69,18 +70,20 @@ def load(
     example: str | None,
     *,
     quiet: bool,
+    deadline: Deadline | None = None,
 ) -> Task:
     """The task that the words of a command line name; its warnings go to stderr.
 
     Raises:
         UsageError: no way of naming a task, two at once, or half of one.
         InputError: a file can't be read or understood.
+        LimitReachedError: the deadline ran out.
     """
     name = TaskName(
         tuple(files or ()), human, tuple(robots or ()), tuple(agents or ()), team=team, example=example
     )
-    with progress.working("reading", quiet=quiet):
-        task = name.load()
+    with progress.working("reading", quiet=quiet), limits.during("reading the task"):
+        task = name.load(deadline)
     output.warn(task.warnings, quiet=quiet)
     return task
 
@@ -96,12 +99,13 @@ class TaskName:
     team: str | None = None
     example: str | None = None
 
-    def load(self) -> Task:
+    def load(self, deadline: Deadline | None = None) -> Task:
         """The task.
 
         Raises:
             UsageError: no way of naming a task, two at once, or half of one.
             InputError: a file can't be read or understood.
+            LimitReachedError: the deadline ran out.
         """
         ways = [bool(self.files), bool(self.agents), self.example is not None]
         if sum(ways) != 1:
@@ -114,18 +118,18 @@ class TaskName:
         if self.robots and len(self.files) != 2:
             raise UsageError("--robot: goes with DOMAIN PROBLEM only")
         if self.example is not None:
-            return self._from_example(self.example)
+            return self._from_example(self.example, deadline)
         if self.agents:
-            return self._from_agents()
-        return self._from_files()
+            return self._from_agents(deadline)
+        return self._from_files(deadline)
 
-    def _from_example(self, name: str) -> Task:
+    def _from_example(self, name: str, deadline: Deadline | None) -> Task:
         from serendipity.scenarios.examples import example
 
-        task = example(name)
+        task = example(name, deadline=deadline)
         return task if self.human is None else task.with_human(self.human)
 
-    def _from_agents(self) -> Task:
+    def _from_agents(self, deadline: Deadline | None) -> Task:
         from serendipity.pddl import load_agents
 
         pairs: dict[str, tuple[Path, Path]] = {}
@@ -135,19 +139,19 @@ class TaskName:
                 raise UsageError(f"--agent: expected NAME=DOMAIN,PROBLEM, each name once, got '{text}'")
             pairs[name] = _pair(files, f"--agent {name}=")
         team = None if self.team is None else _pair(self.team, "--team ")
-        return load_agents(pairs, team=team, human=self.human)
+        return load_agents(pairs, team=team, human=self.human, deadline=deadline)
 
-    def _from_files(self) -> Task:
+    def _from_files(self, deadline: Deadline | None) -> Task:
         from serendipity.pddl import load, load_pddl
 
         if len(self.files) == 1:
-            return load(self.files[0], human=self.human)
+            return load(self.files[0], human=self.human, deadline=deadline)
         domain, problem, *more = self.files
         if more:
             raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(self.files)} paths")
         if self.human is None:
             raise UsageError("task: with DOMAIN PROBLEM, name the agents: --human H --robot R ...")
-        return load_pddl(domain, problem, human=self.human, robots=self.robots)
+        return load_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
 
 
 def _pair(text: str, where: str) -> tuple[Path, Path]:

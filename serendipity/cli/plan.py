@@ -3,17 +3,20 @@
 import threading
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
 import serendipity
 from serendipity.cli import goals as goal_options
-from serendipity.cli import naming, output, plan_options, progress
+from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.interrupts import cancelling
-from serendipity.model import Certificate, Result, Task, UsageError
+from serendipity.model import Certificate, Deadline, Result, Task, UsageError
 from serendipity.model.numbers import plain
+
+_CHECK_SHARE: Final = 0.05
+"""What of the time limit is kept for checking the answer."""
 
 
 def plan(
@@ -42,7 +45,8 @@ def plan(
     goals: goal_options.Goals = None,
     observed: goal_options.Observed = None,
     beta: goal_options.Beta = None,
-    time_limit: plan_options.TimeLimit = None,
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     certify: Annotated[bool, typer.Option("--verify", help="Add the certificate of `verify`.")] = False,
     save_plan: Annotated[
         Path | None,
@@ -56,7 +60,8 @@ def plan(
     """Find the best plan in which robots help the human, and prove that none is better."""
     form = output.prepare(format, output_file, verbose)
     output.check_output(save_plan, "--save-plan")
-    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
+    deadline = limits.begin(time_limit, memory_limit, "plan_anytime", "check")
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = plan_options.given(
         mode=mode,
         discount=discount,
@@ -74,7 +79,9 @@ def plan(
         max_ties=max_ties,
         no_block=no_block,
         time_limit=time_limit,
+        memory_limit=memory_limit,
     )
+    options["deadline"] = deadline.sooner(_CHECK_SHARE)
     if human_plan is not None:
         from serendipity.cli.human_plan import read_human_plan
 
@@ -86,7 +93,8 @@ def plan(
         with progress.working("planning", quiet=quiet), cancelling() as cancelled:
             expected = serendipity.plan(task, cancelled=cancelled, **options)
         with progress.working("verifying", quiet=quiet):
-            proof = serendipity.verify(task, expected) if certify and not cancelled.is_set() else None
+            known = certify and not cancelled.is_set()
+            proof = serendipity.verify(task, expected, deadline=deadline) if known else None
         code = _for_goals(expected, proof, form, output_file)
         return ExitCode.INTERRUPTED if cancelled.is_set() else code
     for option, value in (("--observed", observed), ("--beta", beta)):
@@ -96,7 +104,7 @@ def plan(
         result = _last(serendipity.plan_anytime(task, cancelled=cancelled, **options), on_news, cancelled)
     if result is None:
         return ExitCode.INTERRUPTED
-    certificate, certify = _certificate(task, result, cancelled, certify=certify, quiet=quiet)
+    certificate, certify = _certificate(task, result, cancelled, deadline, certify=certify, quiet=quiet)
     answers = [output.Answer(_shown(task, result, certificate, form, claims=certify), output_file)]
     if save_plan is not None and result.plan is not None:
         from serendipity.cli.plan_file import plan_file
@@ -111,16 +119,22 @@ def plan(
 
 
 def _certificate(
-    task: Task, result: Result, cancelled: threading.Event, *, certify: bool, quiet: bool
+    task: Task,
+    result: Result,
+    cancelled: threading.Event,
+    deadline: Deadline,
+    *,
+    certify: bool,
+    quiet: bool,
 ) -> tuple[Certificate, bool]:
     """What the checker says, and whether by a proof: whoever interrupts need not wait for one."""
     with progress.working("verifying", quiet=quiet):
         if certify and not cancelled.is_set():
             try:
-                return serendipity.verify(task, result), True
+                return serendipity.verify(task, result, deadline=deadline), True
             except KeyboardInterrupt:
                 cancelled.set()
-        return serendipity.check(task, result), False
+        return serendipity.check(task, result, deadline=deadline), False
 
 
 def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, claims: bool) -> str:

@@ -11,7 +11,6 @@ from typing import Annotated, Any, Final
 import typer
 
 from serendipity.cli.choices import choices
-from serendipity.model.deadline import Deadline
 from serendipity.model.options import CHOICES, Options
 
 _DEFAULTS: Final = {field.name: getattr(Options(), field.name) for field in fields(Options)}
@@ -64,20 +63,6 @@ NoBlock = Annotated[
     bool | None,
     typer.Option("--no-block/--allow-block", help="Whether robots may leave the human without a plan."),
 ]
-TimeLimit = Annotated[str | None, _option("time_limit", "Stop after so many seconds.", "SECONDS")]
-MemoryLimit = Annotated[
-    str | None, _option("memory_limit", "Stop when so many MiB of memory are in use.", "MIB")
-]
-
-
-def limits(time_limit: str | None, memory_limit: str | None) -> Deadline:
-    """A command's deadline, which starts now.
-
-    Raises:
-        UsageError: a limit is not a number of at least 0.
-    """
-    options = Options(time_limit=time_limit, memory_limit=memory_limit)  # type: ignore[arg-type]
-    return Deadline(options.time_limit, options.memory_limit)
 
 
 def given(**options: str | bool | Path | None) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 
 import serendipity
-from serendipity.model import InputError, Result, Task, UsageError
+from serendipity.model import Deadline, InputError, Result, Task, UsageError
 
 Strict = Annotated[
     bool, typer.Option("--strict", help="Exit with 1 where the result breaks a rule; else that is a warning.")
@@ -66,14 +66,14 @@ def read_result(files: Sequence[Path], command: str) -> tuple[list[Path], Path, 
     return named, answer, Result.from_dict(read_json(answer), answer)
 
 
-def broken_rule(task: Task, result: Result, file: Path) -> str | None:
+def broken_rule(task: Task, result: Result, file: Path, deadline: Deadline | None = None) -> str | None:
     """What is wrong with a result that does not replay, as a warning; None where nothing is.
 
     Raises:
         InputError: the result is for another task.
     """
     try:
-        wrong = serendipity.check(task, result).refuted
+        wrong = serendipity.check(task, result, deadline=deadline).refuted
     except InputError as error:
         raise InputError(error.message, file) from None
     return None if wrong is None else f"{file} does not hold: {wrong.claim}: {wrong.reason}"

@@ -7,7 +7,7 @@ import typer
 
 import serendipity
 from serendipity.cli import goals as goal_options
-from serendipity.cli import naming, output, progress
+from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import ExitCode
 
 
@@ -29,6 +29,8 @@ def recognise(
     ],
     observed: goal_options.Observed = None,
     beta: goal_options.Beta = None,
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -36,11 +38,11 @@ def recognise(
 ) -> int:
     """How probable each goal is, given what the human has done so far."""
     form = output.prepare(format, output_file, verbose)
-    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
-    with progress.working("recognising", quiet=quiet):
-        found = serendipity.recognise(
-            task, goals, () if observed is None else observed, 1 if beta is None else beta
-        )
+    deadline = limits.begin(time_limit, memory_limit, "recognise")
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
+    given = plan_options.given(observed=observed, beta=beta)
+    with progress.working("recognising", quiet=quiet), limits.during("weighing the goals"):
+        found = serendipity.recognise(task, goals, **given, deadline=deadline)
     if form == "json":
         output.write_answer(output.as_json(found.to_dict()), output_file)
     else:

@@ -9,8 +9,10 @@ import typer
 
 from serendipity.cli import output
 from serendipity.cli.choices import choices
+from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.stderr import is_terminal, tell
 from serendipity.model import UsageError
+from serendipity.model.options import limit_of
 from serendipity.printable import message
 
 if TYPE_CHECKING:
@@ -42,6 +44,18 @@ def reproduce(
         str | None,
         typer.Option(help="Work on a Dask cluster (needs serendipity[dask]).", **choices("ADDRESS", "local")),
     ] = None,
+    time_limit: Annotated[
+        str | None,
+        typer.Option(
+            "--time-limit",
+            metavar="SECONDS",
+            help="Seconds for each row, and for reading each task.",
+        ),
+    ] = None,
+    memory_limit: Annotated[
+        str | None,
+        typer.Option("--memory-limit", metavar="MIB", help="MiB of memory for each process."),
+    ] = None,
     journal: Annotated[
         Path | None,
         typer.Option(
@@ -63,7 +77,7 @@ def reproduce(
     output_file: output.Output = None,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
-) -> None:
+) -> int:
     """Run a folder of tasks through modes and discounts; a run that was killed goes on where it was."""
     output.start_logging(verbose)
     form = _format(format, output_file)
@@ -86,6 +100,8 @@ def reproduce(
             journal=kept,
             dask=dask,
             on_progress=on_progress,
+            time_limit=None if time_limit is None else limit_of("time_limit", time_limit, "seconds"),
+            memory_limit=None if memory_limit is None else limit_of("memory_limit", memory_limit, "MiB"),
         )
     entries, times, answers = table_1(run), table_2(run), examples()
     written = [
@@ -96,6 +112,8 @@ def reproduce(
     if journal is None and kept is not None:
         kept.unlink(missing_ok=True)  # the answer holds all of it
     _tell([answer.file for answer in written if answer.file is not None], quiet=quiet)
+    known = any(row.status != "unknown" for row in run.rows)
+    return ExitCode.ANSWERED if known else ExitCode.UNDECIDED
 
 
 def _tell(written: list[Path], *, quiet: bool) -> None:
@@ -147,6 +165,9 @@ def _text(
     from serendipity.reproduction.report import examples_grid, table_1_grid, table_2_grid
 
     parts: list[Line | Grid] = [Grid(COLUMNS, [row.cells() for row in run.rows])]
+    if run.unproved:
+        late = f"{run.unproved} of {len(run.rows)} rows are not proved: a limit came first"
+        parts.append(Line(late, "yellow"))
     for title, (header, rows) in (
         ("Table I: mean cost (number of tasks in which a robot helps)", table_1_grid(entries)),
         ("Table II: seconds of a planning call", table_2_grid(times)),

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import naming, output, progress
+from serendipity.cli import limits, naming, output, progress
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.reading import Strict, broken_rule, read_result
@@ -26,6 +26,8 @@ def simulate(
             help="Sees everything, or only what is at the same place.", **choices("observant", "local")
         ),
     ] = "observant",
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     strict: Strict = False,
@@ -34,15 +36,16 @@ def simulate(
 ) -> int:
     """Play a plan, epoch by epoch, against a human who looks up and replans."""
     form = output.prepare(format, output_file, verbose)
+    deadline = limits.begin(time_limit, memory_limit, "simulate")
     named, answer, result = read_result(files, "simulate")
-    task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
-    wrong = broken_rule(task, result, answer)
+    task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
+    wrong = broken_rule(task, result, answer, deadline)
     if wrong is not None and strict:
         tell(f"Error: {wrong}")
         return ExitCode.REFUTED
     try:
-        with progress.working("simulating", quiet=quiet):
-            trace = serendipity.simulate(task, result, human_model)
+        with progress.working("simulating", quiet=quiet), limits.during("playing the first epoch"):
+            trace = serendipity.simulate(task, result, human_model, deadline=deadline)
     except InputError as error:
         raise InputError(error.message, answer) from None
     if wrong is not None:

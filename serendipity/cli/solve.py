@@ -3,7 +3,7 @@
 from typing import Final
 
 import serendipity
-from serendipity.cli import naming, output, plan_options, program_options, progress
+from serendipity.cli import limits, naming, output, plan_options, program_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.human_plan import read_human_plan
 
@@ -32,8 +32,8 @@ def solve(
     keep_prefix: plan_options.KeepPrefix = None,
     ties: plan_options.Ties = None,
     max_ties: plan_options.MaxTies = None,
-    time_limit: plan_options.TimeLimit = None,
-    memory_limit: plan_options.MemoryLimit = None,
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     solver: program_options.Solver = "highs",
     encoding: program_options.Encoding = "automata",
     format: output.Format = None,  # noqa: A002 - the option's name
@@ -46,8 +46,8 @@ def solve(
     from verify.solve import solve as by_program
 
     form = output.prepare(format, output_file, verbose)
-    deadline = plan_options.limits(time_limit, memory_limit)
-    task = naming.load(files, human, robot, agent, team, example, quiet=quiet)
+    deadline = limits.begin(time_limit, memory_limit, "check")
+    task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = options_from(
         plan_options.given(
             mode=mode,

@@ -1,7 +1,7 @@
 """``serendipity verify``: a second opinion on a result."""
 
 import serendipity
-from serendipity.cli import naming, output, plan_options, program_options, progress
+from serendipity.cli import limits, naming, output, program_options, progress
 from serendipity.cli.exit_codes import OF_VERDICT
 from serendipity.cli.reading import read_result
 from serendipity.model import InputError
@@ -16,8 +16,8 @@ def verify(
     example: naming.Example = None,
     solver: program_options.Solver = "highs",
     encoding: program_options.Encoding = "automata",
-    time_limit: plan_options.TimeLimit = None,
-    memory_limit: plan_options.MemoryLimit = None,
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -25,9 +25,9 @@ def verify(
 ) -> int:
     """Check a result of `plan --format json` claim by claim, independently of the search."""
     form = output.prepare(format, output_file, verbose)
-    deadline = plan_options.limits(time_limit, memory_limit)
+    deadline = limits.begin(time_limit, memory_limit, "verify")
     named, answer, result = read_result(files, "verify")
-    task = naming.load(named, human, robot, agent, team, example, quiet=quiet)
+    task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     try:
         with progress.working("verifying", quiet=quiet):
             certificate = serendipity.verify(

@@ -6,7 +6,7 @@ from typing import Final
 
 from serendipity.certify import verify
 from serendipity.crosscheck.calls import PlanCall
-from serendipity.model import PlanError, Result, UsageError
+from serendipity.model import Deadline, PlanError, Result, UsageError
 from serendipity.planning import options_from, plan
 from verify.solve import solve
 
@@ -39,17 +39,24 @@ class Disagreement:
         return "; ".join(f"{judge}: {words}" for judge, words in self.said.items())
 
 
-Judge = Callable[[PlanCall], Result]
+Judge = Callable[[PlanCall, Deadline], Result]
 
 
-def _by_search(call: PlanCall) -> Result:
-    return plan(call.task, human_plan=call.human_plan, **call.keywords())
+def _by_search(call: PlanCall, deadline: Deadline) -> Result:
+    return plan(call.task, human_plan=call.human_plan, deadline=deadline, **call.keywords())
 
 
 def _by_program(encoding: str, solver: str) -> Judge:
-    def judge(call: PlanCall) -> Result:
+    def judge(call: PlanCall, deadline: Deadline) -> Result:
         options = options_from(call.keywords())
-        return solve(call.task, options, human_plan=call.human_plan, encoding=encoding, solver=solver)
+        return solve(
+            call.task,
+            options,
+            human_plan=call.human_plan,
+            encoding=encoding,
+            solver=solver,
+            deadline=deadline,
+        )
 
     return judge
 
@@ -63,17 +70,29 @@ JUDGES: Final[dict[str, Judge]] = {
 """Judges by name; the first is the one whose results are certified."""
 
 
-def compare(call: PlanCall, judges: Mapping[str, Judge]) -> Disagreement | None:
+def compare(
+    call: PlanCall,
+    judges: Mapping[str, Judge],
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+) -> Disagreement | None:
     """Let every judge answer, and the verifier certify each answer.
 
-    A judge that runs out of time agrees with everybody.
+    A judge that a limit stops before the proof agrees with everybody, but its answer has to
+    follow the rules.
+
+    Args:
+        call: what is asked.
+        judges: by name.
+        time_limit: seconds for each answer, and for each certificate; or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
     """
     said: dict[str, str] = {}
     known: set[Figures] = set()
     sound = True
     for name, judge in judges.items():
         try:
-            result = judge(call)
+            result = judge(call, Deadline(time_limit, memory_limit))
         except (UsageError, PlanError):
             known.add(Figures())
             said[name] = str(Figures())
@@ -82,9 +101,10 @@ def compare(call: PlanCall, judges: Mapping[str, Judge]) -> Disagreement | None:
             said[name] = "unknown"
             continue
         figures = figures_of(result)
-        known.add(figures)
         said[name] = str(figures)
-        certificate = verify(call.task, result)
+        if result.status != "feasible":
+            known.add(figures)
+        certificate = verify(call.task, result, time_limit=time_limit, memory_limit=memory_limit)
         if certificate.verdict == "refuted":
             sound = False
             refuted = certificate.refuted

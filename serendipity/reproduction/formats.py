@@ -32,6 +32,7 @@ def as_json(
     """The JSON object (schema ``serendipity.reproduction/1``)."""
     return {
         "schema": SCHEMA,
+        "complete": run.complete,
         "modes": list(run.modes),
         "discounts": [float(discount) for discount in run.discounts],
         "rows": [row.to_dict() for row in run.rows],

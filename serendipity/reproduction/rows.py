@@ -33,7 +33,8 @@ class Row:
         opportunity: whether a robot helps.
         window: of the answer, or None.
         seconds: wall time of the planning call, without reading the task.
-        best_tie: least cost over the human's optimal plans; ``cost`` where that is no question.
+        best_tie: least cost over the human's optimal plans; ``cost`` where that is no question,
+            None where a limit came before it was known.
         worst_tie: greatest cost over them.
     """
 
@@ -48,6 +49,11 @@ class Row:
     seconds: float
     best_tie: Fraction | None
     worst_tie: Fraction | None
+
+    @property
+    def proved(self) -> bool:
+        """Whether no limit came before the proof."""
+        return self.status in ("optimal", "infeasible")
 
     def cells(self) -> tuple[str, ...]:
         """The texts of ``COLUMNS``; empty where there is no value."""

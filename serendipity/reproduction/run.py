@@ -6,15 +6,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from os import PathLike
 from pathlib import Path
+from time import time
 from typing import Final
 
-from serendipity.model import Options, UsageError
+from serendipity.model import Deadline, LimitReachedError, Options, UsageError
 from serendipity.model.numbers import Number
 from serendipity.reproduction.journal import Journal
 from serendipity.reproduction.pool import in_processes, in_turn, on_dask
 from serendipity.reproduction.rows import Row
 from serendipity.reproduction.suite import TaskFolder, find_tasks
-from serendipity.reproduction.work import Assignment, Call, TaskRows, solve
+from serendipity.reproduction.work import Assignment, Call, Limits, TaskRows, solve, unknown
 
 MODES: Final = ("individual", "serendipity", "communication", "composite")
 DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
@@ -44,6 +45,16 @@ class Reproduction:
     discounts: tuple[Fraction, ...]
     rows: tuple[Row, ...]
 
+    @property
+    def unproved(self) -> int:
+        """The number of rows for which a limit came before the proof."""
+        return sum(not row.proved for row in self.rows)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every row is proved."""
+        return not self.unproved
+
 
 def reproduce(
     folder: str | PathLike[str],
@@ -54,6 +65,9 @@ def reproduce(
     journal: str | PathLike[str] | None = None,
     dask: str | None = None,
     on_progress: Callable[[Progress], None] | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
 ) -> Reproduction:
     """Solve every task of a folder in every mode at every discount.
 
@@ -63,9 +77,14 @@ def reproduce(
         discounts: which discounts, 0 to 1.
         jobs: number of processes.
         journal: file to which finished tasks are appended; what it holds already is not
-            done again unless the task's files have changed since.
+            done again unless it is not proved, or the task's files have changed since.
         dask: address of a Dask scheduler, ``"local"``, or None.
         on_progress: called at the start and after each task.
+        time_limit: seconds for each row, and for reading a task, or None.  Rows for which it is
+            not enough are ``feasible`` or ``unknown``.
+        memory_limit: what each process may have in memory, in MiB, or None.
+        deadline: of the whole run: rows that it leaves no time for are ``unknown``.  What else
+            it watches than the time is looked at after each task.
 
     Raises:
         UsageError: an argument is wrong.
@@ -76,8 +95,10 @@ def reproduce(
         raise UsageError(f"jobs: expected at least 1, got {jobs}")
     tasks = find_tasks(Path(folder))
     book = None if journal is None else Journal(Path(journal))
-    known = {} if book is None else _by_call(book.read())
-    assignments = [left for task in tasks if (left := _left(task, calls, known)) is not None]
+    known = {} if book is None else _by_call(book.read(), proved=True)
+    whole = deadline or Deadline()
+    limits = _limits(time_limit, memory_limit, whole)
+    assignments = [left for task in tasks if (left := _left(task, calls, known, limits)) is not None]
     report = on_progress or (lambda _: None)
     done = len(tasks) - len(assignments)
     helped = sum(
@@ -92,7 +113,9 @@ def reproduce(
             done += 1
             helped += sum(row.opportunity for row in record.rows)
             report(Progress(done, len(tasks), helped))
-    rows = tuple(known[_key(task, call)] for task in tasks for call in calls)
+            if _is_over(whole):
+                break
+    rows = tuple(known.get(_key(task, call)) or unknown(task.test, call) for task in tasks for call in calls)
     return Reproduction(
         tuple(dict.fromkeys(c.mode for c in calls)), tuple(dict.fromkeys(c.discount for c in calls)), rows
     )
@@ -116,14 +139,38 @@ def _key(task: TaskFolder | TaskRows, call: Call) -> _Key:
     return task.test, task.fingerprint, call
 
 
-def _by_call(records: Iterable[TaskRows]) -> dict[_Key, Row]:
-    return {_key(record, Call(row.mode, row.discount)): row for record in records for row in record.rows}
+def _by_call(records: Iterable[TaskRows], *, proved: bool = False) -> dict[_Key, Row]:
+    """The rows by what they answer; with ``proved`` those only that no limit could change."""
+    return {
+        _key(record, Call(row.mode, row.discount)): row
+        for record in records
+        for row in record.rows
+        if row.proved or not proved
+    }
 
 
-def _left(task: TaskFolder, calls: Sequence[Call], known: dict[_Key, Row]) -> Assignment | None:
+def _left(
+    task: TaskFolder, calls: Sequence[Call], known: dict[_Key, Row], limits: Limits
+) -> Assignment | None:
     """What is still to be done for a task."""
     missing = tuple(call for call in calls if _key(task, call) not in known)
-    return Assignment(task.test, task.path, task.fingerprint, missing) if missing else None
+    return Assignment(task.test, task.path, task.fingerprint, missing, limits) if missing else None
+
+
+def _limits(time_limit: float | None, memory_limit: float | None, whole: Deadline) -> Limits:
+    """The limits of each row, checked, and when the whole run has to be over."""
+    options = Options(time_limit=time_limit, memory_limit=memory_limit)
+    left = whole.left()
+    until = None if left is None else time() + left
+    return Limits(options.time_limit, options.memory_limit, until)
+
+
+def _is_over(deadline: Deadline) -> bool:
+    try:
+        deadline.check()
+    except LimitReachedError:
+        return True
+    return False
 
 
 def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:

@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, time
 from typing import Final
 
-from serendipity.model import Result, Task
+from serendipity.model import Deadline, Result, Task
+from serendipity.model.errors import LIMITS
 from serendipity.pddl import load
 from serendipity.planning import plan
 from serendipity.reproduction.rows import Row, exact_cost
@@ -24,13 +25,34 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
+class Limits:
+    """Limits that other processes can be told.
+
+    Attributes:
+        time_limit: seconds for reading a task, and for each call; or None.
+        memory_limit: what a process may have in memory, in MiB, or None.
+        until: when the whole run has to be over, by the clock of ``time.time()``, or None.
+    """
+
+    time_limit: float | None = None
+    memory_limit: float | None = None
+    until: float | None = None
+
+    def from_now(self) -> Deadline:
+        """The limits of what begins now."""
+        left = None if self.until is None else max(self.until - time(), 0.0)
+        return Deadline(left).within(self.time_limit, self.memory_limit)
+
+
+@dataclass(frozen=True, slots=True)
 class Assignment:
-    """A task and the calls that are still to be made for it."""
+    """A task, the calls that are still to be made for it, and their limits."""
 
     test: str
     path: Path
     fingerprint: str
     calls: tuple[Call, ...]
+    limits: Limits
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,23 +65,44 @@ class TaskRows:
 
 
 def solve(assignment: Assignment) -> TaskRows:
-    """Read the task and make the calls.
+    """Read the task and make the calls; what a limit leaves no time or memory for is ``unknown``.
 
     Raises:
         InputError: a file of the task is wrong.
     """
-    task = load(assignment.path)
-    rows = tuple(_row(assignment.test, task, call) for call in assignment.calls)
+    try:
+        task = load(assignment.path, deadline=assignment.limits.from_now())
+    except LIMITS:
+        rows = tuple(unknown(assignment.test, call) for call in assignment.calls)
+    else:
+        rows = tuple(_row(assignment, task, call) for call in assignment.calls)
     return TaskRows(assignment.test, assignment.fingerprint, rows)
 
 
-def _row(test: str, task: Task, call: Call) -> Row:
-    start = perf_counter()
-    result = plan(task, mode=call.mode, discount=call.discount)
-    seconds = perf_counter() - start
-    best, worst = _ties(task, call, result)
+def unknown(test: str, call: Call) -> Row:
+    """The row of a call that a limit left no time for."""
     return Row(
         test=test,
+        mode=call.mode,
+        discount=call.discount,
+        status="unknown",
+        cost=None,
+        human_cost=None,
+        opportunity=False,
+        window=None,
+        seconds=0.0,
+        best_tie=None,
+        worst_tie=None,
+    )
+
+
+def _row(assignment: Assignment, task: Task, call: Call) -> Row:
+    start, limits = perf_counter(), assignment.limits.from_now()
+    result = plan(task, mode=call.mode, discount=call.discount, deadline=limits)
+    seconds = perf_counter() - start
+    best, worst = _ties(task, call, result, limits)
+    return Row(
+        test=assignment.test,
         mode=call.mode,
         discount=call.discount,
         status=result.status,
@@ -73,11 +116,16 @@ def _row(test: str, task: Task, call: Call) -> Row:
     )
 
 
-def _ties(task: Task, call: Call, result: Result) -> tuple[Fraction | None, Fraction | None]:
+def _ties(
+    task: Task, call: Call, result: Result, limits: Deadline
+) -> tuple[Fraction | None, Fraction | None]:
     """Least and greatest cost over the human's optimal plans."""
     cost = exact_cost(result.cost)
     if call.mode not in _TIED or cost is None:
         return cost, cost
-    answers = plan(task, mode=call.mode, discount=call.discount, ties="optimistic").statistics["ties"]
+    best = plan(task, mode=call.mode, discount=call.discount, ties="optimistic", deadline=limits)
+    if best.status != "optimal":
+        return None, None
+    answers = best.statistics["ties"]
     costs = [Fraction(str(answer["cost"])) for answer in answers]
     return min(costs), max(costs)

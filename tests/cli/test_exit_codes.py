@@ -10,7 +10,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS, OF_VERDICT, ExitCode
-from serendipity.model import Result, Task
+from serendipity.model import Deadline, Result, Task
 from serendipity.model.result import STATUSES
 from tests.cli.conftest import Run
 
@@ -62,11 +62,11 @@ def test_a_joint_plan_where_he_has_none_is_0(stuck: str, run: Callable[[str], Ru
 
 
 def test_no_answer_within_the_limit_is_4(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
-    def nothing(task: Task, **options: Any) -> Iterator[Result]:
-        yield Result("serendipity", "unknown", "commx", serendipity.Options())
+    def nothing(task: Task, deadline: Deadline, **options: Any) -> Iterator[Result]:
+        yield Result("serendipity", "unknown", "commx", serendipity.Options(**options))
 
     monkeypatch.setattr(serendipity, "plan_anytime", nothing)
-    done = run("plan --example room2 --time-limit 0")
+    done = run("plan --example room2 --time-limit 60")
     assert done.code == 4
     assert "the limit came before any answer" in done.out
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from serendipity import Result, load
+from serendipity import Deadline, Result, load
 from serendipity.cli.app import main
 from serendipity.crosscheck import JUDGES, PlanCall, command_line, compare, random_call, shrink, write_case
 from serendipity.crosscheck import judges as judging
@@ -34,12 +34,12 @@ def test_a_program_that_a_presolve_called_infeasible() -> None:
     """HiGHS 1.14 with its presolve finds no plan below 4 in the paper's program."""
     call = random_call(271)
     assert call.options["suffix"] == "subplan", "the generator has changed: find another such call"
-    assert {JUDGES[name](call).cost for name in ("search", "automata", "paper", "cbc")} == {1.0}
+    assert {JUDGES[name](call, Deadline()).cost for name in ("search", "automata", "paper", "cbc")} == {1.0}
 
 
-def _blind(call: PlanCall) -> Result:
+def _blind(call: PlanCall, deadline: Deadline) -> Result:
     """A judge that overlooks every opportunity."""
-    answer = JUDGES["search"](call)
+    answer = JUDGES["search"](call, deadline)
     if not answer.opportunity or answer.human_cost is None:
         return answer
     return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
@@ -58,7 +58,13 @@ def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
     commands = write_case(found, tmp_path / "case")
     assert f"serendipity plan {tmp_path / 'case'} --human h" in commands.read_text()
     task = load(tmp_path / "case", human="h")
-    assert JUDGES["search"](replace(smallest, task=task)).cost == JUDGES["search"](smallest).cost
+    search = JUDGES["search"]
+    assert search(replace(smallest, task=task), Deadline()).cost == search(smallest, Deadline()).cost
+
+
+def test_judges_without_time_agree_with_everybody() -> None:
+    call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9"})
+    assert compare(call, {"search": JUDGES["search"], "automata": JUDGES["automata"]}, time_limit=0) is None
 
 
 def test_command_lines_quote_nothing_away() -> None:
@@ -94,8 +100,8 @@ def test_command_writes_a_disagreement(
 
 
 def _blind_of(judge: judging.Judge) -> judging.Judge:
-    def blind(call: PlanCall) -> Result:
-        answer = judge(call)
+    def blind(call: PlanCall, deadline: Deadline) -> Result:
+        answer = judge(call, deadline)
         if not answer.opportunity or answer.human_cost is None:
             return answer
         return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)

@@ -1,0 +1,53 @@
+"""``--time-limit`` and ``--memory-limit``: one deadline from a command's beginning to its end."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Annotated
+
+import typer
+
+import serendipity
+from serendipity.limits import limits_from
+from serendipity.model import Deadline, LimitReachedError
+from serendipity.model.errors import LIMITS, limit_reason
+
+TimeLimit = Annotated[
+    str | None,
+    typer.Option("--time-limit", metavar="SECONDS", help="Stop after so many seconds, reading included."),
+]
+MemoryLimit = Annotated[
+    str | None,
+    typer.Option("--memory-limit", metavar="MIB", help="Stop when so many MiB of memory are in use."),
+]
+
+
+def begin(time_limit: str | None, memory_limit: str | None, *needed: str) -> Deadline:
+    """The deadline of a command, which starts now: it covers reading, the work, and checking it.
+
+    Args:
+        time_limit: seconds, or None.
+        memory_limit: MiB, or None.
+        needed: public names of the package that the command uses.  What they are in is loaded
+            first: like the start of the interpreter, that takes as long for every task.
+
+    Raises:
+        UsageError: a limit is not a number of at least 0.
+    """
+    for name in ("load", *needed):
+        getattr(serendipity, name)
+    return limits_from(time_limit, memory_limit)
+
+
+@contextmanager
+def during(doing: str) -> Iterator[None]:
+    """Say of a limit that comes inside what it kept from being done.
+
+    Raises:
+        LimitReachedError: a limit came.
+    """
+    try:
+        yield
+    except LIMITS as limit:
+        if isinstance(limit, LimitReachedError) and limit.doing is not None:
+            raise
+        raise LimitReachedError(limit_reason(limit), doing) from None
