@@ -285,6 +285,7 @@ class FoldedSuccessors(Successors):
 
     def _options(self, index: DeedIndex, state: int) -> list[Option]:
         """Deeds that are possible after a walk, cheapest first."""
+        self._deadline.check()
         walks, found = self._walks, []
         for deed, op in index.candidates(state):
             need = op.need & deed.need_mask

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import partial
+from importlib import import_module
 
 from search.assistance import Assistance, assist
 from serendipity.model.deadline import Deadline
@@ -11,6 +12,12 @@ from serendipity.model.plans import Step
 from serendipity.model.policy import Costs
 from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import Task
+
+
+def load_arrays() -> None:
+    """Load what only large tasks need, and takes longer than a short time limit."""
+    import_module("search.assistance.layers")
+    import_module("search.assistance.ball")
 
 
 def assistance_answers(task: Task, options: Options, deadline: Deadline) -> Iterator[Callable[[], Result]]:

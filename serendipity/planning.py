@@ -149,7 +149,10 @@ def _answers(
     chosen = options_from(options)
     if chosen.mode == "assistance":
         # Loaded only here, before time counts: the other modes have nothing to do with it.
-        from serendipity.assistance import assistance_answers
+        from serendipity.assistance import assistance_answers, load_arrays
+
+        if chosen.time_limit is not None:
+            load_arrays()
     if visible is not None and chosen.human_model != "local":
         raise UsageError(f"visible: is for human_model 'local' only, not for '{chosen.human_model}'")
     limits = limits_from(chosen.time_limit, chosen.memory_limit, outer, cancelled)
@@ -204,13 +207,15 @@ def _over_ties(call: _Call) -> Result:
             f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
             "raise max_ties, or use ties 'fixed'"
         )
-    answers = until_settled(
-        map(call.last, graph.plans()),
-        options.ties,
-        bounded=not call.task.robot_goal,
-        least=lambda: _float(least_over_ties(call.task, options, graph, call.deadline)),
+    answers = list(
+        until_settled(
+            map(call.last, graph.plans()),
+            options.ties,
+            bounded=not call.task.robot_goal,
+            least=lambda: _float(least_over_ties(call.task, options, graph, call.deadline)),
+        )
     )
-    result = combined(list(answers), options.ties)
+    result = combined(answers, options.ties, everyone=len(answers) == count)
     measured = {"elapsed_seconds": call.deadline.elapsed(), "optimal_plans": count}
     return replace(result, statistics={**result.statistics, **measured})
 

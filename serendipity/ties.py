@@ -14,7 +14,7 @@ _A_FEW: Final = 4
 def until_settled(
     answers: Iterable[Result], ties: str, *, bounded: bool, least: Callable[[], float | None]
 ) -> Iterator[Result]:
-    """The answers one by one, until the rest can't make a difference.
+    """The answers one by one, until the rest can't make a difference, or a limit has come.
 
     Args:
         answers: one for each optimal plan, worked out when they are asked for.
@@ -26,18 +26,29 @@ def until_settled(
     floor: float | None = None
     for number, answer in enumerate(answers, start=1):
         yield answer
+        dearest = answer.cost == answer.human_cost
+        late = answer.status in ("feasible", "unknown")
+        # What the rest may cost at most has to be among the answers where the greatest cost counts.
+        if late and (ties != "robust" or answer.cost is None or (bounded and dearest)):
+            return
         if not bounded or answer.status != "optimal":
             continue
         if number == _A_FEW and ties != "robust":
             floor = least()
-        dearest, cheapest = answer.cost == answer.human_cost, answer.cost == floor
+        cheapest = answer.cost == floor
         if {"robust": dearest, "optimistic": cheapest, "expected": dearest and cheapest}[ties]:
             return
 
 
-def combined(answers: list[Result], ties: str) -> Result:
-    """The answer under ``ties``; ``statistics["ties"]`` has those that it was made of."""
-    chosen = _mean(answers) if ties == "expected" else _extreme(answers, ties)
+def combined(answers: list[Result], ties: str, *, everyone: bool = True) -> Result:
+    """The answer under ``ties``; ``statistics["ties"]`` has those that it was made of.
+
+    Args:
+        answers: at least one.
+        ties: ``robust``, ``optimistic`` or ``expected``.
+        everyone: whether there is an answer for each optimal plan.
+    """
+    chosen = _mean(answers) if ties == "expected" else _extreme(answers, ties, everyone=everyone)
     listed = [
         {
             "human_plan": list(answer.human_plan or ()),
@@ -50,18 +61,21 @@ def combined(answers: list[Result], ties: str) -> Result:
     return replace(chosen, statistics={**chosen.statistics, "ties": listed})
 
 
-def _extreme(answers: list[Result], ties: str) -> Result:
+def _extreme(answers: list[Result], ties: str, *, everyone: bool) -> Result:
     """The answer of least (optimistic) or greatest (robust) cost; the first of equals."""
+    late = any(answer.status in ("feasible", "unknown") for answer in answers)
+    if ties == "optimistic":  # where an answer is missing, the least cost is that of the others or less
+        answers = [answer for answer in answers if answer.status != "unknown"] or answers
     sign = 1 if ties == "optimistic" else -1
     costs = [None if answer.cost is None else Fraction(str(answer.cost)) * sign for answer in answers]
     if None in costs:
         return answers[costs.index(None)]
     chosen = answers[min(range(len(answers)), key=lambda i: (costs[i], i))]
-    if ties == "robust" or all(answer.status == "optimal" for answer in answers):
+    if ties == "robust" or not late:
         return chosen
-    # An answer that is not proved may yet turn out to cost less than the least.
+    # An answer that is not proved, or is missing, may yet turn out to cost less than the least.
     bounds = [answer.lower_bound for answer in answers if answer.lower_bound is not None]
-    return replace(chosen, status="feasible", lower_bound=min(bounds))
+    return replace(chosen, status="feasible", lower_bound=min(bounds) if everyone else 0.0)
 
 
 def _mean(answers: list[Result]) -> Result:

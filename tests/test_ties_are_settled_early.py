@@ -75,6 +75,41 @@ def test_least_cost_is_not_proved_while_one_answer_is_not() -> None:
     assert combined([proved], "optimistic").status == "optimal"
 
 
+def _stopped(status: str, cost: float | None) -> Result:
+    """An answer before which a limit came; ``pi_H`` costs 8."""
+    bound = None if cost is None else 1.0
+    return Result(
+        "serendipity", status, "h", Options(), human_cost=8.0, cost=cost, objective=cost, lower_bound=bound
+    )
+
+
+def test_after_a_limit_nothing_more_is_looked_at() -> None:
+    """They all were, one after another: a limit of 0.5 s took 3.3."""
+    for ties in ("optimistic", "expected"):
+        answers = [*_some(6.0), _stopped("feasible", 7.0)]
+        assert _costs(until_settled(_then_never(answers), ties, bounded=True, least=_never)) == [6, 7]
+    answers = [*_some(6.0), _stopped("feasible", 7.0), _stopped("feasible", 8.0)]
+    assert _costs(until_settled(_then_never(answers), "robust", bounded=True, least=_never)) == [6, 7, 8]
+    answers = [_stopped("unknown", None)]
+    assert _costs(until_settled(_then_never(answers), "robust", bounded=True, least=_never)) == [None]
+
+
+def test_what_is_missing_may_cost_less_than_the_least() -> None:
+    answers = [*_some(6.0), _stopped("unknown", None)]
+    answer = combined(answers, "optimistic", everyone=False)
+    assert (answer.status, answer.cost, answer.lower_bound) == ("feasible", 6.0, 0.0)
+    assert combined(answers, "expected", everyone=False).status == "unknown"
+
+
+def _some(cost: float) -> list[Result]:
+    return [next(_answers(cost))]
+
+
+def _then_never(answers: list[Result]) -> Iterator[Result]:
+    yield from answers
+    raise AssertionError("one answer too many was asked for")
+
+
 @given(calls(modes=("serendipity", "communication"), ties=False))
 def test_the_bound_is_one(call: Call) -> None:
     task = replace(call.task, robot_goal=Condition())

@@ -1,15 +1,19 @@
-"""Whenever the time runs out, a call ends with what it knows: never with an exception."""
+"""Whenever the time runs out, a call ends with what it knows: never with another exception than its own."""
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 
-from serendipity import Task, plan, planning
+import serendipity
+from serendipity import LimitReachedError, Task
+from serendipity.interruptibility import InterruptionReport
 from serendipity.model import Result
 from serendipity.model.deadline import Deadline
-from serendipity.model.errors import LimitReachedError
 from tests.cases import case_2, case_4
+
+T = TypeVar("T")
 
 CALLS: list[dict[str, Any]] = [
     {"mode": "individual"},
@@ -23,7 +27,11 @@ CALLS: list[dict[str, Any]] = [
     {"human_model": "observant", "discount": "0.5"},
     {"human_model": "local", "discount": "0.5"},
     {"discount": "0.9", "ties": "robust"},
+    {"discount": "0.9", "ties": "optimistic"},
+    {"discount": "0.9", "ties": "expected"},
     {"mode": "assistance", "ties": "optimistic"},
+    {"mode": "assistance", "ties": "robust"},
+    {"mode": "assistance", "ties": "expected"},
 ]
 
 
@@ -31,40 +39,177 @@ class Countdown(Deadline):
     """A deadline that runs out at a given look at it; ticks are looks, too."""
 
     looks = 0
+    reason = "time-limit"
 
     def check(self) -> None:
         type(self).looks -= 1
         if self.looks < 0:
-            raise LimitReachedError("time-limit")
+            raise LimitReachedError(self.reason)
 
     tick = check
 
 
-def answers(task: Task, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> list[Result]:
-    """What a call says if the first look at the deadline is the last, the second one, and so on."""
-    monkeypatch.setattr(planning, "Deadline", Countdown)
-    found = []
+def endings(
+    call: Callable[[Deadline], T], reason: str = "time-limit", *, each: bool = False
+) -> list[T | LimitReachedError]:
+    """What comes of a call if the first look at the deadline is the last, the second one, and so on.
+
+    The last one has as much time as it needs.  Unless ``each`` look is wanted, later ones are
+    further and further apart.
+    """
+    found: list[T | LimitReachedError] = []
+    Countdown.reason = reason
     looks = 0
     while True:
         Countdown.looks = looks
-        found.append(plan(replace(task), time_limit=1, **options))  # a copy knows nothing yet
+        try:
+            found.append(call(Countdown()))
+        except LimitReachedError as limit:
+            found.append(limit)
         if Countdown.looks >= 0:
             return found
-        looks = max(looks + 1, looks * 9 // 8)  # each of the first ones, then fewer of them
+        looks = looks + 1 if each else max(looks + 1, looks * 9 // 8)
 
 
+def answers(call: Callable[[Deadline], T], reason: str = "time-limit", *, each: bool = False) -> list[T]:
+    """The same for calls that first have nothing to say, and from some look on always an answer."""
+    found = endings(call, reason, each=each)
+    silent = [ending for ending in found if isinstance(ending, LimitReachedError)]
+    spoken = [ending for ending in found if not isinstance(ending, LimitReachedError)]
+    assert found == [*silent, *spoken]
+    assert {limit.reason for limit in silent} <= {reason}
+    return spoken
+
+
+@pytest.mark.parametrize("reason", ["time-limit", "memory-limit"])
 @pytest.mark.parametrize("options", CALLS, ids=str)
 @pytest.mark.parametrize("task", [case_2(), case_4()], ids=["case 2", "case 4"])
-def test_time_may_run_out_at_any_look(
-    task: Task, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    found = answers(task, options, monkeypatch)
-    *early, last = found
+def test_time_may_run_out_at_any_look(task: Task, options: dict[str, Any], reason: str) -> None:
+    # A copy of the task knows nothing yet.
+    *early, last = answers(
+        lambda deadline: serendipity.plan(replace(task), deadline=deadline, **options), reason
+    )
     assert len(early) > 3
-    assert early[0].status == "unknown"
+    assert (early[0].status, early[0].reason) == ("unknown", reason)
     assert last.status == "optimal"
     for answer in early:
         assert answer.status in ("unknown", "feasible", "optimal")
         if answer.lower_bound is not None and answer.mode != "assistance":
             assert answer.objective is not None
             assert answer.lower_bound <= min(answer.objective, last.objective or 0)
+
+
+def goals_of(task: Task) -> list[dict[str, Any]]:
+    """His goal, and that he stands where his plan leads first."""
+    own = [task.facts[fact] for fact in task.goal.positive]
+    first = task.actions[task.plan_from_names(alone(task))[0]]
+    return [{"goal": own, "prior": 3}, {"goal": [task.facts[first.add[0]]], "prior": 1}]
+
+
+def alone(task: Task) -> tuple[str, ...]:
+    plan = serendipity.plan(task, mode="individual").human_plan
+    assert plan is not None
+    return plan
+
+
+@pytest.mark.parametrize("several", [True, False])
+def test_planning_for_goals_may_be_stopped_at_any_look(several: bool) -> None:
+    task = case_2()
+    goals = goals_of(task)[: 2 if several else 1]
+
+    def call(deadline: Deadline) -> Result:
+        return serendipity.plan(
+            replace(task), goals=goals, observed=alone(task)[:1], deadline=deadline, discount="0.5"
+        )
+
+    *early, last = answers(call)
+    assert early[0].status == "unknown"
+    assert "goals" not in early[0].statistics
+    assert last.status == "optimal"
+    for answer in early:
+        if answer.cost is not None:
+            assert last.cost is not None and answer.lower_bound is not None and last.objective is not None
+            assert last.cost <= answer.cost
+            assert answer.lower_bound <= last.objective
+            assert answer.statistics["recognition"]["explained"]
+
+
+def test_a_posterior_is_whole_or_not_there() -> None:
+    task = case_2()
+    goals = goals_of(task)
+
+    def call(deadline: Deadline) -> dict[str, Any]:
+        return serendipity.recognise(replace(task), goals, alone(task)[:1], deadline=deadline).to_dict()
+
+    found = answers(call)
+    assert all(answer == found[-1] for answer in found)
+
+
+@pytest.mark.parametrize("preservation", ["kernel", "state"])
+def test_windows_examined_by_then_are_reported(preservation: str) -> None:
+    task = case_2()
+
+    def call(deadline: Deadline) -> InterruptionReport:
+        return serendipity.interruptions(
+            replace(task), discount="0.5", preservation=preservation, deadline=deadline
+        )
+
+    *early, last = answers(call)
+    assert last.complete
+    assert len({len(report.windows) for report in early}) >= 5
+    for report in early:
+        assert (report.limit, report.to_dict()["complete"]) == ("time-limit", False)
+        assert set(report.windows) < set(last.windows)
+        assert report.interruptible in (None, last.interruptible)
+        if preservation == "kernel" and report.windows:
+            assert report.interruptible is not None
+
+
+@pytest.mark.parametrize("options", [{"discount": "0.5"}, {}, {"mode": "composite", "discount": "0.5"}])
+def test_an_explanation_says_what_it_leaves_out(options: dict[str, Any]) -> None:
+    task = case_2()
+    found = answers(lambda deadline: serendipity.explain(replace(task), deadline=deadline, **options))
+    last = found[-1]
+    assert last.complete
+    assert "limit" not in dict(last.sentences)
+    for explanation in found[:-1]:
+        if explanation.complete:
+            assert explanation.sentences == last.sentences
+        elif explanation.answer.status == "optimal":
+            assert explanation.limit == "time-limit"
+            told = [sentence for sentence in explanation.sentences if sentence[0] != "limit"]
+            assert set(told) <= set(last.sentences)
+            assert not {topic for topic, _ in told} & set(explanation.left_out)
+            assert [topic for topic, _ in explanation.sentences].count("limit") == 1
+        else:
+            assert not explanation.moments and explanation.discount is None and not explanation.misses
+
+
+@pytest.mark.parametrize("human_model", ["observant", "local"])
+def test_the_epochs_played_by_then_are_told(human_model: str) -> None:
+    task = case_2()
+    result = serendipity.plan(task, discount="0.5")
+
+    def call(deadline: Deadline) -> serendipity.Trace:
+        return serendipity.simulate(replace(task), result, human_model, deadline=deadline)
+
+    *early, last = answers(call, each=True)
+    assert last.complete
+    assert {len(trace.epochs) for trace in early} >= {1, len(last.epochs) - 1}
+    for trace in early:
+        assert (trace.limit, trace.goals_hold) == ("time-limit", None)
+        assert trace.epochs == last.epochs[: len(trace.epochs)]
+        assert trace.realised in (None, last.realised)
+
+
+def test_a_verdict_that_is_not_reached_is_missing() -> None:
+    found = answers(lambda deadline: serendipity.plan(case_2(), discount="0.5", deadline=deadline))
+    with_plan = [answer for answer in found if answer.plan]
+    assert {tuple(answer.realised) for answer in with_plan} == {(), ("observant",)}
+
+
+def test_a_session_ends_with_its_deadline() -> None:
+    session = serendipity.Session(case_2(), discount="0.5", deadline=Deadline(time_limit=0))
+    assert session.plan().status == "unknown"
+    assert session.plan(deadline=None).status == "optimal"
+    assert session.plan(deadline=None, time_limit=0).status in ("unknown", "feasible")

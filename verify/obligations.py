@@ -96,7 +96,8 @@ def complete(result: Result, claims: Iterable[Claim], *, by_rules: bool = False)
 def _best(result: Result) -> Iterator[str]:
     if result.opportunity or not result.options.windowed:
         yield "optimal"
-    if not result.opportunity and result.human_plan is not None and result.mode != "individual":
+    predicted = result.human_plan is not None or kind_of(result) == "a plan for each goal"
+    if not result.opportunity and predicted and result.mode != "individual":
         yield "no_opportunity"
 
 

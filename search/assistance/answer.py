@@ -70,12 +70,25 @@ def assist(task: Task, options: Options, deadline: Deadline) -> Iterator[Assista
     except LIMITS as limit:
         yield Assistance("unknown", ZERO, reason=limit_reason(limit))
         return
-    try:
-        game.alone(game.init)
-    except LIMITS as limit:
-        yield from _without_his_optimum(game, limit_reason(limit))
+    late = _limit_of(partial(game.alone, game.init))
+    if late is not None:
+        yield from _without_his_optimum(game, late)
         return
     own_deadline.lift()
+    yield from _searched(game, options)
+
+
+def _limit_of(work: Callable[[], object]) -> str | None:
+    """Which limit stopped some work, or None; what the work held is free on return."""
+    try:
+        work()
+    except LIMITS as limit:
+        return limit_reason(limit)
+    return None
+
+
+def _searched(game: Game, options: Options) -> Iterator[Assistance]:
+    """Answers of the search, which needs to know what the prime does alone."""
     writer = Writer(game, options.ties)
     search: Shortest | Branching | None = None
     try:
@@ -84,8 +97,10 @@ def assist(task: Task, options: Options, deadline: Deadline) -> Iterator[Assista
             yield _answer(writer, search, "feasible")
         solved = search.solution(floors=False).upper is not None
         yield _answer(writer, search, "optimal" if solved else "infeasible")
+        return
     except LIMITS as limit:
-        yield _unfinished(game, writer, search, limit_reason(limit))
+        late = limit_reason(limit)
+    yield _unfinished(game, writer, search, late)
 
 
 def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:

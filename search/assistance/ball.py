@@ -48,7 +48,7 @@ _MOST_GOALS: Final = 1_000_000
 _SORTING: Final = 16
 """Bytes for each place that is concatenated and sorted, at the least."""
 
-_LARGE: Final = 1 << 24
+_LARGE: Final = 1 << 20
 """Bytes; what is smaller is noticed in time when it has been allocated."""
 
 

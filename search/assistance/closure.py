@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from search.encoding import Goal
 from search.keys import INFINITE_KEY
 from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LimitReachedError
 
 if TYPE_CHECKING:
     from search.assistance.ball import Ball
@@ -166,12 +167,17 @@ class Closure:
             raise TooManyStatesError
 
     def _settle_in_layers(self, start: int, limit: int) -> bool:
+        """Whether it could be done: with too many states, or too little memory for them, it can't."""
         # Loads numpy: only a task with a large closure pays for it.
         from search.assistance.layers import Layers
 
         try:
             self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._deadline))
-        except TooManyStatesError:
+        except (TooManyStatesError, MemoryError):
+            return False
+        except LimitReachedError as limit_reached:
+            if limit_reached.reason != "memory-limit":
+                raise
             return False
         return True
 

@@ -19,10 +19,10 @@ _WORD_BITS: Final = 62
 _FAR: Final = np.iinfo(np.int64).max // 4
 _MAX_WEIGHT: Final = 1 << 48
 
-_SORTING: Final = 32
+_SORTING: Final = 24
 """Bytes for each element of what is concatenated, sorted and gathered, at the least."""
 
-_LARGE: Final = 1 << 24
+_LARGE: Final = 1 << 20
 """Bytes; what is smaller is noticed in time when it has been allocated."""
 
 

@@ -52,7 +52,7 @@ def interruptions(
     output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
-    deadline = limits.begin(time_limit, memory_limit, "interruptions")
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.interruptibility")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = plan_options.given(
         discount=discount,

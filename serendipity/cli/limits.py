@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from typing import Annotated
 
 import typer
 
-import serendipity
 from serendipity.limits import limits_from
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
@@ -21,20 +21,21 @@ MemoryLimit = Annotated[
 ]
 
 
-def begin(time_limit: str | None, memory_limit: str | None, *needed: str) -> Deadline:
+def begin(time_limit: str | None, memory_limit: str | None, *modules: str) -> Deadline:
     """The deadline of a command, which starts now: it covers reading, the work, and checking it.
 
     Args:
         time_limit: seconds, or None.
         memory_limit: MiB, or None.
-        needed: public names of the package that the command uses.  What they are in is loaded
-            first: like the start of the interpreter, that takes as long for every task.
+        modules: those that the command is going to use.  They are loaded first, if time is
+            limited: like the start of the interpreter, that takes as long for every task.
 
     Raises:
         UsageError: a limit is not a number of at least 0.
     """
-    for name in ("load", *needed):
-        getattr(serendipity, name)
+    if time_limit is not None:
+        for name in ("serendipity.loading", *modules):
+            import_module(name)
     return limits_from(time_limit, memory_limit)
 
 

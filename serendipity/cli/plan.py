@@ -60,7 +60,7 @@ def plan(
     """Find the best plan in which robots help the human, and prove that none is better."""
     form = output.prepare(format, output_file, verbose)
     output.check_output(save_plan, "--save-plan")
-    deadline = limits.begin(time_limit, memory_limit, "plan_anytime", "check")
+    deadline = limits.begin(time_limit, memory_limit, *_modules(mode, goals, certify=certify))
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = plan_options.given(
         mode=mode,
@@ -144,6 +144,16 @@ def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, c
     from serendipity.cli.text import plan_report
 
     return plan_report(task, result, certificate, claims=claims)
+
+
+def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str]:
+    """What is going to be loaded."""
+    modules = ["serendipity.planning", "serendipity.certify"]
+    if mode == "assistance":
+        modules += ["serendipity.assistance", "search.assistance.layers", "search.assistance.ball"]
+    if goals is not None:
+        modules.append("serendipity.goals.planning")
+    return [*modules, "verify.certify"] if certify else modules
 
 
 def _for_goals(result: Result, certificate: Certificate | None, form: str, output_file: Path | None) -> int:

@@ -46,7 +46,7 @@ def solve(
     from verify.solve import solve as by_program
 
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "check")
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.certify")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = options_from(
         plan_options.given(

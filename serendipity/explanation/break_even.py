@@ -79,8 +79,9 @@ def discount_threshold(ask: Ask) -> Threshold:
     return Threshold("discount", value, included=answer.opportunity, confirmed=confirmed)
 
 
-def window_weight_threshold(ask: Ask, report: InterruptionReport) -> Threshold:
+def window_weight_threshold(ask: Ask, report: InterruptionReport | None) -> Threshold:
     """The greatest ``K`` with which a robot helps in a window of two epochs or more."""
+    assert report is not None, "there are windows where this is asked"
     values = [
         entry.team_saving / (len(entry.window) - 1)
         for entry in report.windows

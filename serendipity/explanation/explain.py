@@ -39,7 +39,8 @@ class Explanation:
         misses: what would help if a rule were relaxed; empty where a robot helps anyway.
         sentences: all of it in words, topic by topic.
         limit: which limit came before everything was found out (as ``Result.reason`` has it), or None.
-        left_out: the topics that are missing for it.
+        left_out: what is missing for it: ``moment``, ``discount``, ``window_weight``,
+            ``announcement``, ``miss``.
     """
 
     answer: Result
@@ -180,10 +181,8 @@ def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation
     report = findings.about("moment", lambda: _report(ask, on_progress), wanted=windows)
     if missed is not None and report is not None:
         missed = misses(ask, report)  # the same answers, now with the shortest windows
-    weight = None
-    if report is not None:
-        wanted = priced and helpless and options.max_window is None
-        weight = findings.about("miss", lambda: window_weight_threshold(ask, report), wanted=wanted)
+    longer = windows and priced and helpless and options.max_window is None
+    weight = findings.about("window_weight", lambda: window_weight_threshold(ask, report), wanted=longer)
     found = Explanation(
         answer=answer,
         removal=removal_of(answer) if answer.opportunity else None,

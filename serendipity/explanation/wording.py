@@ -20,10 +20,11 @@ if TYPE_CHECKING:
 _MISSING: Final = {
     "moment": "why the window starts when it does",
     "discount": "from which discount on help pays",
+    "window_weight": "up to which window weight a longer interruption would help",
     "announcement": "what a word in advance would gain",
     "miss": "what would help if a rule were relaxed",
 }
-"""What a topic that is left out would have told."""
+"""What would have been told of what is left out."""
 
 Sentence = tuple[str, str]
 """A topic and a sentence."""
@@ -182,7 +183,8 @@ def _misses(found: Explanation) -> Iterator[str]:
             f"A longer interruption would help at a window weight up to {exact(weight.value)}, "
             f"against the {plain(found.answer.options.window_weight)} in force ({_confirmed(weight)})."
         )
-    if not found.misses and not found.answer.opportunity and found.discount is not None:
+    looked = "miss" not in found.left_out
+    if looked and not found.misses and not found.answer.opportunity and found.discount is not None:
         yield "No rule stands in the way: within these epochs and at this discount no plan is cheaper."
 
 
