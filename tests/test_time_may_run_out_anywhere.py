@@ -35,22 +35,25 @@ CALLS: list[dict[str, Any]] = [
 ]
 
 
+TIME = LimitReachedError("time-limit")
+
+
 class Countdown(Deadline):
     """A deadline that runs out at a given look at it; ticks are looks, too."""
 
     looks = 0
-    reason = "time-limit"
+    error: Exception = TIME
 
     def check(self) -> None:
         type(self).looks -= 1
         if self.looks < 0:
-            raise LimitReachedError(self.reason)
+            raise self.error
 
     tick = check
 
 
 def endings(
-    call: Callable[[Deadline], T], reason: str = "time-limit", *, each: bool = False
+    call: Callable[[Deadline], T], error: Exception = TIME, *, each: bool = False
 ) -> list[T | LimitReachedError]:
     """What comes of a call if the first look at the deadline is the last, the second one, and so on.
 
@@ -58,7 +61,7 @@ def endings(
     further and further apart.
     """
     found: list[T | LimitReachedError] = []
-    Countdown.reason = reason
+    Countdown.error = error
     looks = 0
     while True:
         Countdown.looks = looks
@@ -71,23 +74,33 @@ def endings(
         looks = looks + 1 if each else max(looks + 1, looks * 9 // 8)
 
 
-def answers(call: Callable[[Deadline], T], reason: str = "time-limit", *, each: bool = False) -> list[T]:
+def answers(call: Callable[[Deadline], T], error: Exception = TIME, *, each: bool = False) -> list[T]:
     """The same for calls that first have nothing to say, and from some look on always an answer."""
-    found = endings(call, reason, each=each)
+    found = endings(call, error, each=each)
     silent = [ending for ending in found if isinstance(ending, LimitReachedError)]
     spoken = [ending for ending in found if not isinstance(ending, LimitReachedError)]
     assert found == [*silent, *spoken]
-    assert {limit.reason for limit in silent} <= {reason}
+    assert {limit.reason for limit in silent} <= {"time-limit"}
     return spoken
 
 
-@pytest.mark.parametrize("reason", ["time-limit", "memory-limit"])
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [
+        (TIME, "time-limit"),
+        (LimitReachedError("memory-limit"), "memory-limit"),
+        (MemoryError(), "memory-limit"),
+    ],
+    ids=repr,
+)
 @pytest.mark.parametrize("options", CALLS, ids=str)
 @pytest.mark.parametrize("task", [case_2(), case_4()], ids=["case 2", "case 4"])
-def test_time_may_run_out_at_any_look(task: Task, options: dict[str, Any], reason: str) -> None:
+def test_time_may_run_out_at_any_look(
+    task: Task, options: dict[str, Any], error: Exception, reason: str
+) -> None:
     # A copy of the task knows nothing yet.
     *early, last = answers(
-        lambda deadline: serendipity.plan(replace(task), deadline=deadline, **options), reason
+        lambda deadline: serendipity.plan(replace(task), deadline=deadline, **options), error
     )
     assert len(early) > 3
     assert (early[0].status, early[0].reason) == ("unknown", reason)

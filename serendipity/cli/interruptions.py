@@ -16,6 +16,9 @@ from serendipity.model.numbers import plain
 
 _PICTURES: Final = (".svg", ".png")
 
+_WRITE_SHARE: Final = {"text": 0.05, "json": 0.2}
+"""What of the time limit is kept for writing: each window has a plan, and they are thousands."""
+
 if TYPE_CHECKING:
     from serendipity.cli.render import Grid, Line
     from serendipity.interruptibility import InterruptionReport
@@ -64,7 +67,8 @@ def interruptions(
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     with progress.counting("searches", quiet=quiet) as on_progress, limits.during("planning"):
-        report = serendipity.interruptions(task, on_progress=on_progress, deadline=deadline, **options)
+        early = deadline.sooner(_WRITE_SHARE[form])
+        report = serendipity.interruptions(task, on_progress=on_progress, deadline=early, **options)
     answers = [output.Answer(_shown(report, form, every=every), output_file)]
     if heat_map is not None:
         answers.append(output.Answer(_drawn(report, heat_map.suffix), heat_map, "--heat-map"))

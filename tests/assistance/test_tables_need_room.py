@@ -1,0 +1,74 @@
+"""Where memory has no room for a table, what is asked of it is found without one."""
+
+import numpy as np
+import pytest
+
+import serendipity
+from search.assistance import closure
+from search.assistance.ball import Places, ball_around
+from search.assistance.closure import Arc, Closure, TooManyStatesError
+from search.assistance.layers import Layers
+from search.encoding import Goal
+from serendipity.model import Deadline, LimitReachedError
+from tests.cases import case_5
+
+
+class Full(Deadline):
+    """No memory is left for anything that is asked for."""
+
+    def require(self, size: float) -> None:
+        """See :class:`Deadline`."""
+        raise LimitReachedError("memory-limit")
+
+
+class Late(Deadline):
+    """No time is left."""
+
+    def check(self) -> None:
+        """See :class:`Deadline`."""
+        raise LimitReachedError("time-limit")
+
+
+def line(length: int) -> tuple[list[Arc], Goal, int]:
+    """Steps from 0 to ``length - 1``, one after another; the last one is the goal."""
+    mask = (1 << length.bit_length()) - 1
+    arcs = [Arc(Goal(mask, at, ()), ~mask, at + 1, 1 << 24 | 1) for at in range(length - 1)]
+    return arcs, Goal(mask, length - 1, ()), mask
+
+
+def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(closure, "SMALL", 1)
+    arcs, goal, mask = line(40)
+    values = [list(range(40))]
+    assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * (1 << 24 | 1)
+    monkeypatch.setattr("search.assistance.layers._LARGE", 0)
+    monkeypatch.setattr("search.assistance.ball._LARGE", 0)
+    with pytest.raises(TooManyStatesError):
+        Closure(arcs, goal, [mask], values, 1000, Full()).key(0)
+    with pytest.raises(LimitReachedError):
+        Closure(arcs, goal, [mask], values, 1000, Late()).key(0)
+
+
+def test_a_ball_asks_for_all_it_may_touch() -> None:
+    arcs, goal, mask = line(40)
+    values = [list(range(40))]
+    assert ball_around(arcs, goal, [mask], values, 0, Deadline()) is not None
+    assert ball_around(arcs, goal, [mask], values, 0, Full()) is None
+    assert Places(arcs, [mask], values, 0).item == np.dtype(np.uint32).itemsize
+
+
+def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
+    arcs, goal, mask = line(40)
+    Layers(arcs, goal, [mask], 0, 1000, Full())  # little is not asked for
+    monkeypatch.setattr("search.assistance.layers._LARGE", 0)
+    with pytest.raises(LimitReachedError):
+        Layers(arcs, goal, [mask], 0, 1000, Full())
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
+def test_answers_are_the_same_without_tables(ties: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    full = serendipity.plan(case_5(), mode="assistance", ties=ties)
+    monkeypatch.setattr(closure, "SMALL", 1)
+    monkeypatch.setattr("search.assistance.layers._LARGE", 0)
+    answer = serendipity.plan(case_5(), mode="assistance", ties=ties, deadline=Full())
+    assert (answer.status, answer.statistics["bounds"]) == (full.status, full.statistics["bounds"])

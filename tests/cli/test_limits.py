@@ -1,0 +1,157 @@
+"""Every command that works for long keeps its limits: with what it knows, or with one line."""
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity.cli import naming
+from serendipity.cli.limits import during
+from serendipity.model import Deadline, LimitReachedError, Result, Task
+from tests.cli.conftest import Run, assert_one_line
+
+Runs = Callable[[str], Run]
+
+GOALS = "3: conducted_triage commx room1\n1: conducted_triage commx hall1\n"
+
+COMMANDS = (
+    "plan --example room2 --discount 0.6 --format json",
+    "plan --example room2 --discount 0.6 --verify --format json",
+    "plan --example room2 --discount 0.6 --ties robust --format json",
+    "plan --example room2 --discount 0.6 --human-model local --format json",
+    "plan --example room2 --discount 0.6 --goals goals.txt --format json",
+    "plan --example room2 --mode assistance --format json",
+    "verify --example room2 answer.json --format json",
+    "solve --example room2 --discount 0.6 --format json",
+    "simulate --example room2 answer.json --format json",
+    "explain --example room2 --discount 0.6 --format json",
+    "explain --example room2 answer.json --format json",
+    "interruptions --example room2 --discount 0.6 --format json",
+    "recognise --example room2 --goals goals.txt --format json",
+    "reproduce suite --modes serendipity --discounts 0.6 --format json",
+)
+"""All but `crosscheck`, which writes no JSON."""
+
+NOTHING_KNOWN = 4
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> None:
+    """What the commands ask for."""
+    answer = serendipity.plan(serendipity.example("room2"), discount="0.6")
+    (tmp_path / "answer.json").write_text(json.dumps(answer.to_dict()))
+    (tmp_path / "goals.txt").write_text(GOALS)
+    serendipity.generate_usar(tmp_path / "suite" / "test1", preset="room2")
+
+
+@pytest.mark.parametrize("limit", ["--time-limit 0", "--time-limit 0.05", "--memory-limit 1"])
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.usefixtures("files")
+def test_a_limit_ends_a_command_in_good_order(command: str, limit: str, run: Runs) -> None:
+    done = run(f"{command} {limit}")
+    assert done.code in (0, 3, NOTHING_KNOWN), done
+    assert done.err.count("\n") <= 1, done.err
+    assert done.out or done.code == NOTHING_KNOWN
+    if done.out:
+        json.loads(done.out)
+    if done.err:
+        assert done.code == NOTHING_KNOWN
+        assert f"; give more with {limit.split()[0]}" in done.err
+
+
+@pytest.mark.parametrize("option", ["--time-limit", "--memory-limit"])
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.usefixtures("files")
+def test_a_limit_that_is_none_is_told_before_the_work(command: str, option: str, run: Runs) -> None:
+    name = option[2:].replace("-", "_")
+    assert_one_line(run(f"{command} {option} soon"), f"{name}: expected", "'soon'")
+    assert_one_line(run(f"{command} {option}=-1"), f"{name}: expected at least 0")
+
+
+def test_no_time_to_read_is_one_line_and_4(run: Runs) -> None:
+    done = run("plan --example room2 --time-limit 0")
+    assert (done.code, done.out) == (4, "")
+    assert done.err == "The time limit came first, reading the task; give more with --time-limit\n"
+
+
+def test_no_memory_to_read_is_one_line_and_4(run: Runs) -> None:
+    done = run("explain --example room2 --memory-limit 1")
+    assert (done.code, done.out) == (4, "")
+    assert done.err.startswith("Memory is used up, reading the task; give more with --memory-limit")
+    assert done.err.count("\n") == 1
+
+
+def test_memory_that_runs_out_anywhere_is_one_line_and_4(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
+    def devouring(task: Task, **options: Any) -> Iterator[Result]:
+        raise MemoryError
+
+    monkeypatch.setattr(serendipity, "plan_anytime", devouring)
+    done = run("plan --example room2")
+    assert (done.code, done.out, done.err.count("\n")) == (4, "", 1)
+    assert done.err.startswith("Memory is used up")
+
+
+def test_one_deadline_covers_reading_planning_and_checking(
+    run: Runs, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    met: dict[str, float | None] = {}
+
+    def noting(name: str, work: Callable[..., Any]) -> Callable[..., Any]:
+        def noted(*arguments: Any, deadline: Deadline, **more: Any) -> Any:
+            met[name] = deadline.left()
+            return work(*arguments, deadline=deadline, **more)
+
+        return noted
+
+    monkeypatch.setattr(naming.TaskName, "load", lambda name, deadline: _load(name, deadline, met))
+    monkeypatch.setattr(serendipity, "plan_anytime", noting("plan", serendipity.plan_anytime))
+    monkeypatch.setattr(serendipity, "check", noting("check", serendipity.check))
+    assert run("plan --example room2 --discount 0.6 --time-limit 60 --memory-limit 99999").code == 0
+    left = [met[name] for name in ("load", "plan", "check")]
+    assert all(seconds is not None and 0 < seconds <= 60 for seconds in left)
+    assert left[0] > left[2]  # type: ignore[operator]
+
+
+def _load(name: naming.TaskName, deadline: Deadline | None, met: dict[str, float | None]) -> Task:
+    assert deadline is not None
+    met["load"] = deadline.left()
+    return serendipity.example("room2", deadline=deadline)
+
+
+def test_limits_are_among_the_options_of_a_result(run: Runs) -> None:
+    done = run("plan --example room2 --time-limit 60 --memory-limit 99999 --format json")
+    options = json.loads(done.out)["options"]
+    assert (options["time_limit"], options["memory_limit"]) == (60, 99999)
+
+
+@pytest.mark.usefixtures("files")
+def test_rows_that_are_not_proved_are_told(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
+    done = run("reproduce suite --modes serendipity --discounts 0.6 --time-limit 0")
+    assert done.code == NOTHING_KNOWN
+    assert "1 of 1 rows are not proved: a limit came first" in done.out
+    data = json.loads(
+        run("reproduce suite --modes serendipity --discounts 0.6 --time-limit 0 --format json").out
+    )
+    assert (data["complete"], data["rows"][0]["status"]) == (False, "unknown")
+
+
+def test_crosscheck_takes_limits_for_each_answer(run: Runs) -> None:
+    done = run("crosscheck --count 2 --judges search,automata --time-limit 0 --memory-limit 99999")
+    assert (done.code, done.out) == (0, "2 calls, search, automata: 0 disagreements\n")
+
+
+def test_what_was_going_on_is_said_once() -> None:
+    with pytest.raises(LimitReachedError, match=r"^the time limit came first, planning$"), during("reading"):
+        raise LimitReachedError("time-limit", "planning")
+    with pytest.raises(LimitReachedError, match=r"^memory is used up, reading$"), during("reading"):
+        raise MemoryError
+
+
+def test_the_process_ends_with_all_that_was_written(process: Runs) -> None:
+    done = process("plan --example room2 --discount 0.6 --format json")
+    assert (done.code, done.err) == (0, "")
+    assert json.loads(done.out)["cost"] == 12.6
+    assert process("plan --example nowhere").code == 2
