@@ -6,7 +6,11 @@ from search.alone import Alone, Priced, canonical
 from search.encoding import Encoding, Goal
 from search.keys import INFINITE_KEY, Keys
 from search.ops import applicable
+from serendipity.model.deadline import Deadline
 from serendipity.model.task import HumanPlan
+
+_Rest = tuple[int, int, int]
+"""The first step of ``pi_H`` that is left, a packed state, and how many epochs are left."""
 
 
 class Suffix(Protocol):
@@ -67,42 +71,65 @@ class Replan:
 class Subplan:
     """A subsequence of ``pi_H`` in its order, between noops (Def. 2.0, eq. 9)."""
 
-    def __init__(self, encoding: Encoding, plan: HumanPlan, weights: list[int], goals: list[Goal]) -> None:
+    def __init__(
+        self,
+        encoding: Encoding,
+        plan: HumanPlan,
+        weights: list[int],
+        goals: list[Goal],
+        deadline: Deadline,
+    ) -> None:
         self._steps = list(zip((encoding.op(i) for i in plan), weights, strict=True))
         self._goals = goals
-        self._known: dict[tuple[int, int, int], tuple[int, bool]] = {}
+        self._deadline = deadline
+        self._known: dict[_Rest, tuple[int, bool]] = {}
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`Suffix`."""
-        return self._best(0, state, min(epochs, len(self._steps)))[0]
+        return self._best((0, state, min(epochs, len(self._steps))))[0]
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
         """See :class:`Suffix`."""
         chosen = []
         left = min(epochs, len(self._steps))
         for index, (op, _) in enumerate(self._steps):
-            if self._best(index, state, left)[1]:
+            if self._best((index, state, left))[1]:
                 chosen.append(op.action)
                 state = state & op.keep | op.put
                 left -= 1
         return tuple(chosen)
 
-    def _best(self, index: int, state: int, left: int) -> tuple[int, bool]:
-        """Best key from step ``index`` on with ``left`` epochs, and whether it takes the step."""
+    def _best(self, wanted: _Rest) -> tuple[int, bool]:
+        """Best key of a rest, and whether it takes its first step."""
+        known = self._known
+        pending = [wanted]  # plans may be longer than Python's stack is deep
+        while pending:
+            self._deadline.tick()
+            at = pending[-1]
+            missing = [] if at in known else [rest for rest, _ in self._choices(at) if rest not in known]
+            if missing:
+                pending += missing
+            else:
+                known[at] = self._cheapest(pending.pop())
+        return known[wanted]
+
+    def _cheapest(self, at: _Rest) -> tuple[int, bool]:
+        index, state, _ = at
         if index == len(self._steps):
             return (0 if all(goal.holds(state) for goal in self._goals) else INFINITE_KEY), False
-        found = self._known.get((index, state, left))
-        if found is not None:
-            return found
-        skipped = self._best(index + 1, state, left)[0]
-        answer = (skipped, False)
+        keys = [weight + self._known[rest][0] for rest, weight in self._choices(at)]
+        return min(keys), keys[-1] < keys[0]
+
+    def _choices(self, at: _Rest) -> list[tuple[_Rest, int]]:
+        """What is left after a step is skipped, and after it is taken if it can be; its weight."""
+        index, state, left = at
+        if index == len(self._steps):
+            return []
+        choices = [((index + 1, state, left), 0)]
         op, weight = self._steps[index]
         if left and applicable(op, state):
-            taken = weight + self._best(index + 1, state & op.keep | op.put, left - 1)[0]
-            if taken < skipped:
-                answer = (taken, True)
-        self._known[index, state, left] = answer
-        return answer
+            choices.append(((index + 1, state & op.keep | op.put, left - 1), weight))
+        return choices
 
 
 class Preserved:

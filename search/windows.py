@@ -192,5 +192,5 @@ def suffix_rule(tables: Tables, plan: HumanPlan) -> Suffix:
         expected = [sorted(own & state) for state in task.replay_alone(plan)]
         return Preserved(packed, plan, weights, goals, expected)
     if options.suffix == "subplan":
-        return Subplan(packed, plan, weights, goals)
+        return Subplan(packed, plan, weights, goals, tables.deadline)
     return Replan(tables.alone, tables.alone_to_both, packed.robot_goal, tables.keys)

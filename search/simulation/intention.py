@@ -38,7 +38,12 @@ class Intention:
     @cached_property
     def actions(self) -> tuple[int, ...]:
         """Action ids, in order."""
-        return (*self.option.actions, *(self._rest.actions if self._rest else ()))
+        found: list[int] = []
+        at = self
+        while at.op is not None:
+            found += at.option.actions
+            at = at.rest
+        return tuple(found)
 
     def works(self, state: int, goal: Goal) -> bool:
         """Whether it leads from a packed state to the goal, with robots idle."""
@@ -63,13 +68,17 @@ class Intentions:
     def of(self, actions: Iterable[int]) -> Intention:
         """The intention to do these actions, one after another."""
         wanted = tuple(actions)
-        found = self._known.get(wanted)
-        if found is None:
-            rest = self.of(wanted[1:])
-            op = self._encoding.op(wanted[0])
-            weight = self._weights[op.cost]
-            option = Option(weight, op.keep, op.put, (op.action,), op.agents)
-            cost = rest.cost + self._keys.scaled_cost(weight)
-            found = Intention(len(self._known), op, option, rest, rest.weight + weight, cost)
-            self._known[wanted] = found
+        new = 0  # plans may be longer than Python's stack is deep
+        while wanted[new:] not in self._known:
+            new += 1
+        found = self._known[wanted[new:]]
+        for first in reversed(range(new)):
+            found = self._known[wanted[first:]] = self._before(wanted[first], found)
         return found
+
+    def _before(self, action: int, rest: Intention) -> Intention:
+        op = self._encoding.op(action)
+        weight = self._weights[op.cost]
+        option = Option(weight, op.keep, op.put, (op.action,), op.agents)
+        cost = rest.cost + self._keys.scaled_cost(weight)
+        return Intention(len(self._known), op, option, rest, rest.weight + weight, cost)
