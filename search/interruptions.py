@@ -96,17 +96,18 @@ def _examined(
     tables: Tables, plan: HumanPlan, horizon: int, on_progress: Callable[[int, int], None] | None
 ) -> Iterator[WindowOutcome]:
     """What is possible in each window, those first that say most of the others."""
-    windows = _ordered(len(plan), horizon)
-    if not windows:
+    if not plan:
         return
     tables = tables.for_plan(plan)
     idling = _idle_key(tables, plan)
-    count = _Count(2 * len(windows), on_progress)
+    windows = len(plan) * (horizon + 1) - len(plan) * (len(plan) + 1) // 2
+    count = _Count(2 * windows, on_progress)
     human, team = (
         _Objective(tables, Weighed(tables, plan, horizon, weight, robots, idling), idling, count)
         for weight, robots in (_human_first(tables), (tables.weights.team, tables.weights.robots))
     )
-    for window in windows:
+    for window in _ordered(len(plan), horizon):
+        tables.deadline.check()  # where neither objective has anything left to search
         yield _outcome(tables, plan, window, human.best(window), team.best(window))
 
 
@@ -141,21 +142,20 @@ def _outcome(
     return WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 
-def _ordered(starts: int, horizon: int) -> list[Window]:
+def _ordered(starts: int, horizon: int) -> Iterator[Window]:
     """All windows: first those that reach to either end, each of which bounds a row or a column of the rest.
 
     Args:
-        starts: length of ``pi_H``: a window begins no later.
+        starts: length of ``pi_H``, at least 1: a window begins no later.
         horizon: ``T``.
     """
-    if not starts:
-        return []
     last = horizon + 1
-    late = [Window(start, last) for start in (1, *range(starts, 1, -1))]
-    early = [Window(1, end) for end in range(2, last)]
-    rest = [Window(start, end) for start in range(1, starts + 1) for end in range(start + 1, last + 1)]
-    rest.sort(key=lambda window: (len(window), window))
-    return list(dict.fromkeys((*late, *early, *rest)))
+    yield Window(1, last)
+    yield from (Window(start, last) for start in range(starts, 1, -1))
+    yield from (Window(1, end) for end in range(2, last))
+    for length in range(1, horizon):
+        for start in range(2, min(starts, last - length - 1) + 1):
+            yield Window(start, start + length)
 
 
 class _Count:

@@ -180,10 +180,11 @@ def _alone_impossible(task: Task, options: Options) -> InterruptionReport:
 def _reported(task: Task, options: Options, found: Interruptions) -> InterruptionReport:
     """The windows examined before a limit comes, each put into words at once: that takes time, too."""
     windows: dict[Window, Interruption] = {}
+    alone = task.cost_of(found.human_plan)
     limit = None
     try:
         for outcome in found.windows:
-            windows[outcome.window] = _interruption(task, options, found, outcome)
+            windows[outcome.window] = _interruption(task, options, found, alone, outcome)
     except LIMITS as error:
         limit = limit_reason(error)
     helps = any(w.human_saving is not None and w.human_saving > 0 for w in windows.values())
@@ -193,7 +194,7 @@ def _reported(task: Task, options: Options, found: Interruptions) -> Interruptio
     return InterruptionReport(
         human=task.agents[task.human],
         human_plan=tuple(task.actions[i].name for i in found.human_plan),
-        human_cost=task.cost_of(found.human_plan),
+        human_cost=alone,
         team_cost=found.baseline,
         horizon=found.horizon,
         interruptible=helps if known else None,
@@ -203,13 +204,15 @@ def _reported(task: Task, options: Options, found: Interruptions) -> Interruptio
     )
 
 
-def _interruption(task: Task, options: Options, found: Interruptions, outcome: WindowOutcome) -> Interruption:
+def _interruption(
+    task: Task, options: Options, found: Interruptions, alone: Fraction, outcome: WindowOutcome
+) -> Interruption:
     steps = outcome.steps
     return Interruption(
         window=outcome.window,
         human_cost=outcome.human_cost,
         team_cost=outcome.team_cost,
-        human_saving=_less(task.cost_of(found.human_plan), outcome.human_cost),
+        human_saving=_less(alone, outcome.human_cost),
         team_saving=_less(found.baseline, outcome.team_cost),
         removal=None if steps is None else _removal(task, found.human_plan, steps),
         plan=None if steps is None else tuple(_named(task, options, step) for step in steps),
