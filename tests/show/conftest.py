@@ -12,8 +12,9 @@ from tests import cases
 
 def ground(task: Task) -> Task:
     """The same task as ground files write it: one word for each fact and action."""
-    actions = tuple(replace(action, name=action.name.replace(" ", "_")) for action in task.actions)
-    return replace(task, facts=tuple(f.replace(" ", "_") for f in task.facts), actions=actions)
+    actions = (replace(action, name=action.name.replace(" ", "_")) for action in task.actions)
+    ordered = tuple(sorted(actions, key=lambda action: action.key))
+    return replace(task, facts=tuple(f.replace(" ", "_") for f in task.facts), actions=ordered)
 
 
 @pytest.fixture(scope="session")
