@@ -43,7 +43,7 @@ class Walks:
 
     Args:
         encoding: the packed task.
-        deadline: asked for time.
+        deadline: asked for time while they are found.
 
     Attributes:
         fields: per slot the place of a robot.
@@ -63,7 +63,9 @@ class Walks:
         self._from: dict[tuple[int, int], dict[int, tuple[int, int, int]]] = {}
         self.joint = DeedIndex((), encoding)
         self.led: list[DeedIndex] = []
-        self.foldable = all(self.fields) and self._fold(deadline)
+        # What only robots together move is the place of each of them, and of none alone.
+        apart = all(self.fields) and len({*self.fields}) == len(self.fields)
+        self.foldable = apart and self._fold(deadline)
 
     def _fold(self, deadline: Deadline) -> bool:
         packed = self._encoding

@@ -8,6 +8,7 @@ import serendipity
 from search.encoding import encoding
 from search.tables import Tables
 from search.walks import Walks
+from serendipity.model import Window
 from serendipity.model.deadline import Deadline
 from tests import builders
 
@@ -64,6 +65,16 @@ def test_walks_are_left_out_only_where_nobody_else_minds(buildings):
     assert not _foldable(builders.task(**base, actions=walk | deed | {"open r b": "-> open"}))
     # Ways of different cost: the dear one might be the shorter one.
     assert not _foldable(builders.task(**base, actions=walk | deed | {"go r b a": "at-b -> at-a !at-b @ 2"}))
+
+
+def test_what_robots_only_move_together_is_nobodys_place():
+    """It was each robot's place: planning ended in a ValueError."""
+    push = {f"push r q {a} {b}": f"at-{a} -> at-{b} !at-{a}" for a, b in ("ab", "bc", "cb", "ba")}
+    deeds = {"dig r": "-> dug", "open r q c": "at-c dug -> open", "do h": "open -> met @ 2", "do2 h": "-> met @ 9"}
+    task = builders.task(agents="h r q", init="at-a", goal="met", actions=push | deeds)
+    assert not _foldable(task)
+    answer = serendipity.plan(task, horizon=5, window_weight=0, discount="0.9")
+    assert (answer.cost, answer.window) == (2.4, Window(1, 5))
 
 
 def test_what_else_a_move_changes_makes_it_a_deed():
