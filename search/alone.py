@@ -117,6 +117,7 @@ class Alone:
         deadline: Deadline,
         memory: Memory | None = None,
     ) -> None:
+        self._actions = encoding.task.actions
         self._goal = goal
         self._bound = bound
         self._deadline = deadline
@@ -226,9 +227,16 @@ class Alone:
             self._known[start] = INFINITE_KEY
             return None
         edges = _edges_into(goals, expanded, distance, self._deadline)
+        for state, onward in edges.items():
+            edges[state] = self._one_a_name(onward)
         for state in (*edges, *goals):
             self._known[state] = optimum - distance[state]
         return PlanGraph(start, edges, len(expanded), sum(map(len, expanded.values())))
+
+    def _one_a_name(self, steps: list[tuple[int, int]]) -> list[tuple[int, int]]:
+        """The first step of each name: variants of one action make no different plan (SPEC 1)."""
+        names = [self._actions[action].name for action, _ in steps]
+        return [step for step, name, last in zip(steps, names, ["", *names], strict=False) if name != last]
 
 
 class Priced:

@@ -140,14 +140,16 @@ class Weights:
         self._announced = scaled.announced
         self._per_cost = scaled.per_cost
         self._human_bit = packed.human_bit
-        self._planned = frozenset(plan or ())
+        self._actions = packed.task.actions
+        # By name: who does what they planned did not change their mind, whichever of its variants it is.
+        self._planned = packed.task.names(plan or ()) if announces else frozenset()
 
     def team(self, op: Op) -> int:
         """Increment of an op inside a composite plan, communication included."""
         if not op.agents & self._human_bit:
             return self.robots[op.cost]
         weight = self.human[op.cost]
-        if self.announces and op.action not in self._planned:
+        if self.announces and not self._is_planned(op):
             weight += self._announced[op.cost] << self.keys.objective_shift
         return weight
 
@@ -166,9 +168,12 @@ class Weights:
     def alone(self, op: Op) -> int:
         """Increment of an op for the human's own preferences; communication ranks last."""
         weight = self.human[op.cost]
-        if self.announces and op.action not in self._planned:
+        if self.announces and not self._is_planned(op):
             weight += self._announced[op.cost]
         return weight
+
+    def _is_planned(self, op: Op) -> bool:
+        return self._actions[op.action].name in self._planned
 
 
 @dataclass(frozen=True, slots=True)

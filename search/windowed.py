@@ -17,7 +17,7 @@ from search.ops import Op, applicable
 from search.projection import Projection
 from search.successors import NOTHING, Idle, Option, Successors, in_time
 from search.suffix import Suffix
-from serendipity.model.task import HumanPlan
+from serendipity.model.task import HumanPlan, Task
 
 PREFIX, WINDOW, TOUCHED = 0, 1, 2
 """Phases: before the window; in it, before and after the first touch of the human in it."""
@@ -100,16 +100,23 @@ class AnyOfPlan(Unscheduled):
     """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (SPEC 3.4)."""
 
     def __init__(
-        self, successors: Successors, plan: HumanPlan, bound: Projection, keys: Keys, horizon: int
+        self,
+        successors: Successors,
+        task: Task,
+        plan: HumanPlan,
+        bound: Projection,
+        keys: Keys,
+        horizon: int,
     ) -> None:
         super().__init__(len(plan), bound, keys, horizon)
         self._successors = successors
-        self._planned = frozenset(plan)
+        self._actions = task.actions
+        self._planned = task.names(plan)
 
     def options(self, epoch: int, state: int) -> Iterable[Option]:
         """See :class:`Prefix`."""
-        own = (o for o in self._successors.human(state) if o.actions[0] in self._planned)
-        return (NOTHING, *own)
+        own = self._successors.human(state)
+        return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
 
 
 class Windowed:

@@ -35,7 +35,7 @@ def window_space(
     prefix: Prefix
     if options.keep_prefix:
         untouched: Timed = no_bound
-        prefix = AnyOfPlan(successors, plan, tables.bound, tables.keys, horizon)
+        prefix = AnyOfPlan(successors, tables.task, plan, tables.bound, tables.keys, horizon)
     else:
         keys = tables.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]

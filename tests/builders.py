@@ -31,19 +31,19 @@ def task(
         robot_goal: literals of ``G_R``.
         actions: by name, e.g. ``{"do h": "p !q -> r !p @ 3"}``: precondition literals,
             ``->``, effect literals, ``@`` and the cost (1 without one).  Participants are
-            the agents among the words of the name.
+            the agents among the words of the name.  ``|`` stands between variants of one action.
 
     Facts are all words that occur, in alphabetical order.
     """
     roster = tuple(agents.split())
-    specs = {key: _parse_action(text) for key, text in actions.items()}
+    specs = [(key, *_parse_action(text)) for key, texts in actions.items() for text in texts.split("|")]
     words: set[str] = set(init.split()) | _atoms(goal) | _atoms(robot_goal)
-    for pre, effects, _ in specs.values():
+    for _, pre, effects, _ in specs:
         words |= _atoms(pre) | _atoms(effects)
     facts = tuple(sorted(words))
     ids = {fact: i for i, fact in enumerate(facts)}
     ground = []
-    for key, (pre, effects, cost) in specs.items():
+    for key, pre, effects, cost in specs:
         participants = tuple(i for i, agent in enumerate(roster) if agent in key.split())
         ground.append(_action(key, participants, _condition(pre, ids), _condition(effects, ids), cost))
     return Task(

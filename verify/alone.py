@@ -42,16 +42,23 @@ class OptimalPlans:
             yield from self._continue((), self._task.init)
 
     def steps(self, state: State) -> Iterator[tuple[int, State]]:
-        """Actions that start an optimal plan from ``state``, in string order, with their results."""
+        """Actions that start an optimal plan from ``state``, in string order, with their results.
+
+        Of several with one name, which are variants of one action, the first.
+        """
         worth = self.worth(state)
         if worth is None or worth[1] == 0:
             return
         cost, length = worth
+        last = None
         for i in self.deadline.each(self._task.human_actions):
             action = self._task.actions[i]
+            if action.name == last:
+                continue
             if action.cost <= cost and applicable(action, state):
                 after = state.difference(action.delete).union(action.add)
                 if self.worth(after) == (cost - action.cost, length - 1):
+                    last = action.name
                     yield i, after
 
     def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:

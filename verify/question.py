@@ -89,11 +89,6 @@ class Question:
         """The same with tighter limits on objective and cost (eq. 11)."""
         return replace(self, most=_least(self.most, most), most_cost=_least(self.most_cost, most_cost))
 
-    @property
-    def keeps_pi_h(self) -> bool:
-        """Whether the prefix is ``pi_H`` epoch by epoch, not the second (7b)."""
-        return not self.options.keep_prefix
-
     def allowed(self) -> list[int]:
         """Ids of the actions that may occur at all."""
         if self.rule == ALONE or not self.robots:
@@ -108,6 +103,15 @@ class Question:
         return cost + talk + (self.prices.epoch * len(window) if window else 0), cost
 
 
+def in_plan(task: Task, human_plan: HumanPlan) -> frozenset[int]:
+    """The actions that are in ``pi_H``: all that share a name with one of its steps.
+
+    They are variants of one PDDL action, whose conditions are disjunctive or whose effects are conditional.
+    """
+    names = {task.actions[i].name for i in human_plan}
+    return frozenset(i for i, action in enumerate(task.actions) if action.name in names)
+
+
 def _least(a: int | None, b: int | None) -> int | None:
     return b if a is None else a if b is None else min(a, b)
 
@@ -120,7 +124,7 @@ def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadli
     Raises:
         LimitReachedError: the deadline came first.
     """
-    deadline, planned = deadline or Deadline(), set(human_plan)
+    deadline, planned = deadline or Deadline(), in_plan(task, human_plan)
     weight = options.communication_weight if options.mode == "communication" else Fraction(0)
     epoch = options.window_weight if options.windowed else Fraction(0)
     kinds: list[tuple[int, bool, bool]] = []  # few different ones: rationals are slow

@@ -181,6 +181,10 @@ class Task:
         self._require_goal(state, tuple(plan))
         return tuple(plan)
 
+    def names(self, plan: HumanPlan) -> frozenset[str]:
+        """What a plan consists of, by name: actions of one name are variants of one (see the class)."""
+        return frozenset(self.actions[i].name for i in plan)
+
     def cost_of(self, plan: HumanPlan) -> Fraction:
         """Sum of the undiscounted costs of a human plan."""
         costs = [self.actions[i].cost for i in plan]

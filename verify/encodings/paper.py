@@ -9,7 +9,7 @@ from typing import Final
 
 from serendipity.model import Step, Window
 from verify.encodings.automata.control import expected_states
-from verify.question import EXACT, WINDOW, Question
+from verify.question import EXACT, WINDOW, Question, in_plan
 from verify.solver import BYTES_A_TERM, Model
 from verify.undecided import during
 
@@ -193,10 +193,10 @@ class PaperEncoding:
 
     def second_equation_7b(self) -> None:
         """Before xi1 he does actions of ``pi_H`` only, or waits."""
-        planned = set(self.question.human_plan)
+        planned = in_plan(self.task, self.question.human_plan)
         for t in self.epochs:
             for a in self.his:
-                if a not in planned:
+                if a not in planned or self.task.actions[a].joint:
                     self.model.add("(7b)", {self.x[a, t]: 1, **self._later_begin(t, 1)}, "<=", 1)
 
     def equation_8(self) -> None:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from serendipity.model import PlanError, Result, Task
 from verify.rules.alone import Alone
 from verify.rules.replay import Replay, replay, replay_human
+from verify.undecided import UNDECIDED
 
 
 class Found(NamedTuple):
@@ -54,6 +55,15 @@ class Case:
             return None
         return sum((self.task.actions[i].cost for i in self.human_plan), Fraction(0))
 
+    @property
+    def improvable(self) -> bool:
+        """Whether it is certain that ``pi_H`` costs more than an optimal plan of his."""
+        try:
+            optimum = self.alone.optimum(self.task.init)
+        except UNDECIDED:
+            return False  # left to the integer program
+        return self.human_cost is not None and optimum is not None and optimum[0] < self.human_cost
+
     @cached_property
     def replay(self) -> Replay:
         """The reported plan, executed."""
@@ -80,8 +90,7 @@ class Case:
         """Communication cost (Def. 3.2), the weight included."""
         if self.result.mode != "communication":
             return Fraction(0)
-        planned = set(self.pi_h)
-        off_plan = (self.task.actions[i].cost for _, i in self.steps() if self.his(i) and i not in planned)
+        off_plan = (self.task.actions[i].cost for _, i in self.steps() if self.his(i) and not self.planned(i))
         return self.result.options.communication_weight * sum(off_plan, Fraction(0))
 
     def steps(self) -> Iterator[tuple[int, int]]:
@@ -102,6 +111,10 @@ class Case:
     def own(self, action: int) -> bool:
         """Whether it is the human's alone."""
         return self.task.actions[action].participants == (self.task.human,)
+
+    def planned(self, action: int) -> bool:
+        """Whether it is in ``pi_H``, by its name: variants of one PDDL action are the same action."""
+        return any(self.name(action) == self.name(i) for i in self.pi_h)
 
     def name(self, action: int) -> str:
         """An action's name."""

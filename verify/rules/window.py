@@ -59,9 +59,8 @@ def prefix(case: Case) -> Found | None:
         return None
     if not case.result.options.keep_prefix:
         return _follows(case, last=window.start - 1)
-    planned = set(case.pi_h)
     for epoch, i in _between(case, 1, window.start):
-        if case.own(i) and i not in planned:
+        if case.own(i) and not case.planned(i):
             return Found("before the window the human does actions of pi_H only", epoch, case.name(i))
     return None
 

@@ -7,7 +7,7 @@ the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (SPEC 3.1), or ``fr
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verify.question import ALONE, EXACT, FREE, Question
+from verify.question import ALONE, EXACT, FREE, Question, in_plan
 
 Control = tuple[str, int, int]
 
@@ -49,6 +49,8 @@ class HumanControl:
         self.counted = longest is not None and longest < question.horizon
         self.longest = longest if self.counted else question.horizon
         self.start: Control = (PREFIX, 0, 0) if question.rule != FREE else (ANY, 0, 0)
+        own = in_plan(question.task, self.plan).intersection(question.task.human_actions)
+        self.any_of_plan = tuple(sorted(own))
 
     def legs(self, control: Control, epoch: int) -> Iterator[Leg]:
         """The ways to spend ``epoch`` after control state ``control``."""
@@ -91,7 +93,7 @@ class HumanControl:
         """Eq. (7b) at its own epoch; with the paper's second (7b) any action of the plan."""
         here: Control = (PREFIX, 0, 0)
         if self.question.rule != EXACT and self.question.options.keep_prefix:
-            return Leg(here, tuple(sorted(set(self.plan))))
+            return Leg(here, self.any_of_plan)
         if epoch <= len(self.plan):
             return Leg(here, (self.plan[epoch - 1],), wait=False)
         return Leg(here, ())
