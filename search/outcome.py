@@ -23,7 +23,7 @@ class Outcome:
         objective: cost, window and communication.
         lower_bound: no answer has a smaller objective.
         baseline: cost of doing nothing for the human, or None if that is impossible.
-        saving_alone: cost(pi_H) - cost of the answer with robots idle.
+        saving_alone: cost(pi_H) - cost of the answer with robots idle; None while that is not known.
         opportunity: the answer is cheaper than doing nothing, thanks to a robot.
         expanded: nodes expanded.
         generated: nodes generated.
@@ -39,10 +39,17 @@ class Outcome:
     objective: Fraction | None = None
     lower_bound: Fraction | None = None
     baseline: Fraction | None = None
-    saving_alone: Fraction = Fraction(0)
+    saving_alone: Fraction | None = None
     opportunity: bool = False
     expanded: int = 0
     generated: int = 0
+
+    @property
+    def saving(self) -> Fraction | None:
+        """What an opportunity costs less than the baseline, else 0; None without a baseline."""
+        if self.baseline is None or self.cost is None:
+            return None
+        return self.baseline - self.cost if self.opportunity else Fraction(0)
 
 
 def plan_steps(plan: HumanPlan, first_epoch: int = 1) -> tuple[Step, ...]:

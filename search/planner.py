@@ -135,7 +135,7 @@ def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
         if options.mode == "composite":
             return INFINITE
         raise UsageError("horizon: must be given, since the human has no plan alone")
-    if not plan and task.robot_goal:
+    if not plan and not task.robot_goal.holds(task.init):
         raise UsageError(
             "horizon: must be given, since the human's goal holds already and robots have theirs"
         )
@@ -145,8 +145,9 @@ def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
 class _Call:
     """One planning call: its incumbents and its bound.
 
-    ``baseline`` leaves the human alone; ``idle`` is the best with all robots idle;
-    ``best`` is the incumbent over everything.
+    ``baseline`` leaves the human alone; ``idle`` is the best with all robots idle, or with a goal
+    of theirs the baseline; ``unaided`` is the best in which no robot acts, where an opportunity has
+    to beat that, too; ``best`` is the incumbent over everything.
     """
 
     def __init__(self, tables: Tables, plan: HumanPlan | None, *, given: bool) -> None:
@@ -162,7 +163,11 @@ class _Call:
         self.progress = Progress()
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)
+        self.unaided = Incumbent(INFINITE_KEY)
         self.best = Incumbent(INFINITE_KEY)
+        self.settled = not given
+        """Whether it is known what the human gains by himself."""
+        self.improvable = False
         self.limit: str | None = None
 
     def answers(self) -> Iterator[Outcome]:
@@ -180,8 +185,14 @@ class _Call:
             status = "optimal" if self._answer().key < INFINITE_KEY else "infeasible"
         except LIMITS as limit:
             self.limit = limit_reason(limit)
-            status = "feasible" if self._answer().key < INFINITE_KEY else "unknown"
+            status = self._unfinished()
         yield self._outcome(status)
+
+    def _unfinished(self) -> str:
+        """The status where a limit came first; an infinite bound is a proof all the same."""
+        if self._answer().key < INFINITE_KEY:
+            return "feasible"
+        return "unknown" if self.progress.bound < INFINITE_KEY else "infeasible"
 
     def leave_alone(self) -> None:
         """The first incumbent: the human follows ``pi_H``; robots, without him, see to ``G_R``."""
@@ -223,13 +234,19 @@ class _Call:
 
     def _improve_alone(self) -> None:
         """A given plan may not be optimal: what the human gains by himself (SPEC 1)."""
-        if not self.given or self.plan is None or self.task.robot_goal:
+        if not self.given or self.plan is None:
             return
         optimum = self.tables.alone.key(self.tables.encoding.init)
-        if self.task.cost_of(self.plan) > self.keys.cost(optimum):
+        self.improvable = self.task.cost_of(self.plan) > self.keys.cost(optimum)
+        if self.improvable:
+            known = self.best.key
             for _ in best_first(self._space(idle=True), self.best, Progress(), self.deadline):
                 pass
-            self.idle = replace(self.best)
+            if not self.task.robot_goal:
+                self.idle = replace(self.best)
+            elif self.best.key < known:
+                self.unaided = replace(self.best)
+        self.settled = True
 
     def _space(self, *, idle: bool = False) -> Space:
         if self.options.windowed:
@@ -258,9 +275,14 @@ class _Call:
 
     def _helps(self) -> bool:
         """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""
-        if self.best.key == INFINITE_KEY or self.plan is None:
+        if self.best.key == INFINITE_KEY or self.plan is None or not self.settled:
+            return False
+        if self.unaided.key < INFINITE_KEY and self._score(self.best) >= self._score(self.unaided):
             return False
         return self.idle.key == INFINITE_KEY or self.keys.cost(self.best.key) < self.keys.cost(self.idle.key)
+
+    def _score(self, answer: Incumbent) -> tuple[Fraction, Fraction]:
+        return self.keys.objective(answer.key), self.keys.cost(answer.key)
 
     def _answer(self) -> Incumbent:
         """What is answered: with windows the baseline, where there is no opportunity."""
@@ -270,8 +292,8 @@ class _Call:
         helps = self._helps()
         answer = self._answer()
         has_plan = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
-        saving_alone = Fraction(0)
-        if self.baseline.key < INFINITE_KEY:
+        saving_alone = None
+        if self.baseline.key < INFINITE_KEY and self.settled:
             saving_alone = self.keys.cost(self.baseline.key) - self.keys.cost(self.idle.key)
         return Outcome(
             status,
@@ -304,6 +326,9 @@ class _Call:
         bound = self.keys.objective(min(self.progress.bound, self.best.key))
         if self.options.windowed and not answer.end:
             bound -= self.options.window_weight
+        if self.options.windowed and (self.task.robot_goal or self.improvable):
+            # A better plan may yet be no opportunity; then the answer is the baseline, without any K.
+            bound = min(bound, self.keys.objective(self.baseline.key))
         if answer.key < INFINITE_KEY:
             bound = min(bound, self.keys.objective(answer.key))
         return max(bound, Fraction(0))

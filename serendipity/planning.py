@@ -22,7 +22,7 @@ from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
 from serendipity.model.visibility import Visible
 from serendipity.simulation import realised
-from serendipity.ties import combined, until_settled
+from serendipity.ties import Answered, combined, until_settled
 
 if TYPE_CHECKING:
     from serendipity.goals import GoalsGiven, ObservedGiven
@@ -130,11 +130,11 @@ class _Call:
             self.task, self.options, human_plan=human_plan, visible=self.visible, deadline=self.deadline
         )
 
-    def last(self, human_plan: HumanPlan | None) -> Result:
+    def last(self, human_plan: HumanPlan | None) -> Answered:
         gap = Gap(self.deadline)
         for outcome in news(self.outcomes(human_plan)):
             gap.record(outcome)
-        return _to_result(self, outcome, gap.known())
+        return Answered(outcome, _to_result(self, outcome, gap.known()))
 
 
 def _answers(
@@ -200,7 +200,7 @@ def _over_ties(call: _Call) -> Result:
     except LIMITS as limit:
         return _to_result(call, Outcome("unknown", reason=limit_reason(limit)))
     if graph is None:
-        return call.last(None)
+        return call.last(None).result
     count = graph.count()
     if count > options.max_ties:
         raise UsageError(
@@ -212,7 +212,7 @@ def _over_ties(call: _Call) -> Result:
             map(call.last, graph.plans()),
             options.ties,
             bounded=not call.task.robot_goal,
-            least=lambda: _float(least_over_ties(call.task, options, graph, call.deadline)),
+            least=lambda: least_over_ties(call.task, options, graph, call.deadline),
         )
     )
     result = combined(answers, options.ties, everyone=len(answers) == count)
@@ -235,13 +235,13 @@ def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | No
         human_cost=None if human_plan is None else float(task.cost_of(human_plan)),
         opportunity=outcome.opportunity,
         cost=_float(outcome.cost),
-        saving=_float(_saving(outcome)),
+        saving=_float(outcome.saving),
         objective=_float(outcome.objective),
         lower_bound=_float(outcome.lower_bound),
         horizon=outcome.horizon,
         window=outcome.window,
         reason=outcome.reason,
-        saving_alone=None if outcome.baseline is None or steps is None else float(outcome.saving_alone),
+        saving_alone=None if steps is None else _float(outcome.saving_alone),
         plan=steps,
         agent_costs={} if outcome.steps is None else _agent_costs(task, prices, outcome.steps),
         realised=_realised(call, outcome),
@@ -271,12 +271,6 @@ def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
         visible=call.visible,
         deadline=call.limits.sooner(-_VERDICT_SHARE),
     )
-
-
-def _saving(outcome: Outcome) -> Fraction | None:
-    if outcome.baseline is None or outcome.cost is None:
-        return None
-    return outcome.baseline - outcome.cost if outcome.opportunity else Fraction(0)
 
 
 def _float(value: Fraction | None) -> float | None:

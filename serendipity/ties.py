@@ -1,19 +1,30 @@
-"""One answer from the answers for each of the human's optimal plans (SPEC 1)."""
+"""One answer from the answers for each of the human's optimal plans (SPEC 1).
+
+Figures are compared and added up as the search found them, exactly; only the result has floats.
+"""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from typing import Final
+from typing import Final, NamedTuple
 
+from search import Outcome
 from serendipity.model.result import Result
 
 _A_FEW: Final = 4
 """Answers after which a bound on all of them costs less than it may save."""
 
 
+class Answered(NamedTuple):
+    """The answer to one of the human's plans, as the search and as callers see it."""
+
+    outcome: Outcome
+    result: Result
+
+
 def until_settled(
-    answers: Iterable[Result], ties: str, *, bounded: bool, least: Callable[[], float | None]
-) -> Iterator[Result]:
+    answers: Iterable[Answered], ties: str, *, bounded: bool, least: Callable[[], Fraction | None]
+) -> Iterator[Answered]:
     """The answers one by one, until the rest can't make a difference, or a limit has come.
 
     Args:
@@ -23,75 +34,87 @@ def until_settled(
         least: a lower bound on the cost of all answers, None where it is not known; asked for
             once, after a few of them.
     """
-    floor: float | None = None
+    floor: Fraction | None = None
     for number, answer in enumerate(answers, start=1):
         yield answer
-        dearest = answer.cost == answer.human_cost
-        late = answer.status in ("feasible", "unknown")
+        found = answer.outcome
+        dearest = found.cost is not None and found.cost == found.baseline
         # What the rest may cost at most has to be among the answers where the greatest cost counts.
-        if late and (ties != "robust" or answer.cost is None or (bounded and dearest)):
+        if _is_late(answer) and (ties != "robust" or found.cost is None or (bounded and dearest)):
             return
-        if not bounded or answer.status != "optimal":
+        if not bounded or found.status != "optimal":
             continue
         if number == _A_FEW and ties != "robust":
             floor = least()
-        cheapest = answer.cost == floor
+        cheapest = found.cost == floor
         if {"robust": dearest, "optimistic": cheapest, "expected": dearest and cheapest}[ties]:
             return
 
 
-def combined(answers: list[Result], ties: str, *, everyone: bool = True) -> Result:
+def combined(answers: list[Answered], ties: str, *, everyone: bool = True) -> Result:
     """The answer under ``ties``; ``statistics["ties"]`` has those that it was made of.
 
+    Where one of them has no plan, neither has the whole, unless that is for want of time and
+    the least cost is wanted.
+
     Args:
-        answers: at least one.
+        answers: at least one, as :func:`until_settled` gives them.
         ties: ``robust``, ``optimistic`` or ``expected``.
         everyone: whether there is an answer for each optimal plan.
     """
-    chosen = _mean(answers) if ties == "expected" else _extreme(answers, ties, everyone=everyone)
     listed = [
         {
-            "human_plan": list(answer.human_plan or ()),
-            "cost": answer.cost,
-            "opportunity": answer.opportunity,
-            "realised": answer.realised,
+            "human_plan": list(result.human_plan or ()),
+            "cost": result.cost,
+            "opportunity": result.opportunity,
+            "realised": result.realised,
         }
-        for answer in answers
+        for _, result in answers
     ]
+    chosen = _chosen(answers, ties, everyone=everyone)
     return replace(chosen, statistics={**chosen.statistics, "ties": listed})
 
 
-def _extreme(answers: list[Result], ties: str, *, everyone: bool) -> Result:
+def _chosen(answers: list[Answered], ties: str, *, everyone: bool) -> Result:
+    without = [answer.result for answer in answers if answer.outcome.cost is None]
+    impossible = next((result for result in without if result.status == "infeasible"), None)
+    if impossible is not None:
+        return impossible
+    planned = [answer for answer in answers if answer.outcome.cost is not None]
+    if without and (ties != "optimistic" or not planned):
+        return without[0]
+    # What is not proved may yet cost less, or more: a smaller window may be worth it.
+    late = any(map(_is_late, answers))
+    bounds = [answer.outcome.lower_bound or Fraction(0) for answer in answers]
+    if ties != "expected":
+        chosen = _extreme(planned, ties)
+        lower_bound = min(bounds) if everyone else Fraction(0)
+    elif everyone or not late:
+        chosen = _mean([answer.outcome for answer in answers], answers[0].result)
+        lower_bound = sum(bounds, Fraction(0)) / len(bounds)
+    else:  # a mean of some of them is none
+        chosen, lower_bound = answers[-1].result, Fraction(0)
+    return replace(chosen, status="feasible", lower_bound=float(lower_bound)) if late else chosen
+
+
+def _extreme(answers: list[Answered], ties: str) -> Result:
     """The answer of least (optimistic) or greatest (robust) cost; the first of equals."""
-    late = any(answer.status in ("feasible", "unknown") for answer in answers)
-    if ties == "optimistic":  # where an answer is missing, the least cost is that of the others or less
-        answers = [answer for answer in answers if answer.status != "unknown"] or answers
-    sign = 1 if ties == "optimistic" else -1
-    costs = [None if answer.cost is None else Fraction(str(answer.cost)) * sign for answer in answers]
-    if None in costs:
-        return answers[costs.index(None)]
-    chosen = answers[min(range(len(answers)), key=lambda i: (costs[i], i))]
-    if ties == "robust" or not late:
-        return chosen
-    # An answer that is not proved, or is missing, may yet turn out to cost less than the least.
-    bounds = [answer.lower_bound for answer in answers if answer.lower_bound is not None]
-    return replace(chosen, status="feasible", lower_bound=min(bounds) if everyone else 0.0)
+    extreme = min if ties == "optimistic" else max
+    return extreme(answers, key=lambda answer: answer.outcome.cost or Fraction(0)).result
 
 
-def _mean(answers: list[Result]) -> Result:
+def _mean(outcomes: list[Outcome], first: Result) -> Result:
     """The expected answer: means of the figures, no single plan."""
-    first = answers[0]
-    if any(answer.status != "optimal" for answer in answers):
-        return next(answer for answer in answers if answer.status != "optimal")
-    if len(answers) == 1:
+    if len(outcomes) == 1:
         return first
 
     def mean(name: str) -> float:
-        return float(sum(Fraction(str(getattr(answer, name) or 0)) for answer in answers) / len(answers))
+        figures = [getattr(outcome, name) or Fraction(0) for outcome in outcomes]
+        return float(sum(figures, Fraction(0)) / len(figures))
 
     return replace(
         first,
-        opportunity=any(answer.opportunity for answer in answers),
+        opportunity=any(outcome.opportunity for outcome in outcomes),
         cost=mean("cost"),
         saving=mean("saving"),
         objective=mean("objective"),
@@ -101,3 +124,8 @@ def _mean(answers: list[Result]) -> Result:
         agent_costs={},
         realised={},
     )
+
+
+def _is_late(answer: Answered) -> bool:
+    """Whether a limit came before it was proved."""
+    return answer.outcome.status in ("feasible", "unknown")

@@ -2,46 +2,64 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from fractions import Fraction
 from time import process_time
 
 import pytest
 from hypothesis import given
 
 import serendipity
-from search import least_over_ties, optimal_human_plans, solve
+from search import Outcome, least_over_ties, optimal_human_plans, solve
 from serendipity import UsageError
 from serendipity.model import Condition, Options, Result, Task, Window
 from serendipity.model.deadline import Deadline
-from serendipity.ties import combined, until_settled
+from serendipity.ties import Answered, combined, until_settled
 from tests.builders import task as build
 from tests.builders import usar
 from tests.cases import case_4
 from tests.strategies import Call, calls
 
 
-def _answers(*costs: float) -> Iterator[Result]:
-    """Proved answers to calls in which ``pi_H`` costs 8."""
+def _answered(
+    status: str, cost: float | str | None = None, bound: float | str | None = None, window: int = 0
+) -> Answered:
+    """An answer to a call in which ``pi_H`` costs 8; ``window`` is what its window adds to the objective."""
+    if cost is None:
+        return Answered(Outcome(status), Result("serendipity", status, "h", Options()))
+    exact = Fraction(cost)
+    outcome = Outcome(
+        status,
+        cost=exact,
+        objective=exact + window,
+        lower_bound=exact + window if bound is None else Fraction(bound),
+        baseline=Fraction(8),
+        opportunity=exact < 8,
+    )
+    result = Result(
+        "serendipity",
+        status,
+        "h",
+        Options(),
+        cost=float(exact),
+        objective=float(exact + window),
+        lower_bound=float(outcome.lower_bound or 0),
+    )
+    return Answered(outcome, result)
+
+
+def _answers(*costs: float) -> Iterator[Answered]:
+    """Proved answers."""
     for cost in costs:
-        yield Result(
-            "serendipity",
-            "optimal",
-            "h",
-            Options(),
-            human_cost=8.0,
-            cost=cost,
-            objective=cost,
-            lower_bound=cost,
-            horizon=3,
-        )
+        yield _answered("optimal", cost)
     raise AssertionError("one answer too many was asked for")
 
 
-def _never() -> float:
+def _never() -> Fraction:
     raise AssertionError("a bound was asked for")
 
 
-def _costs(answers: Iterator[Result]) -> list[float | None]:
-    return [answer.cost for answer in answers]
+def _costs(answers: Iterator[Answered]) -> list[float | None]:
+    return [answer.result.cost for answer in answers]
 
 
 def test_nothing_is_dearer_than_his_plan() -> None:
@@ -49,15 +67,15 @@ def test_nothing_is_dearer_than_his_plan() -> None:
 
 
 def test_nothing_is_cheaper_than_the_bound() -> None:
-    answers = until_settled(_answers(8, 7, 6, 8, 7, 6), "optimistic", bounded=True, least=lambda: 6.0)
+    answers = until_settled(_answers(8, 7, 6, 8, 7, 6), "optimistic", bounded=True, least=lambda: Fraction(6))
     assert _costs(answers) == [8, 7, 6, 8, 7, 6]
 
 
 def test_where_nothing_can_help_all_are_equal() -> None:
-    answers = list(until_settled(_answers(8, 8, 8, 8), "expected", bounded=True, least=lambda: 8.0))
+    answers = list(until_settled(_answers(8, 8, 8, 8), "expected", bounded=True, least=lambda: Fraction(8)))
     assert combined(answers, "expected").cost == 8
     with pytest.raises(AssertionError, match="one answer too many"):
-        list(until_settled(_answers(8, 8, 8, 8), "expected", bounded=True, least=lambda: 7.0))
+        list(until_settled(_answers(8, 8, 8, 8), "expected", bounded=True, least=lambda: Fraction(7)))
 
 
 def test_robots_with_goals_leave_nothing_out() -> None:
@@ -67,45 +85,68 @@ def test_robots_with_goals_leave_nothing_out() -> None:
 
 def test_least_cost_is_not_proved_while_one_answer_is_not() -> None:
     """It was: the cheapest answer was proved, although another could have got cheaper still."""
-    proved = Result("serendipity", "optimal", "h", Options(), cost=6.2, objective=1006.2, lower_bound=1006.2)
-    stopped = Result("serendipity", "feasible", "h", Options(), cost=8.0, objective=8.0, lower_bound=5.5)
+    proved = _answered("optimal", "6.2", window=1000)
+    stopped = _answered("feasible", 8, bound="5.5")
     answer = combined([proved, stopped], "optimistic")
     assert (answer.status, answer.cost, answer.lower_bound) == ("feasible", 6.2, 5.5)
-    assert combined([stopped, proved], "robust").status == "feasible"
     assert combined([proved], "optimistic").status == "optimal"
 
 
-def _stopped(status: str, cost: float | None) -> Result:
-    """An answer before which a limit came; ``pi_H`` costs 8."""
-    bound = None if cost is None else 1.0
-    return Result(
-        "serendipity", status, "h", Options(), human_cost=8.0, cost=cost, objective=cost, lower_bound=bound
+def test_greatest_cost_is_not_proved_while_one_answer_is_not() -> None:
+    """It claimed a bound above the objective of the answer that may be the dearest in the end."""
+    proved = _answered("optimal", 7)
+    stopped = _answered("feasible", "7.5", bound="1006.2", window=1000)
+    answer = combined([proved, stopped], "robust")
+    assert (answer.status, answer.cost, answer.lower_bound) == ("feasible", 7.5, 7.0)
+
+
+def test_a_mean_of_answers_that_are_not_proved_is_a_mean_of_bounds() -> None:
+    """It was the first answer that is not proved, with its bound, which the mean can be below."""
+    answer = combined([_answered("optimal", 3), _answered("feasible", 8, bound=6)], "expected")
+    assert (answer.status, answer.cost, answer.lower_bound) == ("feasible", 5.5, 4.5)
+
+
+def test_means_are_exact() -> None:
+    """A mean of floats is not the nearest float of the mean: 11/15 was 0.7333333333333334."""
+    task = build(
+        goal="done",
+        actions={
+            "sit h": "-> sat @ 0",
+            "slow h": "sat -> done @ 1.4",
+            "stand h": "-> up @ 0",
+            "steep h": "up -> done @ 1.4",
+            "pull r": "up -> done @ 0.1",
+        },
     )
+    answer = serendipity.plan(task, discount="1/3", ties="expected")
+    assert [entry["cost"] for entry in answer.statistics["ties"]] == [1.4, float(Fraction(1, 15))]
+    assert answer.cost == float(Fraction(11, 15)) != 0.7333333333333334
+    assert serendipity.verify(task, answer).verdict == "proved"
 
 
 def test_after_a_limit_nothing_more_is_looked_at() -> None:
     """They all were, one after another: a limit of 0.5 s took 3.3."""
     for ties in ("optimistic", "expected"):
-        answers = [*_some(6.0), _stopped("feasible", 7.0)]
+        answers = [*_some(6.0), _answered("feasible", 7, bound=1)]
         assert _costs(until_settled(_then_never(answers), ties, bounded=True, least=_never)) == [6, 7]
-    answers = [*_some(6.0), _stopped("feasible", 7.0), _stopped("feasible", 8.0)]
+    answers = [*_some(6.0), _answered("feasible", 7, bound=1), _answered("feasible", 8, bound=1)]
     assert _costs(until_settled(_then_never(answers), "robust", bounded=True, least=_never)) == [6, 7, 8]
-    answers = [_stopped("unknown", None)]
+    answers = [_answered("unknown")]
     assert _costs(until_settled(_then_never(answers), "robust", bounded=True, least=_never)) == [None]
 
 
 def test_what_is_missing_may_cost_less_than_the_least() -> None:
-    answers = [*_some(6.0), _stopped("unknown", None)]
+    answers = [*_some(6.0), _answered("unknown")]
     answer = combined(answers, "optimistic", everyone=False)
     assert (answer.status, answer.cost, answer.lower_bound) == ("feasible", 6.0, 0.0)
     assert combined(answers, "expected", everyone=False).status == "unknown"
 
 
-def _some(cost: float) -> list[Result]:
+def _some(cost: float) -> list[Answered]:
     return [next(_answers(cost))]
 
 
-def _then_never(answers: list[Result]) -> Iterator[Result]:
+def _then_never(answers: list[Answered]) -> Iterator[Answered]:
     yield from answers
     raise AssertionError("one answer too many was asked for")
 

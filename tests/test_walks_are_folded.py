@@ -70,7 +70,12 @@ def test_walks_are_left_out_only_where_nobody_else_minds(buildings):
 def test_what_robots_only_move_together_is_nobodys_place():
     """It was each robot's place: planning ended in a ValueError."""
     push = {f"push r q {a} {b}": f"at-{a} -> at-{b} !at-{a}" for a, b in ("ab", "bc", "cb", "ba")}
-    deeds = {"dig r": "-> dug", "open r q c": "at-c dug -> open", "do h": "open -> met @ 2", "do2 h": "-> met @ 9"}
+    deeds = {
+        "dig r": "-> dug",
+        "open r q c": "at-c dug -> open",
+        "do h": "open -> met @ 2",
+        "do2 h": "-> met @ 9",
+    }
     task = builders.task(agents="h r q", init="at-a", goal="met", actions=push | deeds)
     assert not _foldable(task)
     answer = serendipity.plan(task, horizon=5, window_weight=0, discount="0.9")

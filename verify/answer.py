@@ -7,7 +7,7 @@ from itertools import islice
 
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from verify.alone import OptimalPlans
-from verify.call import Call
+from verify.call import Call, Score
 from verify.joint import cheapest
 from verify.minimise import Effort
 from verify.obligations import TIED_MODES
@@ -35,6 +35,18 @@ class Answer:
         return None if units is None else self.call.prices.cost(units)
 
     @property
+    def objective(self) -> Fraction | None:
+        """The answer's objective; that of doing nothing has no ``K``."""
+        return self.cost if self.found is None else self.call.prices.cost(self.found.objective)
+
+    @property
+    def saving(self) -> Fraction:
+        """What an opportunity costs less than doing nothing, else 0."""
+        if not self.opportunity or self.cost is None or self.call.baseline is None:
+            return Fraction(0)
+        return self.call.prices.cost(self.call.baseline) - self.cost
+
+    @property
     def reason(self) -> str | None:
         """Why there is no plan, or None."""
         if self.cost is not None:
@@ -54,21 +66,38 @@ def answer(call: Call) -> Answer:
     if call.options.mode == "individual" or (call.needs_pi_h and call.human_plan is None):
         return Answer(call, None, opportunity=False)
     found = best_plan(call)
-    idle = idle_cost(call)
-    helps = found is not None and (idle is None or found.cost < idle)
+    helps = found is not None and is_help(call, (found.objective, found.cost))
     if call.options.windowed and not helps:
         found = None
     return Answer(call, found, opportunity=helps and call.human_plan is not None)
 
 
-def best_plan(call: Call) -> Found | None:
-    """The plan of least objective, then cost, if it beats doing nothing."""
+def best_plan(call: Call, *, robots: bool = True) -> Found | None:
+    """The plan of least objective, then cost, if it beats doing nothing; without ``robots`` none acts."""
     if call.horizon != INFINITE:
-        return call.best(call.question, call.do_nothing)
-    question = call.endless
+        return call.best(call.question.but(robots=robots), call.do_nothing)
+    question = call.endless.but(robots=robots)
     if call.do_nothing is not None:
         question = question.below(call.do_nothing[0] - 1)
     return call.decided(cheapest(question))
+
+
+def is_help(call: Call, score: Score) -> bool:
+    """Whether a plan of this objective and cost beats what there is without robots (SPEC 1, 3.1)."""
+    idle, alone = idle_cost(call), unaided(call)
+    return (idle is None or score[1] < idle) and (alone is None or score < alone)
+
+
+def unaided(call: Call) -> Score | None:
+    """Objective and cost of the best plan in which no robot acts, where help has to beat that, too.
+
+    It has where robots have goals and a plan is given that is not optimal.  Without such goals
+    :func:`idle_cost` is that plan's; beside an optimal plan whatever costs less is an opportunity.
+    """
+    if call.human_plan is None or not call.robots_goal or call.is_optimal:
+        return None
+    found = best_plan(call, robots=False)
+    return None if found is None else (found.objective, found.cost)
 
 
 def idle_cost(call: Call) -> int | None:
@@ -100,4 +129,4 @@ def calls(
     return [Call(task, options, plan, plans, effort) for plan in tied or [None]]
 
 
-__all__ = ["Answer", "answer", "best_plan", "calls", "idle_cost"]
+__all__ = ["Answer", "answer", "best_plan", "calls", "idle_cost", "is_help"]

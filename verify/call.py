@@ -42,7 +42,8 @@ class Call:
         if asked is None:
             if plan is None and self.options.mode == "composite":
                 return INFINITE
-            if plan is None or (not plan and self.robots_goal):
+            open_goal = self.robots_goal and not self.task.robot_goal.holds(self.task.init)
+            if plan is None or (not plan and open_goal):
                 raise UsageError(
                     "horizon: expected a number of epochs: the human has no plan to take it from"
                 )
@@ -121,11 +122,12 @@ class Call:
 
     @cached_property
     def do_nothing(self) -> Score | None:
-        """Objective and cost of ``pi_H`` with idle robots: it fits a window of one epoch.
+        """Objective and cost of doing nothing for the human, which no limit rejects.
 
-        None where it is no candidate: there is no ``pi_H``, or robots have goals.
+        ``pi_H`` with idle robots fits a window of one epoch.  None where it is no candidate: there is
+        no ``pi_H``, or robots have goals, and may need all epochs for them, while a window is asked for.
         """
-        if self.human_plan is None or self.robots_goal or self.baseline is None:
+        if self.baseline is None or (self.robots_goal and self.options.windowed):
             return None
         epochs = 1 if self.options.windowed and self.human_plan else 0
         return self.baseline + epochs * self.prices.epoch, self.baseline

@@ -5,7 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import INFINITE, Claim, Result, Step
-from verify.answer import Answer, answer, best_plan, idle_cost
+from verify.answer import Answer, answer, best_plan, idle_cost, is_help
 from verify.call import Call, Score
 from verify.joint import cheapest
 from verify.minimise import minimise
@@ -75,8 +75,8 @@ class Examiner:
 
     def optimum_is_no_opportunity(self) -> Verdict:
         """A proved optimum costs no less than the answer without robots."""
-        idle, cost = idle_cost(self.call), self._score()[1]
-        if idle is not None and cost < idle:
+        idle = idle_cost(self.call)
+        if idle is not None and is_help(self.call, self._score()):
             return "refuted", f"the optimum costs less than {self._amount(idle)}, robots idle", None
         return "proved", "the optimum costs no less than the answer without robots", None
 
@@ -90,16 +90,18 @@ class Examiner:
             if found is not None:
                 return "refuted", "an opportunity", found
             return "proved", f"no plan has {self._cut(nothing)}", None
-        best, idle = best_plan(call), idle_cost(call)
-        if best is not None and idle is not None and best.cost < idle:
+        best = best_plan(call)
+        if best is not None and is_help(call, (best.objective, best.cost)):
             return "refuted", "an opportunity", best
         return "proved", "the best plan costs no less than the answer without robots", None
 
     def opportunity_is_cheaper(self) -> Verdict | None:
         """Refutes an opportunity that costs no less than doing without robots."""
-        idle, cost = idle_cost(self.call), self._score()[1]
-        if idle is not None and cost >= idle:
+        idle, score = idle_cost(self.call), self._score()
+        if idle is not None and score[1] >= idle:
             return "refuted", f"the plan costs no less than {self._amount(idle)}, robots idle", None
+        if not is_help(self.call, score):
+            return "refuted", "the human does as well without a robot", None
         return None
 
     def savings(self) -> Verdict | None:

@@ -49,9 +49,10 @@ class HumanExaminer(Examiner):
             return self._nothing_to_compare()
         if result.plan is None:
             return None
-        idle = call.baseline if self._idle is None else min(self._idle, call.baseline)
+        compared = self._idle is not None and not call.robots_goal
+        idle = min(self._idle, call.baseline) if compared and self._idle is not None else call.baseline
         alone = float(call.prices.cost(call.baseline - idle))
-        if result.saving_alone != alone:
+        if result.saving_alone is not None and result.saving_alone != alone:
             return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
         saving = float(call.prices.cost(call.baseline - self._score()[1])) if result.opportunity else 0.0
         if result.saving != saving:
@@ -124,8 +125,8 @@ def _decided(call: Call, most: int | None) -> Found | None:
 
 
 def _idle_cost(call: Call) -> int | None:
-    """What he pays by himself; None if he does not get there in time, or robots have goals."""
-    if call.human_plan is None or call.robots_goal:
+    """What he pays by himself; None if that does not reach all goals in time."""
+    if call.human_plan is None:
         return None
     horizon = call.horizon
     played = play(

@@ -104,27 +104,17 @@ def _mean(answers: list[Answer], results: list[Result]) -> Result:
     def mean(values: Iterable[Fraction | None]) -> float:
         return float(sum((value or Fraction(0) for value in values), Fraction(0)) / len(answers))
 
-    objective = mean(_objective(each) for each in answers)
     if len(results) == 1:
         return results[0]
+    objective = mean(each.objective for each in answers)
     return replace(
         results[0],
         opportunity=any(each.opportunity for each in answers),
         cost=mean(each.cost for each in answers),
-        saving=mean(_saving(each) for each in answers),
+        saving=mean(each.saving for each in answers),
         objective=objective,
         lower_bound=objective,
         window=None,
         plan=None,
         agent_costs={},
     )
-
-
-def _objective(each: Answer) -> Fraction | None:
-    return each.cost if each.found is None else each.call.prices.cost(each.found.objective)
-
-
-def _saving(each: Answer) -> Fraction:
-    if not each.opportunity or each.cost is None or each.call.baseline is None:
-        return Fraction(0)
-    return each.call.prices.cost(each.call.baseline) - each.cost

@@ -55,16 +55,13 @@ def examine(task: Task, result: Result, effort: Effort, plans: OptimalPlans) -> 
 
 
 def _solved(call: Call) -> Solved:
-    baseline = None if call.baseline is None else call.prices.cost(call.baseline)
-    if call.options.human_model != "omniscient":
-        cost = objective = human_cost(call)
-        helps = cost is not None and baseline is not None and cost < baseline
-    else:
+    if call.options.human_model == "omniscient":
         found = answer(call)
-        cost, helps = found.cost, found.opportunity
-        objective = cost if found.found is None else call.prices.cost(found.found.objective)
-    saving = baseline - cost if helps and baseline is not None and cost is not None else Fraction(0)
-    return Solved(cost, objective, saving, helps)
+        return Solved(found.cost, found.objective, found.saving, found.opportunity)
+    cost = human_cost(call)
+    baseline = None if call.baseline is None else call.prices.cost(call.baseline)
+    saving = baseline - cost if cost is not None and baseline is not None else Fraction(0)
+    return Solved(cost, cost, max(saving, Fraction(0)), saving > 0)
 
 
 def _listed_fault(result: Result, known: Known) -> str | None:

@@ -56,7 +56,7 @@ def solve_for_human(
     epochs = _epochs(task, options, plan)
     try:
         if not task.robot_goal:
-            yield _left_alone(task, plan, epochs)
+            yield _left_alone(task, plan, epochs, given=human_plan is not None)
         actions = human_plan or ()
         human = Human(
             task, options, deadline, human_model=options.human_model, actions=actions, visible=visible
@@ -68,8 +68,11 @@ def solve_for_human(
     yield from _Call(task, options, human, plan, epochs, deadline).answers()
 
 
-def _left_alone(task: Task, plan: HumanPlan, epochs: int) -> Outcome:
-    """The first answer: robots do nothing, and the human does what he was going to do."""
+def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Outcome:
+    """The first answer: robots do nothing, and the human does what he was going to do.
+
+    What he gains by himself is known only of an optimal plan.
+    """
     cost = task.cost_of(plan)
     return Outcome(
         "feasible",
@@ -80,14 +83,14 @@ def _left_alone(task: Task, plan: HumanPlan, epochs: int) -> Outcome:
         objective=cost,
         lower_bound=Fraction(0),
         baseline=cost,
-        saving_alone=Fraction(0),
+        saving_alone=None if given else Fraction(0),
     )
 
 
 def _epochs(task: Task, options: Options, plan: HumanPlan) -> int:
     """``T`` (SPEC 2, 3.5)."""
     if not isinstance(options.horizon, int):
-        if not plan and task.robot_goal:
+        if not plan and not task.robot_goal.holds(task.init):
             raise UsageError(
                 "horizon: must be given, since the human's goal holds already and robots have theirs"
             )
@@ -103,7 +106,7 @@ class _Call:
     """One planning call: its incumbents and its bound.
 
     ``baseline`` leaves him alone (or, with ``G_R``, follows ``pi_H`` beside the robots);
-    ``idle`` is what he does by himself; ``best`` is the incumbent over everything.
+    ``idle`` is what he does by himself, if it reaches all goals; ``best`` is the incumbent over everything.
     """
 
     def __init__(
@@ -119,14 +122,17 @@ class _Call:
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)
         self.best = Incumbent(INFINITE_KEY)
+        self.settled = False
+        """Whether it is known what he does by himself."""
         self.limit: str | None = None
 
     def answers(self) -> Iterator[Outcome]:
         """Each better answer, then the last one with what is proved of it."""
         try:
             self._follow()
+            self._search(self.idle, Progress(), idle=True)
+            self.settled = True
             if not self.task.robot_goal:
-                self._search(self.idle, Progress(), idle=True)
                 self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
                 yield self._outcome("feasible")
             for _ in best_first(self._space(idle=False), self.best, self.progress, self.deadline):
@@ -195,7 +201,7 @@ class _Call:
     def _helps(self) -> bool:
         """Whether the incumbent costs less than ``pi_H``, and than what he does by himself."""
         keys, found = self.human.keys, self.best.key
-        if found >= self.idle.key:
+        if found >= self.idle.key or not self.settled:
             return False
         rivals = [key for key in (self.baseline.key, self.idle.key) if key < INFINITE_KEY]
         return all(keys.cost(found) < keys.cost(key) for key in rivals)
@@ -205,9 +211,6 @@ class _Call:
         answer = self.best if helps or self.task.robot_goal else self.baseline
         known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
         baseline = None if self.baseline.key == INFINITE_KEY else keys.cost(self.baseline.key)
-        saving_alone = Fraction(0)
-        if baseline is not None and self.idle.key < INFINITE_KEY:
-            saving_alone = max(baseline - keys.cost(self.idle.key), saving_alone)
         cost = keys.cost(answer.key) if known else None
         return Outcome(
             status,
@@ -219,11 +222,19 @@ class _Call:
             objective=cost,
             lower_bound=cost if status == "optimal" else self._lower_bound(status),
             baseline=baseline,
-            saving_alone=saving_alone,
+            saving_alone=self._saving_alone(baseline),
             opportunity=helps,
             expanded=self.progress.expanded,
             generated=self.progress.generated,
         )
+
+    def _saving_alone(self, baseline: Fraction | None) -> Fraction | None:
+        """What he gains by himself; not compared where robots have goals."""
+        if baseline is None or not self.settled:
+            return None
+        if self.task.robot_goal or self.idle.key == INFINITE_KEY:
+            return Fraction(0)
+        return max(baseline - self.human.keys.cost(self.idle.key), Fraction(0))
 
     def _lower_bound(self, status: str) -> Fraction | None:
         if status == "infeasible":

@@ -120,12 +120,12 @@ def _ties(
     task: Task, call: Call, result: Result, limits: Deadline
 ) -> tuple[Fraction | None, Fraction | None]:
     """Least and greatest cost over the human's optimal plans."""
-    cost = exact_cost(result.cost)
-    if call.mode not in _TIED or cost is None:
-        return cost, cost
-    best = plan(task, mode=call.mode, discount=call.discount, ties="optimistic", deadline=limits)
-    if best.status != "optimal":
+    if call.mode not in _TIED or result.cost is None:
+        return exact_cost(result.cost), exact_cost(result.cost)
+    best, worst = (
+        plan(task, mode=call.mode, discount=call.discount, ties=ties, deadline=limits)
+        for ties in ("optimistic", "robust")
+    )
+    if best.status != "optimal" or worst.status != "optimal":
         return None, None
-    answers = best.statistics["ties"]
-    costs = [Fraction(str(answer["cost"])) for answer in answers]
-    return min(costs), max(costs)
+    return exact_cost(best.cost), exact_cost(worst.cost)

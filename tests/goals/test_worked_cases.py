@@ -115,3 +115,20 @@ def test_text_and_json(run: Callable[[str], Run]) -> None:  # noqa: F811
     assert (saved.code, saved.out) == (0, "")
     again = Result.from_dict(json.loads(Path("answer.json").read_text()))
     assert again.cost == 11.3
+
+
+@pytest.mark.parametrize(("discount", "cost"), [("0", 7), ("0.9", 0.5)])
+def test_idle_robots_are_the_answer_without_them(discount: str, cost: float) -> None:
+    """What was seen is a detour: he gains 3 without a robot, and help has to beat that, not his plans."""
+    task = build(
+        goal="p",
+        actions={
+            "detour h": "-> seen @ 3",
+            "do1 h": "-> p @ 4",
+            "do2 h": "-> z @ 4",
+            "push r": "-> p z @ 5",
+        },
+    )
+    answer = helped(task, 1, 1, observed=["detour h"], window_weight=0, discount=discount)
+    assert (answer.human_cost, answer.saving_alone) == (7, 3)
+    assert (answer.cost, answer.opportunity) == (cost, cost < 4)

@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 import serendipity
+from serendipity.pddl.write import write_pddl
 from serendipity.reproduction import COLUMNS, Progress, Reproduction, reproduce
 from serendipity.reproduction.formats import rows_as_csv
 from serendipity.reproduction.tables import table_1
+from tests.builders import task as build
 from tests.reproduction.conftest import PRESETS
 
 MODES = ("individual", "serendipity", "communication")
@@ -79,6 +81,24 @@ def test_means_and_counts_follow_the_ties(tmp_path: Path) -> None:
         assert entry.mean is not None
         assert float(entry.mean) == answer.cost
         assert entry.improved == answer.opportunity
+
+
+def test_the_worst_tie_is_the_dearest_answer(tmp_path: Path) -> None:
+    """It was the dearest of those that the best tie had to look at: a list that ends early."""
+    task = build(
+        goal="done",
+        actions={
+            **{f"enter{k} h": f"-> on{k}" for k in range(5)},
+            **{f"walk{k} h": f"on{k} -> past{k}" for k in range(5)},
+            **{f"leave{k} h": f"past{k} -> done @ 3" for k in range(5)},
+            **{f"quit{k} h": f"past{k} light -> done" for k in range(4)},
+            "fetch r": "-> lamp",
+            "help r": "lamp -> light",
+        },
+    )
+    write_pddl(task, tmp_path / "test1")
+    (row,) = reproduce(tmp_path, modes=["serendipity"], discounts=["0.9"]).rows
+    assert (row.best_tie, row.worst_tie) == (Fraction("3.2"), Fraction(5))
 
 
 def test_an_unreadable_task_stops_the_run_and_is_named(suite: Path, tmp_path: Path) -> None:

@@ -9,7 +9,6 @@ from typing import NamedTuple
 from serendipity.model import PlanError, Result, Task
 from verify.rules.alone import Alone
 from verify.rules.replay import Replay, replay, replay_human
-from verify.undecided import UNDECIDED
 
 
 class Found(NamedTuple):
@@ -58,10 +57,7 @@ class Case:
     @property
     def improvable(self) -> bool:
         """Whether it is certain that ``pi_H`` costs more than an optimal plan of his."""
-        try:
-            optimum = self.alone.optimum(self.task.init)
-        except UNDECIDED:
-            return False  # left to the integer program
+        optimum = self.alone.optimum(self.task.init)
         return self.human_cost is not None and optimum is not None and optimum[0] < self.human_cost
 
     @cached_property

@@ -100,7 +100,7 @@ def saving_alone(case: Case) -> Found | None:
 
 
 def opportunity(case: Case) -> Found | None:
-    """An opportunity is a plan with a robot in it that costs less than doing without robots."""
+    """An opportunity costs less than doing without robots; one acts if ``pi_H`` is not optimal."""
     result = case.result
     if result.plan is None:
         return None
@@ -108,9 +108,9 @@ def opportunity(case: Case) -> Found | None:
         return Found("an opportunity, though there is no pi_H to improve") if result.opportunity else None
     baseline = _baseline(case)
     without = None if baseline is None else baseline - Fraction(str(result.saving_alone or 0))
-    helped = any(not case.own(i) for _, i in case.steps())
     if result.opportunity:
-        if not helped:
+        helped = any(not case.own(i) for _, i in case.steps())
+        if not helped and case.improvable:
             return Found("an opportunity in which no robot acts")
         if without is not None and case.cost >= without:
             return Found(f"an opportunity that costs {float(case.cost):g}; without robots {float(without):g}")

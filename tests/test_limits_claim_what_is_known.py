@@ -1,0 +1,96 @@
+"""An answer that a limit cut short claims no more than is known by then."""
+
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity import Task
+from serendipity.model import Result
+from tests.builders import task as build
+from tests.test_time_may_run_out_anywhere import answers
+
+
+def _detours() -> Task:
+    """The given plan goes a long way round; without any robot there is a shorter one, and a still shorter."""
+    return build(
+        init="p0",
+        goal="p4",
+        actions={
+            **{f"step{i} h": f"p{i} -> p{i + 1} !p{i} @ 3" for i in range(4)},
+            **{f"stride{i} h": f"p{i} -> p{i + 1} !p{i} @ 2" for i in range(4)},
+            **{f"skip{i} h": f"p{i} -> p{i + 2} !p{i} @ 3" for i in range(3)},
+            "carry h r": "p1 near -> p4 !p1 @ 1",
+            "come r": "-> near",
+        },
+    )
+
+
+OPTIONS: list[dict[str, Any]] = [
+    {"window_weight": 0},
+    {"window_weight": 0, "suffix": "subplan"},
+    {"window_weight": "0.25", "discount": "0.5"},
+    {"mode": "communication", "discount": "0.5"},
+    {"mode": "communication", "keep_prefix": True, "window_weight": 0, "communication_weight": 1},
+    {"mode": "composite", "discount": "0.5", "horizon": "inf"},
+    {"human_model": "observant"},
+    {"human_model": "local", "discount": "0.9"},
+]
+
+
+def _given(task: Task, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> list[Result]:
+    steps = [f"step{i} h" for i in range(4)]
+    return answers(task, {"human_plan": steps, **options}, monkeypatch)
+
+
+@pytest.mark.parametrize("options", OPTIONS, ids=str)
+def test_no_opportunity_before_the_answer_without_robots_is_known(
+    options: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What he gains by himself was taken for help while it was still being looked for."""
+    task = _detours()
+    *early, last = _given(task, options, monkeypatch)
+    assert last.status == "optimal"
+    assert last.saving_alone
+    for answer in early:
+        assert answer.saving_alone in (None, last.saving_alone)
+        if answer.opportunity:
+            assert answer.saving_alone == last.saving_alone
+            assert answer.saving is not None
+            assert answer.saving > answer.saving_alone
+            assert any("r" in step.agents for step in answer.plan or ())
+        assert serendipity.verify(task, answer).verdict == "proved"
+
+
+@pytest.mark.parametrize("mode", ["communication", "composite"])
+def test_what_is_out_of_reach_is_infeasible_at_any_limit(mode: str) -> None:
+    """The bound was infinite: a proof, and no number to report."""
+    task = build(init="p", goal="!p", actions={"do h": "!p -> q !p", "help r": "-> q"})
+    options = {"mode": mode, "horizon": 3}
+    for limit in (None, 0):
+        answer = serendipity.plan(task, time_limit=limit, **options)
+        assert (answer.status, answer.reason) == ("infeasible", "no-plan-within-horizon")
+        assert answer.lower_bound is None
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
+def test_answers_over_ties_are_certified_wherever_time_runs_out(
+    ties: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where nothing was known the certificate asked for a cost; where little was, for the least one."""
+    task = build(
+        goal="done",
+        actions={
+            **{f"go{k} h": f"-> on{k}" for k in range(3)},
+            **{f"do{k} h": f"on{k} -> done @ 4" for k in range(3)},
+            **{f"end{k} h": f"on{k} light -> done @ {1 + k}" for k in range(2)},
+            "fetch r": "-> lamp",
+            "help r": "lamp -> light",
+        },
+    )
+    found = answers(task, {"ties": ties, "discount": "0.5", "horizon": 4, "window_weight": 0}, monkeypatch)
+    assert {answer.status for answer in found} == {"unknown", "feasible", "optimal"}
+    for answer in found:
+        assert serendipity.verify(task, answer).verdict == "proved"
+        if answer.status == "feasible":
+            assert (answer.lower_bound or 0) <= (found[-1].objective or 0) <= (answer.objective or 0)
