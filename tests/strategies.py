@@ -54,7 +54,7 @@ def strips_tasks(draw: st.DrawFn) -> Task:
     agents = ["h", "r", "q"][: draw(st.integers(2, 3))]
     actions: dict[str, str] = {}
     for k in range(draw(st.integers(2, 6))):
-        actions[f"a{k} h"] = draw(_action_texts(facts, most_needs=2, costs=_COSTS))
+        actions[f"a{k} h"] = draw(_varied(_action_texts(facts, most_needs=2, costs=_COSTS), facts))
     for robot in agents[1:]:
         for k in range(draw(st.integers(1, 4))):
             actions[f"b{k} {robot}"] = draw(_action_texts(facts, most_needs=1, costs=_CHEAP))
@@ -123,9 +123,42 @@ def usar_tasks(draw: st.DrawFn) -> Task:
     )
 
 
+@st.composite
+def errand_tasks(draw: st.DrawFn) -> Task:
+    """Two robots in a building of their own: they walk, push together, and do what helps or hinders."""
+    agents, actions = ["h", "r", "q"], dict[str, str]()
+    places = [f"p{i}" for i in range(draw(st.integers(2, 4)))]
+    for i, (a, b) in enumerate(pairwise(places)):
+        actions[f"walk{i} h"] = f"{a} -> {b} !{a} @ {draw(st.sampled_from(['1', '2', '3']))}"
+    rooms = ["0", "1", "2"][: draw(st.integers(2, 3))]
+    start = [places[0]]
+    for mover in draw(st.lists(st.sampled_from(["r", "q", "r q"]), min_size=1, max_size=2, unique=True)):
+        thing = mover.replace(" ", "")
+        start.append(f"{thing}{draw(st.sampled_from(rooms))}")
+        step = draw(st.sampled_from(_CHEAP))
+        for a, b in pairwise(rooms):
+            for here, there in ((a, b), (b, a)):
+                actions[f"go{here}{there} {mover}"] = (
+                    f"{thing}{here} -> {thing}{there} !{thing}{here} @ {step}"
+                )
+        for k in range(draw(st.integers(1, 2))):
+            needs = draw(st.sampled_from(["", "", "ready", "!tired", "box"]))
+            effect = draw(st.sampled_from(["open0", "open0", "open1", "ready", "box !ready", "open1 tired"]))
+            cost = draw(st.sampled_from(_COSTS))
+            actions[f"deed{k} {mover}"] = (
+                f"{thing}{draw(st.sampled_from(rooms))} {needs} -> {effect} @ {cost}"
+            )
+    for k in range(2):
+        a, b = draw(_ordered_pairs(places))
+        actions[f"jump{k} h"] = f"{a} open{k} -> {b} !{a} @ {draw(st.sampled_from(_CHEAP))}"
+    init = " ".join([*start, *draw(st.lists(st.sampled_from(["ready", "tired", "box"]), max_size=1))])
+    built = build(agents=" ".join(agents), init=init, goal=places[-1], actions=actions)
+    return draw(_with_robot_goal(built))
+
+
 def tasks() -> st.SearchStrategy[Task]:
     """Any small task."""
-    return st.one_of(strips_tasks(), corridor_tasks(), corridor_tasks(), usar_tasks())
+    return st.one_of(strips_tasks(), corridor_tasks(), corridor_tasks(), usar_tasks(), errand_tasks())
 
 
 # -- options and calls
@@ -145,8 +178,8 @@ def calls(draw: st.DrawFn, *, modes: tuple[str, ...] = MODES, ties: bool = True)
     plan = plans[0] if plans else None
     given: HumanPlan | None = None
     if plan is not None and mode != "individual" and draw(st.integers(0, 3)) == 0:
-        given = plan = draw(_other_plans(task, plan, optimal=bool(task.robot_goal)))
-    options = draw(_options(mode, None if plan is None else len(plan), robots_goal=bool(task.robot_goal)))
+        given = plan = draw(_other_plans(task, plan))
+    options = draw(_options(mode, None if plan is None else len(plan)))
     if ties and given is None and 1 < len(plans) <= _MOST_TIES:
         options = options.but(
             ties=draw(st.sampled_from(["fixed", "fixed", "optimistic", "robust", "expected"]))
@@ -155,15 +188,15 @@ def calls(draw: st.DrawFn, *, modes: tuple[str, ...] = MODES, ties: bool = True)
 
 
 @st.composite
-def _options(draw: st.DrawFn, mode: str, length: int | None, *, robots_goal: bool) -> Options:
+def _options(draw: st.DrawFn, mode: str, length: int | None) -> Options:
     keep_prefix = mode == "communication" and length is not None and draw(st.integers(0, 2)) == 0
     numbers = [str(n / 2) for n in range(17)]
-    limits = [None] * 6 + ["human"] + ([] if robots_goal else [draw(st.sampled_from(numbers))])
+    limits = [None] * 6 + ["human", draw(st.sampled_from(numbers))]
     weight = draw(st.sampled_from(["0", "0", "0.25", "1", "2"])) if mode == "communication" else "0"
     return Options(
         mode=mode,
         discount=draw(st.sampled_from(_DISCOUNTS)),  # type: ignore[arg-type]
-        horizon=draw(_horizons(mode, length, robots_goal=robots_goal)),
+        horizon=draw(_horizons(mode, length)),
         window_weight=draw(st.sampled_from(_WEIGHTS)),  # type: ignore[arg-type]
         max_window=draw(st.sampled_from([None, None, None, 1, 2, 3])),
         suffix=draw(st.sampled_from(["replan", "replan", "subplan"])),
@@ -176,8 +209,8 @@ def _options(draw: st.DrawFn, mode: str, length: int | None, *, robots_goal: boo
 
 
 @st.composite
-def _horizons(draw: st.DrawFn, mode: str, length: int | None, *, robots_goal: bool) -> int | str | None:
-    """Never shorter than the human's plan; given where a call without it is an error."""
+def _horizons(draw: st.DrawFn, mode: str, length: int | None) -> int | str | None:
+    """Never shorter than the human's plan."""
     if mode == "individual":
         return None
     if length is None:
@@ -185,15 +218,13 @@ def _horizons(draw: st.DrawFn, mode: str, length: int | None, *, robots_goal: bo
             draw(st.integers(1, 4)) if mode != "composite" else draw(st.sampled_from([None, "inf", 1, 2, 3]))
         )
     longer = [length, length + 1, length + 2]
-    if robots_goal and length == 0:
-        return draw(st.sampled_from(longer))
     return draw(st.sampled_from([None, None, *longer, *(["inf"] if mode == "composite" else [])]))
 
 
 @st.composite
-def _other_plans(draw: st.DrawFn, task: Task, plan: HumanPlan, *, optimal: bool) -> HumanPlan:
+def _other_plans(draw: st.DrawFn, task: Task, plan: HumanPlan) -> HumanPlan:
     """A plan of the human alone: ``plan``, or one with a detour of at least one action."""
-    if optimal or draw(st.integers(0, 2)) == 0:
+    if draw(st.integers(0, 2)) == 0:
         return plan
     alone = Alone(task)
     cut = draw(st.integers(0, len(plan)))
@@ -239,6 +270,25 @@ def _action_texts(draw: st.DrawFn, facts: list[str], *, most_needs: int, costs: 
 
 
 @st.composite
+def _varied(draw: st.DrawFn, texts: st.SearchStrategy[str], facts: list[str]) -> str:
+    """An action; now and then as two variants, by what it asks for or by what it does."""
+    text = draw(texts)
+    kind = draw(st.integers(0, 11))
+    if kind > 1:
+        return text
+    body, _, cost = text.partition(" @ ")
+    pre, _, effects = body.partition(" -> ")
+    fact = draw(st.sampled_from(facts))
+    if kind == 0:  # (or ...)
+        return f"{text} | {fact} -> {effects} @ {cost}"
+    others = [name for name in facts if name not in effects.replace("!", "").split()]
+    if not others or fact in pre.replace("!", "").split():
+        return text
+    more = draw(st.sampled_from(others))  # (when ...)
+    return f"{pre} {fact} -> {effects} {more} @ {cost} | {pre} !{fact} -> {effects} @ {cost}"
+
+
+@st.composite
 def _with_goals(draw: st.DrawFn, built: Task) -> Task:
     """A human goal that a random walk of his reaches (now and then any literal at all)."""
     state, alone = built.init, Alone(built)
@@ -258,14 +308,13 @@ def _with_goals(draw: st.DrawFn, built: Task) -> Task:
 
 @st.composite
 def _with_robot_goal(draw: st.DrawFn, built: Task) -> Task:
-    """Sometimes a goal of the robots' own, on a fact that only they change."""
-    if draw(st.integers(0, 5)):
+    """Sometimes a goal of the robots' own on a fact that they change; it may hold already."""
+    if draw(st.integers(0, 4)):
         return built
-    his = {f for i in built.human_actions for f in (*built.actions[i].add, *built.actions[i].delete)}
     theirs = {f for a in built.actions if built.human not in a.participants for f in (*a.add, *a.delete)}
-    facts = sorted(theirs - his - set(built.goal.positive) - set(built.goal.negative))
+    facts = sorted(theirs - set(built.goal.positive) - set(built.goal.negative))
     if not facts:
         return built
-    fact = draw(st.sampled_from(facts))
-    wanted = Condition((), (fact,)) if fact in built.init else Condition((fact,), ())
+    fact, reached = draw(st.sampled_from(facts)), draw(st.integers(0, 4)) == 0
+    wanted = Condition((fact,), ()) if (fact in built.init) == reached else Condition((), (fact,))
     return replace(built, robot_goal=wanted)

@@ -72,14 +72,17 @@ class Alone:
 
 
 def human_plans(task: Task) -> Iterator[HumanPlan]:
-    """All optimal plans of the human alone from ``I``; the canonical one first."""
+    """All optimal plans of the human alone from ``I`` that differ in names; the canonical one first."""
     alone = Alone(task)
     if alone.worth(task.init) is None:
         return
+    known: set[tuple[str, ...]] = set()
     stack: list[tuple[State, HumanPlan]] = [(task.init, ())]
     while stack:
         state, plan = stack.pop()
-        if holds(task.goal, state):
+        names = tuple(task.actions[i].name for i in plan)
+        if holds(task.goal, state) and names not in known:
+            known.add(names)
             yield plan
         stack.extend((next_state, (*plan, i)) for i, next_state in reversed(alone.optimal(state)))
 

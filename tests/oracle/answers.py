@@ -68,15 +68,25 @@ def best(task: Task, options: Options, human_plan: HumanPlan | None = None) -> O
 
 
 def _over_ties(answers: list[Optimum], ties: str) -> Optimum:
-    solved = [answer for answer in answers if answer.cost is not None]
-    costs = [answer.cost for answer in solved if answer.cost is not None]
-    if not solved:
-        return answers[0]
-    if ties == "expected":
-        mean = sum(costs, Fraction(0)) / len(costs)
-        return Optimum("optimal", cost=mean, human_cost=solved[0].human_cost)
-    chosen = (min if ties == "optimistic" else max)(costs)
-    return next(answer for answer in solved if answer.cost == chosen)
+    costs = [answer.cost for answer in answers if answer.cost is not None]
+    if len(costs) < len(answers):
+        return next(answer for answer in answers if answer.cost is None)
+    if ties == "expected" and len(answers) > 1:
+        return Optimum(
+            "optimal",
+            cost=_mean(answer.cost for answer in answers),
+            objective=_mean(answer.objective for answer in answers),
+            opportunity=any(answer.opportunity for answer in answers),
+            human_cost=answers[0].human_cost,
+            saving=_mean(answer.saving for answer in answers),
+        )
+    chosen = (max if ties == "robust" else min)(costs)
+    return next(answer for answer in answers if answer.cost == chosen)
+
+
+def _mean(amounts: Iterable[Fraction | None]) -> Fraction:
+    listed = [amount or Fraction(0) for amount in amounts]
+    return sum(listed, Fraction(0)) / len(listed)
 
 
 class Solver:
@@ -101,21 +111,25 @@ class Solver:
             return Optimum("infeasible", reason="no-human-plan")
         baseline = self._baseline()
         found = min(self._candidates(baseline), key=Candidate.order, default=None)
-        return self._answer(found, baseline, self._idle(baseline))
+        helps = found is not None and self._helps(found, baseline)
+        return self._answer(found, baseline, helps=helps)
 
     # -- what is compared
 
     def _candidates(self, baseline: Label | None) -> Iterator[Candidate]:
+        yield from self._limited(baseline)
+        if baseline is not None and not (self.robots_goal and self.options.windowed):
+            yield self._do_nothing(baseline)
+
+    def _limited(self, baseline: Label | None) -> Iterator[Candidate]:
+        """All plans within ``max_cost``."""
         limit = self._max_cost(baseline)
         for candidate in self._windows() if self.options.windowed else self._whole():
             if limit is None or candidate.label[1] <= limit:
                 yield candidate
-        if self.human_plan is not None and not self.robots_goal:
-            assert baseline is not None
-            yield self._do_nothing(baseline)
 
     def _do_nothing(self, baseline: Label) -> Candidate:
-        """``pi_H`` with idle robots: it fits the window of its last action, and no limit rejects it."""
+        """The baseline: no limit rejects it, and with idle robots it fits the window of its last action."""
         assert self.human_plan is not None
         if not self.options.windowed or not self.human_plan:
             return Candidate(baseline, baseline[1], None)
@@ -139,15 +153,37 @@ class Solver:
         layer = _advanced(layer, idle_human, None if epochs == "inf" else int(epochs) - len(plan))
         return min(self._goal_labels(layer), key=lambda label: label[1:], default=None)
 
+    def _helps(self, found: Candidate, baseline: Label | None) -> bool:
+        """Whether it is an opportunity (SPEC 1, 3.1): cheaper than without robots."""
+        if self.human_plan is None:
+            return False
+        idle = self._idle(baseline)
+        if idle is not None and found.label[1] >= idle:
+            return False
+        if not self.robots_goal or not self._improvable:
+            return True
+        unaided = min(self._without_robots()._limited(baseline), key=Candidate.order, default=None)
+        return unaided is None or (found.objective, found.label[1]) < (unaided.objective, unaided.label[1])
+
     def _idle(self, baseline: Label | None) -> int | None:
         """Cost of the answer with all robots idle: less than the baseline if a given plan can be improved."""
-        if not self.given or self.robots_goal or baseline is None:
+        if baseline is None or self.robots_goal or not self._improvable:
             return None if baseline is None else baseline[1]
-        idle = Solver(_without_robots(self.task), self.options, self.human_plan, given=False)
-        idle.unit = self.unit
-        idle.human_plan = _renumbered(self.task, self.human_plan or ())
-        found = min(idle._candidates(baseline), key=Candidate.order)
+        found = min(self._without_robots()._candidates(baseline), key=Candidate.order)
         return found.label[1]
+
+    @property
+    def _improvable(self) -> bool:
+        """Whether a plan is given that costs more than an optimal one."""
+        worth = self.alone.worth(self.task.init)
+        return self.given and worth is not None and worth[0] < self.task.cost_of(self.human_plan or ())
+
+    def _without_robots(self) -> "Solver":
+        """The same call, were there no robots."""
+        alone = Solver(_without_robots(self.task), self.options, self.human_plan, given=False)
+        alone.unit = self.unit
+        alone.human_plan = _renumbered(self.task, self.human_plan or ())
+        return alone
 
     def _max_cost(self, baseline: Label | None) -> int | None:
         limit = self.options.max_cost
@@ -175,16 +211,15 @@ class Solver:
             saving_alone=Fraction(0),
         )
 
-    def _answer(self, found: Candidate | None, baseline: Label | None, idle: int | None) -> Optimum:
+    def _answer(self, found: Candidate | None, baseline: Label | None, *, helps: bool) -> Optimum:
         human_cost = None if self.human_plan is None else self.task.cost_of(self.human_plan)
         known = Optimum("optimal", human_cost=human_cost)
         if baseline is not None:
+            idle = self._idle(baseline)
             assert idle is not None
             known = replace(known, saving=Fraction(0), saving_alone=self._cost(baseline[1] - idle))
-        helps = found is not None and (idle is None or found.label[1] < idle)
         if found is not None and (helps or not self.options.windowed):
             _, spent, actions = found.label
-            helps = helps and self.human_plan is not None
             saving = None if baseline is None else self._cost(baseline[1] - spent if helps else 0)
             return replace(
                 known,
@@ -266,7 +301,7 @@ class Solver:
 
     def _prefix_allows(self, phase: str, his: tuple[int, ...], fixed: int | None) -> bool:
         if phase == "prefix" and self.options.keep_prefix:
-            return all(i in (self.human_plan or ()) for i in his)
+            return all(self._planned(i) and not self.task.actions[i].joint for i in his)
         return his == (() if fixed is None else (fixed,))
 
     def _price(self, i: int) -> Label:
@@ -275,9 +310,14 @@ class Solver:
         if self.task.human not in action.participants:
             cost = self._units(action.cost * (1 - self.options.discount))
             return (cost, cost, 1)
-        off_plan = self.options.mode == "communication" and i not in (self.human_plan or ())
+        off_plan = self.options.mode == "communication" and not self._planned(i)
         talk = self.options.communication_weight * action.cost if off_plan else Fraction(0)
         return (self._units(action.cost + talk), self._units(action.cost), 1)
+
+    def _planned(self, i: int) -> bool:
+        """Whether an action is in ``pi_H``, by name."""
+        actions = self.task.actions
+        return any(actions[i].name == actions[j].name for j in self.human_plan or ())
 
     def _units(self, amount: Fraction) -> int:
         whole = amount * self.unit
@@ -292,7 +332,7 @@ class Solver:
         if options.mode == "individual" or (plan is None and options.windowed):
             return None
         if options.horizon is None:
-            if self.robots_goal and plan == ():
+            if self.robots_goal and plan == () and not holds(self.task.robot_goal, self.task.init):
                 raise UsageError("horizon: must be given, the human has nothing to do")
             if plan is not None:
                 return len(plan)
