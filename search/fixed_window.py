@@ -153,5 +153,5 @@ class FixedWindow:
         suffix, limit = self._weighed.suffix, best.key - node.key
         rest = suffix.key(node.state, self._left, self._window.start, limit)
         if rest < limit:
-            best.key, best.node, best.end = node.key + rest, node, self._window.end
-            best.tail = suffix.actions(node.state, self._left, self._window.start)
+            tail = suffix.actions(node.state, self._left, self._window.start)  # where time may run out
+            best.key, best.node, best.end, best.tail = node.key + rest, node, self._window.end, tail

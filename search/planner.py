@@ -180,7 +180,7 @@ class _Call:
                 yield self._outcome("feasible")
             if self.epochs != 0 or self._answer().key == INFINITE_KEY:
                 for _ in best_first(self._space(), self.best, self.progress, self.deadline):
-                    yield self._outcome("feasible")
+                    yield self._outcome(self._unfinished())
             self.progress.bound = self.best.key
             status = "optimal" if self._answer().key < INFINITE_KEY else "infeasible"
         except LIMITS as limit:
@@ -189,7 +189,7 @@ class _Call:
         yield self._outcome(status)
 
     def _unfinished(self) -> str:
-        """The status where a limit came first; an infinite bound is a proof all the same."""
+        """The status while nothing is proved; an infinite bound is a proof."""
         if self._answer().key < INFINITE_KEY:
             return "feasible"
         return "unknown" if self.progress.bound < INFINITE_KEY else "infeasible"
@@ -318,17 +318,15 @@ class _Call:
         return self.limit if status == "unknown" else None
 
     def _lower_bound(self, status: str, answer: Incumbent) -> Fraction | None:
-        """On the answer's objective; net of one epoch of window where it has none."""
+        """On the answer's objective; net of one epoch of window where it has none, or may lose it."""
         if status == "optimal":
             return self.keys.objective(answer.key)
         if status == "infeasible":
             return None
         bound = self.keys.objective(min(self.progress.bound, self.best.key))
-        if self.options.windowed and not answer.end:
-            bound -= self.options.window_weight
-        if self.options.windowed and (self.task.robot_goal or self.improvable):
-            # A better plan may yet be no opportunity; then the answer is the baseline, without any K.
-            bound = min(bound, self.keys.objective(self.baseline.key))
+        if self.options.windowed and (not answer.end or self.task.robot_goal or self.improvable):
+            # The answer is the baseline, which has no K, or may become it: not every plan is an opportunity.
+            bound = min(bound - self.options.window_weight, self.keys.objective(self.baseline.key))
         if answer.key < INFINITE_KEY:
             bound = min(bound, self.keys.objective(answer.key))
         return max(bound, Fraction(0))

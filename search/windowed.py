@@ -261,8 +261,8 @@ class Windowed:
         limit = best.key - node.key
         rest = self._suffix.key(node.state, left, node.start, limit)
         if rest < limit and not self._too_dear(node.key + rest):
-            best.key, best.node, best.end = node.key + rest, node, node.epoch + 1
-            best.tail = self._suffix.actions(node.state, left, node.start)
+            tail = self._suffix.actions(node.state, left, node.start)  # where time may run out
+            best.key, best.node, best.end, best.tail = node.key + rest, node, node.epoch + 1, tail
 
     def _too_dear(self, key: int) -> bool:
         return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

@@ -48,7 +48,7 @@ class Interruption:
         team_saving: cost of doing nothing - ``team_cost``.
         removal: what the plan with ``human_cost`` removes and puts in place.
         plan: that plan.
-        informative: no window within this one saves the human as much, or none the team.
+        informative: no window within this one, of those examined, saves the human as much, or none the team.
     """
 
     window: Window

@@ -73,6 +73,15 @@ def test_what_is_out_of_reach_is_infeasible_at_any_limit(mode: str) -> None:
         assert answer.lower_bound is None
 
 
+def test_nothing_to_do_takes_no_window(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The certificate took an epoch of window off an objective that has none."""
+    task = build(init="done", goal="done", actions={"do h": "-> done", "help r": "-> done"})
+    found = answers(task, {"window_weight": 2, "human_plan": []}, monkeypatch)
+    assert "feasible" in {answer.status for answer in found}
+    for answer in found:
+        assert serendipity.verify(task, answer).verdict == "proved"
+
+
 @pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
 def test_answers_over_ties_are_certified_wherever_time_runs_out(
     ties: str, monkeypatch: pytest.MonkeyPatch

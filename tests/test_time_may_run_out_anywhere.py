@@ -1,4 +1,4 @@
-"""Whenever the time runs out, a call ends with what it knows: never with another exception than its own."""
+"""Whenever the time runs out, a call ends with what it knows: never with an exception, nor half an answer."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,10 +7,12 @@ from typing import Any, TypeVar
 import pytest
 
 import serendipity
+from search import best_first
 from serendipity import LimitReachedError, Task
-from serendipity.interruptibility import InterruptionReport
+from serendipity.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result
 from serendipity.model.deadline import Deadline
+from tests.builders import task as build
 from tests.cases import case_2, case_4
 
 T = TypeVar("T")
@@ -107,6 +109,7 @@ def test_time_may_run_out_at_any_look(
     assert last.status == "optimal"
     for answer in early:
         assert answer.status in ("unknown", "feasible", "optimal")
+        assert serendipity.check(task, answer).verdict != "refuted"
         if answer.lower_bound is not None and answer.mode != "assistance":
             assert answer.objective is not None
             assert answer.lower_bound <= min(answer.objective, last.objective or 0)
@@ -158,6 +161,11 @@ def test_a_posterior_is_whole_or_not_there() -> None:
     assert all(answer == found[-1] for answer in found)
 
 
+def unmarked(report: InterruptionReport) -> set[Interruption]:
+    """The windows; what is informative among them depends on the others."""
+    return {replace(window, informative=False) for window in report.windows}
+
+
 @pytest.mark.parametrize("preservation", ["kernel", "state"])
 def test_windows_examined_by_then_are_reported(preservation: str) -> None:
     task = case_2()
@@ -172,7 +180,7 @@ def test_windows_examined_by_then_are_reported(preservation: str) -> None:
     assert len({len(report.windows) for report in early}) >= 5
     for report in early:
         assert (report.limit, report.to_dict()["complete"]) == ("time-limit", False)
-        assert set(report.windows) < set(last.windows)
+        assert unmarked(report) < unmarked(last)
         assert report.interruptible in (None, last.interruptible)
         if preservation == "kernel" and report.windows:
             assert report.interruptible is not None
@@ -226,3 +234,52 @@ def test_a_session_ends_with_its_deadline() -> None:
     assert session.plan().status == "unknown"
     assert session.plan(deadline=None).status == "optimal"
     assert session.plan(deadline=None, time_limit=0).status in ("unknown", "feasible")
+
+
+@pytest.mark.parametrize("suffix", ["replan", "subplan"])
+def test_a_better_answer_is_whole_or_not_there(suffix: str) -> None:
+    """It was there as soon as its cost was known; what the human does at the end was not yet found."""
+    task = build(
+        init="p0",
+        goal="p6",
+        actions={
+            **{f"walk{i} h": f"p{i} -> p{i + 1} !p{i} @ 2" for i in range(6)},
+            **{f"run{i} h": f"p{i} -> p{i + 1} !p{i} @ 2" for i in range(6)},
+            "jump h": "p1 open -> p3 !p1 @ 1",
+            "open r": "-> open @ 0",
+        },
+    )
+
+    def call(deadline: Deadline) -> Result:
+        return serendipity.plan(replace(task), suffix=suffix, window_weight=1, deadline=deadline)
+
+    found = answers(call, each=True)
+    assert found[-1].opportunity
+    for answer in found:
+        assert serendipity.check(task, answer).verdict != "refuted"
+
+
+STEPS = {f"step{k} r": f"on{k} -> on{k + 1}" for k in range(3)}
+
+
+@pytest.mark.parametrize(
+    ("task", "options"),
+    [
+        (build(init="on0", goal="on3 done", actions={**STEPS, "do h": "on2 -> done"}), {"mode": "composite"}),
+        (
+            build(init="on0", goal="done", robot_goal="on3", actions={**STEPS, "do h": "-> done"}),
+            {"human_model": "observant", "horizon": 4},
+        ),
+    ],
+    ids=["no plan alone", "robots have goals"],
+)
+def test_no_plan_is_not_said_to_be_feasible(
+    task: Task, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was, where the bound rose before there was any plan."""
+    monkeypatch.setattr(best_first, "_PATIENCE", 0)  # every rise is reported
+    *early, last = serendipity.plan_anytime(task, **options)
+    assert last.status == "optimal"
+    assert "unknown" in {answer.status for answer in early}
+    for answer in early:
+        assert (answer.status == "feasible") == (answer.plan is not None)

@@ -42,6 +42,14 @@ def test_also_where_there_is_no_baseline() -> None:
     assert (answer.cost, answer.opportunity, answer.saving) == (1.0, True, None)
 
 
+def test_unless_the_given_plan_is_not_optimal_and_no_robot_acts() -> None:
+    """There is no saving then either; the verifier asked for one of 0."""
+    tidy = {"do h": "-> done", "detour h": "-> done @ 7", "tidy h": "-> tidy done"}
+    task = build(goal="done", robot_goal="tidy", actions=tidy)
+    answer = _agreed(task, ["detour h"], mode="communication")
+    assert (answer.cost, answer.opportunity, answer.saving) == (1.0, False, None)
+
+
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite"])
 def test_beside_a_plan_that_is_not_optimal_a_robot_has_to_act(mode: str) -> None:
     """What the human can do alone is no help; the planner called it that where robots have goals."""

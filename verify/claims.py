@@ -134,9 +134,7 @@ class Examiner:
         """No answer has an objective below the bound."""
         call, bound = self.call, self.result.lower_bound
         assert bound is not None
-        shift = 0
-        if call.options.windowed and not self.result.opportunity:
-            shift = call.prices.epoch  # such an answer's objective is net of its one-epoch window
+        shift = self._window_of_nothing()
         least = shift + self._units_at_least(bound)
         nothing = call.do_nothing
         if nothing is not None and nothing[0] < least:
@@ -174,9 +172,14 @@ class Examiner:
         call, claimed = self.call, self.result.lower_bound
         if units is None or claimed is None:
             return None
-        if call.options.windowed and not self.result.opportunity:
-            units -= call.prices.epoch  # net of its one-epoch window, as in lower_bound
+        units -= self._window_of_nothing()
         return min(claimed, max(0.0, float(call.prices.cost(units))))
+
+    def _window_of_nothing(self) -> int:
+        """``K`` of the one-epoch window that the objective of an answer without a window is net of."""
+        call = self.call
+        without = call.options.windowed and bool(call.human_plan) and not self.result.opportunity
+        return call.prices.epoch if without else 0
 
     def _usual(self) -> bool:
         """Whether doing nothing and the answer without robots are both ``pi_H``."""

@@ -136,11 +136,11 @@ class _Call:
                 self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
                 yield self._outcome("feasible")
             for _ in best_first(self._space(idle=False), self.best, self.progress, self.deadline):
-                yield self._outcome("feasible")
+                yield self._outcome(self._unfinished())
             status = "optimal" if self._has_answer() else "infeasible"
         except LIMITS as limit:
             self.limit = limit_reason(limit)
-            status = "feasible" if self._has_answer() else "unknown"
+            status = self._unfinished()
         yield self._outcome(status)
 
     def _follow(self) -> None:
@@ -193,6 +193,9 @@ class _Call:
             known = self.baseline.key < INFINITE_KEY
             return self.human.keys.scaled_cost(self.baseline.key) if known else None
         return int(Fraction(limit) * self.human.keys.scale)
+
+    def _unfinished(self) -> str:
+        return "feasible" if self._has_answer() else "unknown"
 
     def _has_answer(self) -> bool:
         """Without ``G_R``, leaving him alone is always an answer."""

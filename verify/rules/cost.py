@@ -79,7 +79,8 @@ def saving(case: Case) -> Found | None:
     if result.plan is None:
         return None
     if not result.opportunity:
-        return _differs("saving", result.saving, Fraction(0))
+        unknown = case.robots_goal and result.saving is None  # whether there is a baseline
+        return None if unknown else _differs("saving", result.saving, Fraction(0))
     if case.robots_goal:
         return _saving_with_robots_goal(case)
     return _differs("saving", result.saving, _sure(case.human_cost) - case.cost)
@@ -114,7 +115,7 @@ def opportunity(case: Case) -> Found | None:
             return Found("an opportunity in which no robot acts")
         if without is not None and case.cost >= without:
             return Found(f"an opportunity that costs {float(case.cost):g}; without robots {float(without):g}")
-    elif without is not None and case.cost < without:
+    elif without is not None and result.saving_alone is not None and case.cost < without:
         return Found(
             f"the answer costs {float(case.cost):g}, without robots {float(without):g}: an opportunity"
         )

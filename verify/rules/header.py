@@ -64,6 +64,8 @@ def status_and_fields(case: Case) -> Found | None:
     compared = answered and result.human_plan is not None
     for name in ("saving", "saving_alone"):
         there = getattr(result, name) is not None
+        if not there and name == "saving_alone" and result.status == "feasible":
+            continue  # the limit came before that was known
         if there != compared and not (compared and case.robots_goal):  # where the baseline decides
             return Found(f"{name} is {'there' if there else 'missing'}: it goes with an answer and a pi_H")
     if result.window is not None and result.options.human_model != "omniscient":
