@@ -7,6 +7,7 @@ conflicts between actions are still judged on their declared effects (SPEC 2).
 *Leader* is the agent under whom an op is looked up: the human if he takes part.
 """
 
+from bisect import bisect_left
 from collections.abc import Callable, Iterable
 from copy import copy
 from dataclasses import dataclass
@@ -55,9 +56,10 @@ class Encoding:
         task: the task.
         extra: ids of facts to pack although no useful action asks for them.
         deadline: asked for time.
+        kept: ids of actions to pack although they contribute to nothing.
 
     Attributes:
-        useful: ids of the actions that can contribute to a goal or an ``extra`` fact.
+        useful: ids of the actions that can contribute to a goal or an ``extra`` fact, or are ``kept``.
         fact_bits: per fact id its field's mask and value, or None where it is not packed.
         fields: masks of the fields.
         costs: the different undiscounted costs of the task's actions, ascending.
@@ -71,15 +73,17 @@ class Encoding:
         robot_indices: ``others`` by theirs, an index for each first participant.
     """
 
-    def __init__(self, task: Task, extra: frozenset[int], deadline: Deadline) -> None:
+    def __init__(
+        self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...] = ()
+    ) -> None:
         self.task = task
         self.human_bit = 1 << task.human
         self._agents: dict[tuple[int, ...], int] = {}
         with no_collection():
-            self._build(task, extra, deadline)
+            self._build(task, extra, deadline, kept)
 
-    def _build(self, task: Task, extra: frozenset[int], deadline: Deadline) -> None:
-        relevant, useful = relevant_to_goals(task, extra, deadline)
+    def _build(self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...]) -> None:
+        relevant, useful = relevant_to_goals(task, extra, deadline, kept)
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
@@ -221,6 +225,11 @@ class Encoding:
         if op is None:
             op = self._ops[action_id] = self._pack_action(action_id)
         return op
+
+    def is_useful(self, action_id: int) -> bool:
+        """Whether an action is packed: it can contribute to something."""
+        place = bisect_left(self.useful, action_id)
+        return place < len(self.useful) and self.useful[place] == action_id
 
     def compatible(self, first: int, second: int, strict: bool) -> bool:
         """Whether two actions may share an epoch (SPEC 2)."""

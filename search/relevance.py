@@ -1,5 +1,6 @@
 """What can matter to the goals, whatever anybody does: all else is not packed."""
 
+from collections.abc import Collection
 from itertools import compress
 
 from serendipity.model.deadline import Deadline
@@ -7,12 +8,21 @@ from serendipity.model.task import Task
 
 
 def relevant_to_goals(
-    task: Task, extra: frozenset[int], deadline: Deadline
+    task: Task, extra: frozenset[int], deadline: Deadline, kept: Collection[int] = ()
 ) -> tuple[set[int], tuple[int, ...]]:
-    """Facts and actions from which the goals can be influenced (backward closure)."""
+    """Facts and actions from which the goals can be influenced (backward closure).
+
+    Args:
+        task: the task.
+        extra: facts that matter, too.
+        deadline: asked for time.
+        kept: actions that matter, whatever they do.
+    """
     actions = task.actions
     relevant = {*extra, *task.goal.positive, *task.goal.negative}
     relevant.update(task.robot_goal.positive, task.robot_goal.negative)
+    for i in kept:
+        relevant.update(actions[i].pre, actions[i].neg)
     changers: list[list[int]] = [[] for _ in task.facts]
     for i, action in enumerate(actions):
         deadline.tick()
@@ -21,6 +31,8 @@ def relevant_to_goals(
         for fact in action.delete:
             changers[fact].append(i)
     useful = bytearray(len(actions))
+    for i in kept:
+        useful[i] = 1
     pending = list(relevant)
     while pending:
         for i in changers[pending.pop()]:

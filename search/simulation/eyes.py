@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Protocol
 
 from search.encoding import Encoding
+from search.simulation.diversions import diversions
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 from serendipity.model.variables import Variable
@@ -102,9 +103,7 @@ def doubtful_encoding(task: Task, extra: frozenset[int], deadline: Deadline) -> 
     """
     if not extra:
         return task.derived(_doubtful, deadline)
-    return Encoding(
-        _doubted(task, deadline), extra.union(surroundings(task, deadline.tick).located), deadline
-    )
+    return _packed(task, extra.union(surroundings(task, deadline.tick).located), deadline)
 
 
 def complete_encoding(task: Task, deadline: Deadline) -> Encoding:
@@ -113,11 +112,15 @@ def complete_encoding(task: Task, deadline: Deadline) -> Encoding:
 
 
 def _doubtful(task: Task, deadline: Deadline) -> Encoding:
-    return Encoding(_doubted(task, deadline), frozenset(surroundings(task, deadline.tick).located), deadline)
+    return _packed(task, frozenset(surroundings(task, deadline.tick).located), deadline)
 
 
 def _complete(task: Task, deadline: Deadline) -> Encoding:
-    return Encoding(_doubted(task, deadline), frozenset(range(len(task.facts))), deadline)
+    return _packed(task, frozenset(range(len(task.facts))), deadline)
+
+
+def _packed(task: Task, facts: frozenset[int], deadline: Deadline) -> Encoding:
+    return Encoding(_doubted(task, deadline), facts, deadline, diversions(task, deadline))
 
 
 def _doubted(task: Task, deadline: Deadline) -> Task:

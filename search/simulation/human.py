@@ -1,14 +1,14 @@
 """The human's state machine: what he decides when he looks up (SPEC 6, steps 1 and 2)."""
 
-from bisect import bisect_left
 from collections.abc import Collection
 from dataclasses import dataclass
 
 from search.alone import Alone, Priced, canonical
-from search.encoding import Encoding, encoding
+from search.encoding import Encoding
 from search.keys import INFINITE_KEY, Weights
 from search.ops import Op, applicable
 from search.projection import Projection, human_projection
+from search.simulation.diversions import diversions, with_diversions
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions
 from serendipity.model.deadline import Deadline
@@ -126,10 +126,10 @@ def _encodings(
     task: Task, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
 ) -> tuple[Encoding, Encoding]:
     """The task packed as it is, and as he sees it; both hold what the actions ask for."""
-    plain = encoding(task, deadline)
+    plain = with_diversions(task, deadline)
     missing = _missing(plain, actions)
     if missing:
-        plain = Encoding(task, missing, deadline)
+        plain = Encoding(task, missing, deadline, diversions(task, deadline))
     if not local:
         return plain, plain
     if told:
@@ -144,14 +144,9 @@ def _missing(packed: Encoding, actions: Collection[int]) -> frozenset[int]:
     missing = asked if any(packed.fact_bits[f] is None for f in asked) else set()
     for i in actions:
         action = task.actions[i]
-        if action.participants == (task.human,) and not _is_useful(packed, i):
+        if action.participants == (task.human,) and not packed.is_useful(i):
             missing |= {*action.pre, *action.neg, *action.add, *action.delete}
     return frozenset(missing)
-
-
-def _is_useful(packed: Encoding, action: int) -> bool:
-    place = bisect_left(packed.useful, action)
-    return place < len(packed.useful) and packed.useful[place] == action
 
 
 def _asked_by(op: Op) -> int:

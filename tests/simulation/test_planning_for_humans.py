@@ -120,3 +120,18 @@ def test_visible_is_for_local_humans() -> None:
 def test_answers_at_the_time_limit_have_verdicts_too() -> None:
     answers = serendipity.plan_anytime(case_1(), discount=0.9, time_limit=60)
     assert all("observant" in answer.realised for answer in answers)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("chat", ["-> told", "met ->"])
+def test_what_keeps_him_busy_for_nothing_is_a_help(model: str, chat: str) -> None:
+    """It contributes to no goal, so it was left out; meanwhile the other robot does his work."""
+    built = task(
+        agents="h r q",
+        init="met",
+        goal="done",
+        actions={"do h": "-> done @ 5", "chat h r": f"{chat} @ 0", "do q": "-> done @ 2"},
+    )
+    result = serendipity.plan(built, human_model=model)
+    assert (result.cost, result.opportunity) == (2.0, True)
+    assert serendipity.verify(built, result).verdict == "proved"
