@@ -50,10 +50,13 @@ def test_what_stays_is_not_looked_at_at_the_end():
 
 
 def test_what_the_caller_has_frozen_stays_so():
+    gc.collect()
     gc.freeze()
     try:
+        frozen = gc.get_freeze_count()
         with no_collection():
-            pass
-        assert gc.get_freeze_count()
+            kept = [[] for _ in range(100_000)]
+        assert gc.get_freeze_count() == frozen
+        assert kept
     finally:
         gc.unfreeze()

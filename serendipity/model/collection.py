@@ -8,6 +8,9 @@ from typing import Final
 _MANY: Final = 20_000
 """Objects that the collector looks through in about a millisecond."""
 
+_IMMORTAL: Final = 2_000
+"""More objects than CPython 3.12 freezes by itself: every collection there sets immortal ones apart."""
+
 
 @contextmanager
 def no_collection() -> Iterator[None]:
@@ -23,7 +26,7 @@ def no_collection() -> Iterator[None]:
     finally:
         if enabled:
             # Not where a caller has frozen something, which would thaw.
-            if gc.get_count()[0] > _MANY and not gc.get_freeze_count():
+            if gc.get_count()[0] > _MANY and gc.get_freeze_count() <= _IMMORTAL:
                 gc.freeze()
                 gc.unfreeze()
             gc.enable()
