@@ -87,7 +87,7 @@ bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders 
 
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests
 	@$(BIN)/serendipity crosscheck --count 10000 --judges search,automata -o build/disagreement
-	@$(BIN)/serendipity crosscheck --count 1000 --seed 10000 --judges search,automata,paper,cbc -o build/disagreement
+	@$(BIN)/serendipity crosscheck --count 1000 --judges search,automata,paper,cbc -o build/disagreement
 	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
 
 requirements: pyproject.toml  ## pin the dependencies again (needs uv)

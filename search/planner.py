@@ -168,6 +168,7 @@ class _Call:
         self.settled = not given
         """Whether it is known what the human gains by himself."""
         self.improvable = False
+        """Whether a given plan costs more than an optimal one."""
         self.limit: str | None = None
 
     def answers(self) -> Iterator[Outcome]:

@@ -134,6 +134,7 @@ class _Call:
         gap = Gap(self.deadline)
         for outcome in news(self.outcomes(human_plan)):
             gap.record(outcome)
+        outcome = replace(outcome, human_plan=human_plan)  # also where there was no time to find that out
         return Answered(outcome, _to_result(self, outcome, gap.known()))
 
 

@@ -179,7 +179,8 @@ def calls(draw: st.DrawFn, *, modes: tuple[str, ...] = MODES, ties: bool = True)
     given: HumanPlan | None = None
     if plan is not None and mode != "individual" and draw(st.integers(0, 3)) == 0:
         given = plan = draw(_other_plans(task, plan))
-    options = draw(_options(mode, None if plan is None else len(plan)))
+    open_goal = not task.robot_goal.holds(task.init)
+    options = draw(_options(mode, None if plan is None else len(plan), open_goal=open_goal))
     if ties and given is None and 1 < len(plans) <= _MOST_TIES:
         options = options.but(
             ties=draw(st.sampled_from(["fixed", "fixed", "optimistic", "robust", "expected"]))
@@ -188,7 +189,7 @@ def calls(draw: st.DrawFn, *, modes: tuple[str, ...] = MODES, ties: bool = True)
 
 
 @st.composite
-def _options(draw: st.DrawFn, mode: str, length: int | None) -> Options:
+def _options(draw: st.DrawFn, mode: str, length: int | None, *, open_goal: bool) -> Options:
     keep_prefix = mode == "communication" and length is not None and draw(st.integers(0, 2)) == 0
     numbers = [str(n / 2) for n in range(17)]
     limits = [None] * 6 + ["human", draw(st.sampled_from(numbers))]
@@ -196,7 +197,7 @@ def _options(draw: st.DrawFn, mode: str, length: int | None) -> Options:
     return Options(
         mode=mode,
         discount=draw(st.sampled_from(_DISCOUNTS)),  # type: ignore[arg-type]
-        horizon=draw(_horizons(mode, length)),
+        horizon=draw(_horizons(mode, length, open_goal=open_goal)),
         window_weight=draw(st.sampled_from(_WEIGHTS)),  # type: ignore[arg-type]
         max_window=draw(st.sampled_from([None, None, None, 1, 2, 3])),
         suffix=draw(st.sampled_from(["replan", "replan", "subplan"])),
@@ -209,8 +210,8 @@ def _options(draw: st.DrawFn, mode: str, length: int | None) -> Options:
 
 
 @st.composite
-def _horizons(draw: st.DrawFn, mode: str, length: int | None) -> int | str | None:
-    """Never shorter than the human's plan."""
+def _horizons(draw: st.DrawFn, mode: str, length: int | None, *, open_goal: bool) -> int | str | None:
+    """Never shorter than the human's plan; given where a call without it is an error."""
     if mode == "individual":
         return None
     if length is None:
@@ -218,6 +219,8 @@ def _horizons(draw: st.DrawFn, mode: str, length: int | None) -> int | str | Non
             draw(st.integers(1, 4)) if mode != "composite" else draw(st.sampled_from([None, "inf", 1, 2, 3]))
         )
     longer = [length, length + 1, length + 2]
+    if open_goal and length == 0:
+        return draw(st.sampled_from(longer))
     return draw(st.sampled_from([None, None, *longer, *(["inf"] if mode == "composite" else [])]))
 
 

@@ -14,7 +14,7 @@ def test_weight_0_costs_what_composite_costs(call: Call) -> None:
     """With K = 0 the window [1, T+1) fits every plan (SPEC 3.1); a given plan need not be beaten."""
     if call.human_plan is not None:
         return
-    free = call.options.but(window_weight=0, max_window=None, max_cost=None)
+    free = call.options.but(window_weight=0, max_window=None, max_cost=None, preservation="kernel")
     serendipity = best(call.task, free, call.human_plan)
     if serendipity.status == "infeasible" or call.task.goal.holds(call.task.init):
         return  # nothing to preserve, or no epoch in which a window could start

@@ -114,8 +114,8 @@ class Examiner:
         idle = idle_cost(call)
         assert idle is not None
         alone = float(call.prices.cost(call.baseline - idle))
-        if result.saving_alone != alone:
-            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
+        if result.saving_alone is not None and result.saving_alone != alone:
+            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone:g}", None
         cost = self._score()[1]
         saving = float(call.prices.cost(call.baseline - cost)) if result.opportunity else 0.0
         if result.saving != saving:

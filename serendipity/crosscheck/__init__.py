@@ -1,7 +1,7 @@
-"""Cross-validation: search, both integer programs and the certificate on the same calls."""
+"""Cross-validation: search, both integer programs, certificates and laws on the same calls."""
 
 from serendipity.crosscheck.calls import PlanCall, random_call
-from serendipity.crosscheck.judges import JUDGES, Disagreement, Figures, compare
+from serendipity.crosscheck.judges import JUDGES, Disagreement, Figures, compare, shows_it_too
 from serendipity.crosscheck.reproduce import command_line, write_case
 from serendipity.crosscheck.shrink import shrink
 
@@ -13,6 +13,7 @@ __all__ = [
     "command_line",
     "compare",
     "random_call",
+    "shows_it_too",
     "shrink",
     "write_case",
 ]

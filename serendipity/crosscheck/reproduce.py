@@ -2,24 +2,35 @@
 
 import shlex
 from pathlib import Path
+from typing import Final
 
 from serendipity.crosscheck.calls import PlanCall
 from serendipity.crosscheck.judges import Disagreement
 from serendipity.pddl.write import write_pddl
 
+PLAN: Final = "plan.txt"
+"""File of the human plan that is given."""
+
 
 def write_case(found: Disagreement, folder: Path) -> Path:
-    """Write ``folder`` (task, ``commands.txt``); returns the file with the commands.
+    """Write ``folder`` (task, ``plan.txt`` where a plan is given, ``commands.txt``); returns the last.
 
     Raises:
         OSError: it can't be written.
     """
-    write_pddl(found.call.task, folder)
-    commands = folder / "commands.txt"
+    call = found.call
+    write_pddl(call.task, folder)
+    if call.human_plan is not None:
+        (folder / PLAN).write_text(
+            "".join(f"{_written(name)}\n" for name in call.human_plan), encoding="utf-8"
+        )
     lines = [f"# {judge}: {words}" for judge, words in found.said.items()]
-    lines += [
-        command_line(found.call, folder, command) for command in ("plan", "solve", "solve --encoding paper")
-    ]
+    if len(call.task.named) < len(call.task.actions):
+        lines.append("# variants of one action are written under names of their own, which may hide it")
+    if call.seed is not None:
+        lines.append(f"serendipity crosscheck --count 1 --seed {call.seed}")
+    lines += [command_line(call, folder, command) for command in ("plan", "solve", "solve --encoding paper")]
+    commands = folder / "commands.txt"
     commands.write_text("\n".join([*lines, ""]), encoding="utf-8")
     return commands
 
@@ -27,8 +38,12 @@ def write_case(found: Disagreement, folder: Path) -> Path:
 def command_line(call: PlanCall, folder: Path, command: str = "plan") -> str:
     """The command line that makes the call on the task written to ``folder``."""
     words = ["serendipity", *command.split(), str(folder), "--human", call.task.agents[call.task.human]]
-    for name, value in call.options.items():
-        words.append(f"--{name.replace('_', '-')}")
-        if name != "keep_prefix":
-            words.append(value)
+    words += call.command_words()
+    if call.human_plan is not None:
+        words += ["--human-plan", str(folder / PLAN)]
     return shlex.join(words)
+
+
+def _written(name: str) -> str:
+    """An action's name as :func:`write_pddl` writes it."""
+    return name.replace(" ", "_")

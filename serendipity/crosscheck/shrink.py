@@ -33,6 +33,8 @@ def _smaller(call: PlanCall) -> Iterator[PlanCall]:
     for name in call.options:
         if name != "mode":
             yield replace(call, options={key: value for key, value in call.options.items() if key != name})
+    if call.human_plan is not None:
+        yield replace(call, human_plan=None)
     for task in _smaller_tasks(call.task):
         yield replace(call, task=task)
 

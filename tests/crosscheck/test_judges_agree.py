@@ -10,8 +10,19 @@ from hypothesis import strategies as st
 
 from serendipity import Deadline, Result, load
 from serendipity.cli.app import main
-from serendipity.crosscheck import JUDGES, PlanCall, command_line, compare, random_call, shrink, write_case
+from serendipity.crosscheck import (
+    JUDGES,
+    Disagreement,
+    PlanCall,
+    command_line,
+    compare,
+    random_call,
+    shows_it_too,
+    shrink,
+    write_case,
+)
 from serendipity.crosscheck import judges as judging
+from tests.builders import task as build
 from tests.cases import case_4
 
 seeds = st.integers(0, 10**9)
@@ -31,9 +42,34 @@ def test_all_judges_agree(seed: int) -> None:
 
 
 def test_a_program_that_a_presolve_called_infeasible() -> None:
-    """HiGHS 1.14 with its presolve finds no plan below 4 in the paper's program."""
-    call = random_call(271)
-    assert call.options["suffix"] == "subplan", "the generator has changed: find another such call"
+    """HiGHS 1.14 with its presolve finds no plan below 4 in the paper's program (facts in this order)."""
+    task = build(
+        agents="hum rob",
+        human="hum",
+        init="a-at0",
+        goal="d-at2",
+        actions={
+            "back0 hum": "b-at1 !c-shut -> a-at0 !b-at1",
+            "carry hum rob": "a-at0 -> b-at1 !a-at0 @ 2",
+            "jump0 hum": "a-at0 e-open0 -> d-at2 !a-at0 @ 2.5",
+            "jump1 hum": "a-at0 g-open1 -> b-at1 !a-at0",
+            "jump2 hum": "a-at0 h-open2 -> d-at2 !a-at0",
+            "open0 rob": "f-ready -> e-open0 !f-ready",
+            "open1 rob": "-> g-open1",
+            "open2 rob": "f-ready -> h-open2 i-tired @ 0.1",
+            "prepare rob": "-> f-ready i-tired @ 0",
+            "walk0 hum": "a-at0 -> b-at1 !a-at0",
+            "walk1 hum": "b-at1 -> d-at2 !b-at1 @ 3",
+        },
+    )
+    options = {
+        "discount": "1",
+        "window_weight": "0",
+        "suffix": "subplan",
+        "horizon": "4",
+        "interference": "strict",
+    }
+    call = PlanCall(task, options)
     assert {JUDGES[name](call, Deadline()).cost for name in ("search", "automata", "paper", "cbc")} == {1.0}
 
 
@@ -48,8 +84,9 @@ def _blind(call: PlanCall, deadline: Deadline) -> Result:
 def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
     judges = {"search": JUDGES["search"], "blind": _blind}
     call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9", "interference": "strict"})
-    assert compare(call, judges) is not None
-    smallest = shrink(call, lambda smaller: compare(smaller, judges) is not None)
+    found = compare(call, judges)
+    assert found is not None
+    smallest = shrink(call, shows_it_too(found, judges))
     found = compare(smallest, judges)
     assert found is not None
     assert "refuted" in found.said["blind"]
@@ -73,6 +110,21 @@ def test_command_lines_quote_nothing_away() -> None:
     assert words == (
         "serendipity solve --encoding paper 'a b' --human h --mode communication --keep-prefix --max-window 2"
     )
+    given = PlanCall(case_4(), {"human_model": "local", "no_block": "false"}, ("move h a b",))
+    assert command_line(given, Path("c")) == (
+        "serendipity plan c --human h --human-model local --allow-block --human-plan c/plan.txt"
+    )
+
+
+def test_a_given_plan_is_written_beside_the_task(tmp_path: Path) -> None:
+    plan = ("enter h", "leave h")
+    task = build(
+        init="out", goal="home", actions={"enter h": "-> in", "leave h": "in -> home", "aid r": "-> in"}
+    )
+    found = Disagreement(PlanCall(task, {}, plan), {"search": "this", "paper": "that"})
+    commands = write_case(found, tmp_path / "case").read_text().splitlines()
+    line = next(line for line in commands if line.startswith("serendipity plan"))
+    assert main([*line.split()[1:], "--format", "json"]) == 0
 
 
 # -- the command
@@ -81,6 +133,14 @@ def test_command_lines_quote_nothing_away() -> None:
 def test_command_on_random_calls(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["crosscheck", "--count", "3", "--seed", "5", "--judges", "search,automata"]) == 0
     assert capsys.readouterr().out == "3 calls, search, automata: 0 disagreements\n"
+
+
+def test_command_without_a_seed_draws_one_and_says_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("secrets.randbelow", lambda most: most - 7)
+    assert main(["crosscheck", "--count", "1", "--judges", "search"]) == 0
+    assert capsys.readouterr().out == "seed 999999993\n1 calls, search: 0 disagreements\n"
 
 
 def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> None:
@@ -93,10 +153,10 @@ def test_command_writes_a_disagreement(
 ) -> None:
     monkeypatch.setitem(judging.JUDGES, "search", _blind_of(judging.JUDGES["search"]))
     folder = tmp_path / "case"
-    words = ["crosscheck", "--count", "200", "--judges", "search,automata", "-o", str(folder)]
+    words = ["crosscheck", "--seed", "0", "--count", "200", "--judges", "search,automata", "-o", str(folder)]
     assert main(words) == 1
     assert "a disagreement" in capsys.readouterr().out
-    assert (folder / "commands.txt").exists()
+    assert "serendipity crosscheck --count 1 --seed " in (folder / "commands.txt").read_text()
 
 
 def _blind_of(judge: judging.Judge) -> judging.Judge:

@@ -207,8 +207,8 @@ class Solver:
             None,
             length,
             human_cost=human_cost,
-            saving=human_cost - cost,
-            saving_alone=Fraction(0),
+            saving=Fraction(0),
+            saving_alone=human_cost - cost,
         )
 
     def _answer(self, found: Candidate | None, baseline: Label | None, *, helps: bool) -> Optimum:

@@ -118,6 +118,15 @@ def _limits() -> Iterator[PlanCall]:
     }
     yield PlanCall(build(init="a", goal="c", actions=twice), {"max_cost": "3", "window_weight": "3"})
     yield PlanCall(build(init="a", goal="c", actions=twice), {"mode": "communication", "keep_prefix": "true"})
+    aside = {
+        "go h": "a -> b !a",
+        "do h": "b -> done @ 6",
+        "aside h": "a -> s !a",
+        "quit h": "s open -> done",
+        "open r": "-> open",
+    }
+    options = {"mode": "communication", "keep_prefix": "true", "suffix": "subplan", "discount": "0.5"}
+    yield PlanCall(build(init="a", goal="done", actions=aside), options)
     # Dear and short against cheap and long: the limit on the window keeps the first.
     either = {
         "do h": "-> g @ 9",

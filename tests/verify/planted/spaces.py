@@ -26,7 +26,8 @@ def _only_waiting(self: AnyOfPlan, epoch: int, state: int) -> Iterable[Option]:
 
 
 def _joint_before(self: AnyOfPlan, epoch: int, state: int) -> Iterable[Option]:
-    planned = (o for o in self._successors.human(state) if o.actions[0] in self._planned)
+    own = self._successors.human(state)
+    planned = (option for option in own if self._actions[option.actions[0]].name in self._planned)
     return (NOTHING, *planned, *self._successors.joint(state))
 
 

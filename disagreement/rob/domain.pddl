@@ -1,0 +1,6 @@
+(define (domain grounded)
+  (:requirements :strips :negative-preconditions :action-costs)
+  (:predicates
+  )
+  (:functions (total-cost))
+)

@@ -1,0 +1,12 @@
+(define (domain grounded)
+  (:requirements :strips :negative-preconditions :action-costs)
+  (:predicates
+    (f1)
+    (f3)
+    (f2)
+    (f4)
+    (f5)
+    (f0)
+  )
+  (:functions (total-cost))
+)
