@@ -10,7 +10,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS, OF_VERDICT, ExitCode
-from serendipity.model import Deadline, Result, Task
+from serendipity.model import Result, Task
 from serendipity.model.result import STATUSES
 from tests.cli.conftest import Run
 
@@ -62,8 +62,8 @@ def test_a_joint_plan_where_he_has_none_is_0(stuck: str, run: Callable[[str], Ru
 
 
 def test_no_answer_within_the_limit_is_4(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
-    def nothing(task: Task, deadline: Deadline, **options: Any) -> Iterator[Result]:
-        yield Result("serendipity", "unknown", "commx", serendipity.Options(**options))
+    def nothing(task: Task, **options: Any) -> Iterator[Result]:
+        yield Result("serendipity", "unknown", "commx", serendipity.Options())
 
     monkeypatch.setattr(serendipity, "plan_anytime", nothing)
     done = run("plan --example room2 --time-limit 60")
@@ -89,7 +89,7 @@ def test_an_interrupt_writes_the_incumbent_and_is_130(
 def test_an_interrupted_proof_does_not_lose_the_answer(
     run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(task: Task, result: Result) -> serendipity.Certificate:
+    def interrupted(task: Task, result: Result, **limits: Any) -> serendipity.Certificate:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(serendipity, "verify", interrupted)

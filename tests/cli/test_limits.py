@@ -74,13 +74,15 @@ def test_a_limit_that_is_none_is_told_before_the_work(command: str, option: str,
 def test_no_time_to_read_is_one_line_and_4(run: Runs) -> None:
     done = run("plan --example room2 --time-limit 0")
     assert (done.code, done.out) == (4, "")
-    assert done.err == "The time limit came first, reading the task; give more with --time-limit\n"
+    assert done.err.startswith("The time limit came first, reading the task (reading ")
+    assert done.err.endswith("usar/domain.pddl); give more with --time-limit\n")
 
 
 def test_no_memory_to_read_is_one_line_and_4(run: Runs) -> None:
     done = run("explain --example room2 --memory-limit 1")
     assert (done.code, done.out) == (4, "")
-    assert done.err.startswith("Memory is used up, reading the task; give more with --memory-limit")
+    assert done.err.startswith("Memory is used up, reading the task")
+    assert "; give more with --memory-limit" in done.err
     assert done.err.count("\n") == 1
 
 
@@ -139,7 +141,7 @@ def test_rows_that_are_not_proved_are_told(run: Runs, monkeypatch: pytest.Monkey
 
 
 def test_crosscheck_takes_limits_for_each_answer(run: Runs) -> None:
-    done = run("crosscheck --count 2 --judges search,automata --time-limit 0 --memory-limit 99999")
+    done = run("crosscheck --count 2 --seed 1 --judges search,automata --time-limit 0 --memory-limit 99999")
     assert (done.code, done.out) == (0, "2 calls, search, automata: 0 disagreements\n")
 
 

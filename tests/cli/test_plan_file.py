@@ -1,7 +1,8 @@
 """``plan --save-plan``: the plan as planning competitions write it, executable line by line."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -70,9 +71,12 @@ def test_who_undoes_something_comes_later() -> None:
     assert actions(plan_file(planned, result)) == ["enter h", "close r"]
 
 
-def test_without_a_plan_there_is_no_file(run: Runs, tmp_path: Path) -> None:
-    serendipity.generate_usar(tmp_path / "task", preset="room2")
-    done = run("plan task --mode composite --horizon inf --time-limit 0 --save-plan help.plan")
+def test_without_a_plan_there_is_no_file(run: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def nothing(task: Task, **options: Any) -> Iterator[Result]:
+        yield Result("serendipity", "unknown", "commx", serendipity.Options())
+
+    monkeypatch.setattr(serendipity, "plan_anytime", nothing)
+    done = run("plan --example room2 --save-plan help.plan")
     assert done.err.startswith("Warning: --save-plan: there is no plan")
     assert not (tmp_path / "help.plan").exists()
 
