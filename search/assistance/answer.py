@@ -154,7 +154,7 @@ def _search(game: Game, options: Options) -> Shortest | Branching:
     no_block = bool(options.no_block)
     if options.ties in ("fixed", "optimistic"):
         return Shortest(game, bound, fixed=options.ties == "fixed", no_block=no_block)
-    return Branching(game, bound, Worst() if options.ties == "robust" else Mean(), no_block=no_block)
+    return Branching(game, bound, Worst() if options.ties == "robust" else Mean(game), no_block=no_block)
 
 
 def _answer(writer: Writer, search: Shortest | Branching, status: str) -> Assistance:

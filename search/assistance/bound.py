@@ -7,21 +7,23 @@ one table.  Elsewhere a relaxation of it, see :mod:`search.assistance.provision`
 from typing import Final
 
 from search.assistance.closure import Arc, Closure, TooManyStatesError
-from search.assistance.game import INFINITE, UNIT_BITS, Game
+from search.assistance.game import INFINITE, Game
 from search.assistance.provision import Provision
 from search.encoding import Goal
 from search.keys import INFINITE_KEY
 
 MAX_JOINT_STATES: Final = 100_000
-_SUPPORTER_BITS: Final = 24
 
 
 class Bound:
     """Admissible and consistent; the same whoever is to move."""
 
     def __init__(self, game: Game) -> None:
+        self._unit_bits = game.unit_bits
         self._provision = Provision(game)
-        self._joint: Closure | None = _joint_closure(game)
+        heaviest = max(map(game.cost, game.supporter_ops), default=0)
+        self._shift = heaviest.bit_length() + MAX_JOINT_STATES.bit_length()  # a way has no state twice
+        self._joint: Closure | None = _joint_closure(game, self._shift)
         try:
             self._joint.key(game.init)
         except TooManyStatesError:
@@ -43,21 +45,22 @@ class Bound:
             return self._provision(state)
         if key >= INFINITE_KEY:
             return INFINITE
-        prime, supporter = divmod(key, 1 << _SUPPORTER_BITS)
-        return (prime << UNIT_BITS) + supporter
+        prime, supporter = divmod(key, 1 << self._shift)
+        return (prime << self._unit_bits) + supporter
 
     def wanted(self, state: int) -> frozenset[int]:
         """Supporter actions that a plan attaining the bound makes use of; may be empty."""
         return frozenset() if self._joint is not None else self._provision.wanted(state)
 
 
-def _joint_closure(game: Game) -> Closure:
+def _joint_closure(game: Game, shift: int) -> Closure:
+    """Distances of both together; ``shift`` is the lowest bit of what the prime pays."""
     arcs = []
-    for ops, shift in ((game.encoding.own, _SUPPORTER_BITS), (game.supporter_ops, 0)):
+    for ops, bit in ((game.encoding.own, shift), (game.supporter_ops, 0)):
         for op in ops:
             game.deadline.tick()
             condition = Goal(op.need_mask, op.need, op.forbidden)
-            arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << shift))
+            arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << bit))
     fields = game.encoding.fields
     values = [game.encoding.values(field) for field in fields]
     return Closure(arcs, game.goal, fields, values, MAX_JOINT_STATES, game.deadline)

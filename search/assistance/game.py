@@ -13,15 +13,18 @@ from typing import Final, NamedTuple
 from search.assistance.own import UNREACHABLE, OwnCosts
 from search.assistance.watched import Watched
 from search.encoding import Encoding, encoding
+from search.keys import INFINITE_KEY
 from search.ops import Op, applicable
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import UsageError
 from serendipity.model.task import Task
 
-UNIT_BITS: Final = 96
-INFINITE: Final = 1 << 400
+INFINITE: Final = INFINITE_KEY
 """A run that never ends."""
+
+_RUN_BITS: Final = 40
+"""A run has fewer than so many bits' steps."""
 
 NOOP: Final = -1
 """The id under which waiting is listed."""
@@ -59,6 +62,7 @@ class Game:
         self.goal = self.encoding.goal
         self.scale = lcm(1, *(cost.denominator for cost in self.encoding.costs))
         self._scaled = [int(cost * self.scale) for cost in self.encoding.costs]
+        self.unit_bits = max(self._scaled, default=0).bit_length() + _RUN_BITS
         robot = 1 << task.robots[0]
         self.supporter_ops = tuple(op for op in self.encoding.others if op.agents == robot)
         self._supporter_index = Watched(self.supporter_ops, self.encoding.fields, deadline)
@@ -79,7 +83,7 @@ class Game:
 
     def pair(self, value: int) -> tuple[Fraction, Fraction]:
         """The costs of prime and supporter in a value."""
-        prime, supporter = divmod(value, 1 << UNIT_BITS)
+        prime, supporter = divmod(value, 1 << self.unit_bits)
         return Fraction(prime, self.scale), Fraction(supporter, self.scale)
 
     def supporter(self, state: int) -> list[Move]:
@@ -112,7 +116,7 @@ class Game:
             form = (actions[op.action].name, after)
             if form not in seen:
                 seen.add(form)
-                moves.append(Move(self._scaled[op.cost] << UNIT_BITS, after, op.action))
+                moves.append(Move(self._scaled[op.cost] << self.unit_bits, after, op.action))
         return moves
 
     def alone(self, state: int) -> int:
@@ -121,7 +125,7 @@ class Game:
         Whatever he chooses among his optimal actions, the prime pays his optimal cost.
         """
         key = self.own.key(state)
-        return INFINITE if key >= UNREACHABLE else self.own.cost_in(key) << UNIT_BITS
+        return INFINITE if key >= UNREACHABLE else self.own.cost_in(key) << self.unit_bits
 
     def facts(self, state: int) -> frozenset[int]:
         """Ids of the relevant facts that are true in a packed state."""

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from heapq import heappop, heappush
 from typing import NamedTuple
 
-from search.assistance.game import INFINITE, UNIT_BITS, Game
+from search.assistance.game import INFINITE, Game
 from search.ops import Op
 
 Pair = tuple[int, int]
@@ -153,7 +153,7 @@ class Provision:
                 charge = sum(price for price, set_with, _ in step.charges if set_with == bit)
                 cost, price = least.get(bit, (step.cost, charge))
                 least[bit] = (min(cost, step.cost), min(price, charge))
-        per_goal = {bit: (cost << UNIT_BITS) + price for bit, (cost, price) in least.items()}
+        per_goal = {bit: (cost << self._game.unit_bits) + price for bit, (cost, price) in least.items()}
         return _Context(steps, per_goal, {})
 
     def _step(self, op: Op, provided: int) -> Step | None:
@@ -260,7 +260,7 @@ class Provision:
                 after = at & step.keep | step.put
                 if after != at:
                     charge = sum(price for price, bit, _ in step.charges if not at & bit)
-                    yield (step.cost << UNIT_BITS) + charge, after, step
+                    yield (step.cost << self._game.unit_bits) + charge, after, step
 
 
 def _monotone(ops: Iterable[Op], private: int, fields: list[int]) -> int:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from heapq import heappop, heappush
 from typing import NamedTuple
 
-from search.assistance.game import INFINITE, UNIT_BITS, Game
+from search.assistance.game import INFINITE, Game
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
@@ -28,7 +28,7 @@ def joint_lower_bound(game: Game, deadline: Deadline) -> int:
     """
     task = game.task
     actions = [
-        *_actions(game, deadline, prime=True, shift=UNIT_BITS),
+        *_actions(game, deadline, prime=True, shift=game.unit_bits),
         *_actions(game, deadline, prime=False, shift=0),
     ]
     costs = _Relaxation(task, actions, max, deadline).costs(task.init)
@@ -43,7 +43,7 @@ def upper_bound_alone(game: Game) -> int:
     """
     task, goal = game.task, game.task.goal
     deadline = game.deadline
-    relaxation = _Relaxation(task, _actions(game, deadline, prime=True, shift=UNIT_BITS), _sum, deadline)
+    relaxation = _Relaxation(task, _actions(game, deadline, prime=True, shift=game.unit_bits), _sum, deadline)
     start = frozenset(task.init)
     queue = [(0, 0, 0, start)]
     seen = {start}
@@ -65,7 +65,7 @@ def upper_bound_alone(game: Game) -> int:
             estimate = sum(facts.get(fact, INFINITE) for fact in goal.positive)
             if estimate < INFINITE:
                 count += 1
-                value = cost + (int(action.cost * game.scale) << UNIT_BITS)
+                value = cost + (int(action.cost * game.scale) << game.unit_bits)
                 heappush(queue, (estimate, count, value, after))
     return INFINITE
 

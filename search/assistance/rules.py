@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-from search.assistance.game import INFINITE, UNIT_BITS, Game
+from search.assistance.game import INFINITE, Game
 from search.assistance.solution import Costs
 
 Value = Any
@@ -57,13 +57,16 @@ class Mean:
 
     infinite: Value = (math.inf, math.inf)
 
+    def __init__(self, game: Game) -> None:
+        self._unit = 1 << game.unit_bits
+
     def lift(self, value: int) -> Value:
         """See :class:`Rule`."""
-        return self.infinite if value >= INFINITE else divmod(value, 1 << UNIT_BITS)
+        return self.infinite if value >= INFINITE else divmod(value, self._unit)
 
     def add(self, value: int, rest: Value) -> Value:
         """See :class:`Rule`."""
-        prime, supporter = divmod(value, 1 << UNIT_BITS)
+        prime, supporter = divmod(value, self._unit)
         return (prime + rest[0], supporter + rest[1])
 
     def combine(self, values: Sequence[Value]) -> Value:

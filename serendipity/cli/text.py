@@ -156,7 +156,9 @@ def _verdict(certificate: Certificate) -> Line:
     if wrong is not None:
         line, style = f"refuted, {wrong.claim}: {wrong.reason}", "bold red"
     elif certificate.verdict == "undecided":
-        line, style = "undecided within the limit", "yellow"
+        left = next((claim for claim in certificate.claims if claim.verdict == "undecided"), None)
+        line = "has no answer to check" if left is None else f"undecided, {left.claim}: {left.reason}"
+        style = "yellow"
     else:
         proved = [claim.claim for claim in certificate.claims if claim.verdict == "proved"]
         line, style = f"proves {', '.join(proved)}" if proved else "finds nothing wrong", "green"

@@ -12,36 +12,43 @@ MOST_DIGITS: Final = 100
 """Digits of a number, and its decimal exponent: such numbers and their sums have floats."""
 
 
-def exact(value: Number, what: str = "number") -> Fraction:
+MOST_IN_RESULTS: Final = 4_000
+"""Digits of a number that was computed: sums and means of those that are written down."""
+
+
+def exact(value: Number, what: str = "number", most: int = MOST_DIGITS) -> Fraction:
     """The rational that a number is written as: ``exact(0.1) == Fraction(1, 10)``.
 
     Args:
         value: an integer, a float (read as its shortest decimal), a decimal or
             a text such as ``"0.6"`` or ``"1/3"``.
         what: how an error calls the value.
+        most: digits that it may have.
 
     Raises:
-        UsageError: the value is not a finite number, or has more than :data:`MOST_DIGITS` digits.
+        UsageError: the value is not a finite number, has too many digits, or no float.
     """
     if isinstance(value, Fraction):
         return value
     if isinstance(value, bool):
         raise UsageError(f"{what}: expected a number, got {value!r}")
     try:
-        return fraction(str(value).strip())
-    except (ValueError, ZeroDivisionError):
+        found = fraction(str(value).strip(), most)
+        float(found)
+        return found
+    except (ValueError, ArithmeticError):
         raise UsageError(f"{what}: expected a finite number, got {value!r:.50}") from None
 
 
-def fraction(text: str) -> Fraction:
+def fraction(text: str, most: int = MOST_DIGITS) -> Fraction:
     """The rational that a text writes down.
 
     Raises:
-        ValueError: it writes down none, or one of more than :data:`MOST_DIGITS` digits.
+        ValueError: it writes down none, or one of more than ``most`` digits.
         ZeroDivisionError: its denominator is 0.
     """
     exponent = text.lower().partition("e")[2]
-    if len(text) > MOST_DIGITS or (exponent and abs(int(exponent)) > MOST_DIGITS):
+    if len(text) > most or (exponent and abs(int(exponent)) > MOST_DIGITS):
         raise ValueError
     return Fraction(text)
 

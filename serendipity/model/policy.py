@@ -6,7 +6,7 @@ from typing import Any
 
 from serendipity.model.actions import NOOP
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.numbers import exact
+from serendipity.model.numbers import MOST_IN_RESULTS, exact
 
 Costs = tuple[Fraction, Fraction]
 """The human's total and the supporter's, compared in this order."""
@@ -150,7 +150,7 @@ class _Reader:
                 f"{where}.value: expected the human's and the supporter's cost as texts, got {value!r:.50}"
             )
         try:
-            first, second = (exact(cost, f"{where}.value") for cost in value)
+            first, second = (exact(cost, f"{where}.value", MOST_IN_RESULTS) for cost in value)
         except UsageError as error:
             raise self._error(str(error)) from None
         if first < 0 or second < 0:

@@ -99,3 +99,23 @@ def test_policy_is_printed_as_a_plan_with_branches() -> None:
     assert "walk p a b: go on at" in text
     assert "carry s b d" in text
     assert totals_line(result) == "p pays 1.5, s pays 0.5 on average; alone p pays 2"
+
+
+@pytest.mark.parametrize("ties", ["fixed", "robust", "optimistic", "expected"])
+@pytest.mark.parametrize("scale", ["1e99", "1e-99"])
+def test_huge_and_tiny_costs_are_told_apart(ties: str, scale: str) -> None:
+    """They ran into each other, and a game that ends was said to have no end."""
+    dear = Fraction(scale)
+    planned = task(
+        agents="h r",
+        goal="g",
+        actions={
+            "walk h": f"-> g @ {3 * dear}",
+            "ride h": f"lift -> g @ {dear}",
+            "lift r": f"-> lift @ {7 * dear}",
+        },
+    )
+    result = serendipity.plan(planned, mode="assistance", ties=ties)
+    assert result.status == "optimal"
+    assert result.agent_costs == {"h": float(dear), "r": float(7 * dear)}
+    assert serendipity.verify(planned, result).verdict == "proved"

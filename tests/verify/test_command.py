@@ -47,7 +47,7 @@ def test_a_limit_leaves_it_undecided(
     named = _written(tmp_path, case_4(), discount="0.9")
     monkeypatch.setattr(serendipity, "verify", partial(serendipity.verify, time_limit=0))
     assert main(["verify", *named, "--human", "h"]) == 4
-    assert "undecided within the limit" in capsys.readouterr().out
+    assert "undecided, replay: the time limit came first" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

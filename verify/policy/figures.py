@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.model import PlanError, Result, Task, UsageError, exact
+from serendipity.model import PlanError, Result, Task, UsageError
+from serendipity.model.numbers import MOST_IN_RESULTS, exact
 from verify.policy.board import Board, Costs
 from verify.rules.replay import replay_human
 
@@ -125,7 +126,7 @@ def _pair(value: Any) -> Costs | None:
     if not isinstance(value, list | tuple) or len(value) != 2 or not all(isinstance(x, str) for x in value):
         raise ValueError("statistics.bounds: expected the human's and the robot's cost as texts")
     try:
-        first, second = (exact(cost, "statistics.bounds") for cost in value)
+        first, second = (exact(cost, "statistics.bounds", MOST_IN_RESULTS) for cost in value)
     except UsageError as error:
         raise ValueError(str(error)) from None
     return first, second
