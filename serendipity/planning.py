@@ -216,9 +216,18 @@ def _over_ties(call: _Call) -> Result:
             least=lambda: least_over_ties(call.task, options, graph, call.deadline),
         )
     )
-    result = combined(answers, options.ties, everyone=len(answers) == count)
+    result = combined(answers, options.ties, everyone=len(answers) == count, limit=_limit(call.deadline))
     measured = {"elapsed_seconds": call.deadline.elapsed(), "optimal_plans": count}
     return replace(result, statistics={**result.statistics, **measured})
+
+
+def _limit(deadline: Deadline) -> str | None:
+    """The limit that has come, or None."""
+    try:
+        deadline.check()
+    except LIMITS as limit:
+        return limit_reason(limit)
+    return None
 
 
 def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | None]] = ()) -> Result:

@@ -51,7 +51,9 @@ def until_settled(
             return
 
 
-def combined(answers: list[Answered], ties: str, *, everyone: bool = True) -> Result:
+def combined(
+    answers: list[Answered], ties: str, *, everyone: bool = True, limit: str | None = None
+) -> Result:
     """The answer under ``ties``; ``statistics["ties"]`` has those that it was made of.
 
     Where one of them has no plan, neither has the whole, unless that is for want of time and
@@ -61,6 +63,7 @@ def combined(answers: list[Answered], ties: str, *, everyone: bool = True) -> Re
         answers: at least one, as :func:`until_settled` gives them.
         ties: ``robust``, ``optimistic`` or ``expected``.
         everyone: whether there is an answer for each optimal plan.
+        limit: the reason of an answer that is unknown since a limit came before everyone's.
     """
     listed = [
         {
@@ -71,11 +74,11 @@ def combined(answers: list[Answered], ties: str, *, everyone: bool = True) -> Re
         }
         for _, result in answers
     ]
-    chosen = _chosen(answers, ties, everyone=everyone)
+    chosen = _chosen(answers, ties, everyone=everyone, limit=limit)
     return replace(chosen, statistics={**chosen.statistics, "ties": listed})
 
 
-def _chosen(answers: list[Answered], ties: str, *, everyone: bool) -> Result:
+def _chosen(answers: list[Answered], ties: str, *, everyone: bool, limit: str | None) -> Result:
     without = [answer.result for answer in answers if answer.outcome.cost is None]
     impossible = next((result for result in without if result.status == "infeasible"), None)
     if impossible is not None:
@@ -92,8 +95,8 @@ def _chosen(answers: list[Answered], ties: str, *, everyone: bool) -> Result:
     elif everyone or not late:
         chosen = _mean([answer.outcome for answer in answers], answers[0].result)
         lower_bound = sum(bounds, Fraction(0)) / len(bounds)
-    else:  # a mean of some of them is none
-        chosen, lower_bound = answers[-1].result, Fraction(0)
+    else:  # what the others cost is not known, so there is no mean
+        return _unknown(answers[-1].result, limit)
     return replace(chosen, status="feasible", lower_bound=float(lower_bound)) if late else chosen
 
 
@@ -123,6 +126,20 @@ def _mean(outcomes: list[Outcome], first: Result) -> Result:
         plan=None,
         agent_costs={},
         realised={},
+    )
+
+
+def _unknown(answer: Result, limit: str | None) -> Result:
+    """Nothing but whose plan it is about."""
+    return Result(
+        answer.mode,
+        "unknown",
+        answer.human,
+        answer.options,
+        human_plan=answer.human_plan,
+        human_cost=answer.human_cost,
+        reason=limit,
+        statistics=answer.statistics,
     )
 
 

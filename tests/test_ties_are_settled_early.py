@@ -142,6 +142,13 @@ def test_what_is_missing_may_cost_less_than_the_least() -> None:
     assert combined(answers, "expected", everyone=False).status == "unknown"
 
 
+def test_a_mean_of_some_answers_is_none() -> None:
+    """The answer to the last plan looked at stood for all, and was cheaper than their mean."""
+    answers = [*_some(8), _answered("feasible", 6, bound=5)]
+    answer = combined(answers, "expected", everyone=False, limit="time-limit")
+    assert (answer.status, answer.reason, answer.cost) == ("unknown", "time-limit", None)
+
+
 def _some(cost: float) -> list[Answered]:
     return [next(_answers(cost))]
 
