@@ -111,15 +111,16 @@ def _mean(outcomes: list[Outcome], first: Result) -> Result:
     if len(outcomes) == 1:
         return first
 
-    def mean(name: str) -> float:
-        figures = [getattr(outcome, name) or Fraction(0) for outcome in outcomes]
-        return float(sum(figures, Fraction(0)) / len(figures))
+    def mean(name: str) -> float | None:
+        figures = [getattr(outcome, name) for outcome in outcomes]
+        return None if None in figures else float(sum(figures, Fraction(0)) / len(figures))
 
     return replace(
         first,
         opportunity=any(outcome.opportunity for outcome in outcomes),
         cost=mean("cost"),
-        saving=mean("saving"),
+        saving=mean("saving"),  # of which there is none where doing nothing is no answer
+        saving_alone=mean("saving_alone"),
         objective=mean("objective"),
         lower_bound=mean("lower_bound"),
         window=None,

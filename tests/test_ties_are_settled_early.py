@@ -231,3 +231,16 @@ def test_listed_answers_are_certified() -> None:
     for ties in ([], [{**answer.statistics["ties"][0], "cost": 7.0}]):
         doctored = Result.from_dict({**answer.to_dict(), "statistics": {**answer.statistics, "ties": ties}})
         assert serendipity.verify(case_4(), doctored).verdict == "refuted"
+
+
+def test_no_mean_saving_where_doing_nothing_is_no_answer() -> None:
+    """It was 0, while each single answer had none."""
+    task = build(
+        goal="a b",
+        robot_goal="c",
+        actions={"one h": "-> a", "two h": "-> b", "both h r": "-> c"},
+    )
+    answer = serendipity.plan(task, mode="communication", ties="expected", horizon=3)
+    assert len(answer.statistics["ties"]) == 2
+    assert (answer.status, answer.saving, answer.saving_alone) == ("optimal", None, None)
+    assert serendipity.verify(task, answer).verdict == "proved"

@@ -40,11 +40,11 @@ class Answer:
         return self.cost if self.found is None else self.call.prices.cost(self.found.objective)
 
     @property
-    def saving(self) -> Fraction:
-        """What an opportunity costs less than doing nothing, else 0."""
-        if not self.opportunity or self.cost is None or self.call.baseline is None:
-            return Fraction(0)
-        return self.call.prices.cost(self.call.baseline) - self.cost
+    def saving(self) -> Fraction | None:
+        """What an opportunity costs less than doing nothing, else 0; None where that is no answer."""
+        if self.cost is None or self.call.baseline is None:
+            return None
+        return self.call.prices.cost(self.call.baseline) - self.cost if self.opportunity else Fraction(0)
 
     @property
     def reason(self) -> str | None:

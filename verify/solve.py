@@ -101,8 +101,9 @@ def over_ties(answers: list[Answer], ties: str) -> Result:
 def _mean(answers: list[Answer], results: list[Result]) -> Result:
     """The expected answer: means of the figures, no single plan."""
 
-    def mean(values: Iterable[Fraction | None]) -> float:
-        return float(sum((value or Fraction(0) for value in values), Fraction(0)) / len(answers))
+    def mean(values: Iterable[Fraction | None]) -> float | None:
+        known = [value for value in values if value is not None]
+        return float(sum(known, Fraction(0)) / len(known)) if len(known) == len(answers) else None
 
     if len(results) == 1:
         return results[0]
@@ -112,6 +113,7 @@ def _mean(answers: list[Answer], results: list[Result]) -> Result:
         opportunity=any(each.opportunity for each in answers),
         cost=mean(each.cost for each in answers),
         saving=mean(each.saving for each in answers),
+        saving_alone=None if any(each.saving is None for each in answers) else 0.0,
         objective=objective,
         lower_bound=objective,
         window=None,

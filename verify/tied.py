@@ -22,7 +22,7 @@ class Solved:
 
     cost: Fraction | None
     objective: Fraction | None
-    saving: Fraction
+    saving: Fraction | None
     opportunity: bool
 
 
@@ -59,9 +59,10 @@ def _solved(call: Call) -> Solved:
         found = answer(call)
         return Solved(found.cost, found.objective, found.saving, found.opportunity)
     cost = human_cost(call)
-    baseline = None if call.baseline is None else call.prices.cost(call.baseline)
-    saving = baseline - cost if cost is not None and baseline is not None else Fraction(0)
-    return Solved(cost, cost, max(saving, Fraction(0)), saving > 0)
+    if cost is None or call.baseline is None:
+        return Solved(cost, cost, None, opportunity=False)
+    saving = max(call.prices.cost(call.baseline) - cost, Fraction(0))
+    return Solved(cost, cost, saving, opportunity=saving > 0)
 
 
 def _listed_fault(result: Result, known: Known) -> str | None:
@@ -96,7 +97,11 @@ def _combined(result: Result, known: Known) -> Verdict:
     if (result.cost, result.objective) != (float(cost), float(objective)):
         return "refuted", words
     if is_mean(result):  # else a rule says what is saved
-        saving = float(sum((solved.saving for solved in known.values()), Fraction(0)) / count)
-        if (result.saving, result.saving_alone) != (saving, 0):
-            return "refuted", f"{words}, {saving:.12g} less than without robots"
+        savings = [solved.saving for solved in known.values() if solved.saving is not None]
+        if len(savings) < count:
+            right: tuple[float | None, float | None] = (None, None)
+        else:
+            right = (float(sum(savings, Fraction(0)) / count), 0.0)
+        if (result.saving, result.saving_alone) != right:
+            return "refuted", f"{words}; expected saving and saving_alone to be {right[0]} and {right[1]}"
     return "proved", words
