@@ -107,11 +107,12 @@ def _individual(tables: Tables, plan: HumanPlan) -> Outcome:
     assert graph is not None, "a plan that reaches the goal was given or found"
     best = graph.canonical()
     cost, given = tables.task.cost_of(best), tables.task.cost_of(plan)
+    answer = plan if cost == given else best
     return Outcome(
         "optimal",
         human_plan=plan,
-        horizon=len(plan),
-        steps=plan_steps(plan if cost == given else best),
+        horizon=max(len(plan), len(answer)),
+        steps=plan_steps(answer),
         cost=cost,
         objective=cost,
         lower_bound=cost,

@@ -142,3 +142,14 @@ def test_windows_are_those_of_the_mode() -> None:
     """The tie between a short window and a low cost goes to the lower cost."""
     answer = _agreed(_tidy(), horizon=2, window_weight=4)
     assert (answer.cost, answer.window, answer.opportunity) == (2.0, Window(1, 2), True)
+
+
+def test_the_human_alone_may_need_longer_than_the_given_plan() -> None:
+    """Its last step was after the horizon, which was the given plan's length."""
+    planned = build(
+        goal="g",
+        actions={"dash h": "-> g @ 3", "walk h": "-> near", "stop h": "near -> g @ 0", "help r": "-> x"},
+    )
+    answer = serendipity.plan(planned, mode="individual", human_plan=["dash h"])
+    assert (answer.cost, answer.horizon, answer.saving_alone) == (1, 2, 2)
+    assert serendipity.verify(planned, answer).verdict == "proved"

@@ -52,7 +52,7 @@ class HumanExaminer(Examiner):
         compared = self._idle is not None and not call.robots_goal
         idle = min(self._idle, call.baseline) if compared and self._idle is not None else call.baseline
         alone = float(call.prices.cost(call.baseline - idle))
-        if result.saving_alone is not None and result.saving_alone != alone:
+        if result.saving_alone != alone and not self._not_yet_known():
             return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
         saving = float(call.prices.cost(call.baseline - self._score()[1])) if result.opportunity else 0.0
         if result.saving != saving:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import serendipity
-from serendipity.cli import naming, output, progress
+from serendipity.cli import limits, naming, output, progress
 from serendipity.cli.exit_codes import ExitCode
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ def check_task(
     agent: naming.Agents = None,
     team: naming.Team = None,
     example: naming.Example = None,
+    time_limit: limits.TimeLimit = None,
+    memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
@@ -30,10 +32,11 @@ def check_task(
     name = naming.TaskName(
         tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
     )
-    with progress.working("reading", quiet=quiet):
-        task = name.load()
-    with progress.working("checking", quiet=quiet):
-        report = serendipity.check_task(task, _files(name))
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.lint")
+    with progress.working("reading", quiet=quiet), limits.during("reading the task"):
+        task = name.load(deadline)
+    with progress.working("checking", quiet=quiet), limits.during("checking the task"):
+        report = serendipity.check_task(task, _files(name), deadline=deadline)
     if form == "json":
         output.write_answer(output.as_json(report.to_dict()), output_file)
     else:

@@ -6,24 +6,27 @@ from typing import Final
 
 from serendipity.crosscheck.calls import PlanCall
 from serendipity.crosscheck.judges import Disagreement
-from serendipity.pddl.write import write_pddl
+from serendipity.pddl.write import task_files
+from serendipity.writing import write_together
 
 PLAN: Final = "plan.txt"
 """File of the human plan that is given."""
 
 
 def write_case(found: Disagreement, folder: Path) -> Path:
-    """Write ``folder`` (task, ``plan.txt`` where a plan is given, ``commands.txt``); returns the last.
+    """Write ``folder`` (task, ``plan.txt`` where a plan is given, ``commands.txt``) whole; returns the last.
 
     Raises:
         OSError: it can't be written.
     """
     call = found.call
-    write_pddl(call.task, folder)
+    texts = {
+        folder / agent / name: text
+        for agent, pair in task_files(call.task).items()
+        for name, text in zip(("domain.pddl", "problem.pddl"), pair, strict=True)
+    }
     if call.human_plan is not None:
-        (folder / PLAN).write_text(
-            "".join(f"{_written(name)}\n" for name in call.human_plan), encoding="utf-8"
-        )
+        texts[folder / PLAN] = "".join(f"{_written(name)}\n" for name in call.human_plan)
     lines = [f"# {judge}: {words}" for judge, words in found.said.items()]
     if len(call.task.named) < len(call.task.actions):
         lines.append("# variants of one action are written under names of their own, which may hide it")
@@ -31,7 +34,8 @@ def write_case(found: Disagreement, folder: Path) -> Path:
         lines.append(f"serendipity crosscheck --count 1 --seed {call.seed}")
     lines += [command_line(call, folder, command) for command in ("plan", "solve", "solve --encoding paper")]
     commands = folder / "commands.txt"
-    commands.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    texts[commands] = "\n".join([*lines, ""])
+    write_together({path: text.encode() for path, text in texts.items()})
     return commands
 
 

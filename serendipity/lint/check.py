@@ -22,7 +22,7 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
         task: the task.
         files: domain and problem of each pair of PDDL files that it was read from.  Without
             them, what only files show is left out: names that nothing uses, requirements.
-        deadline: for reading the files; None for no limit.
+        deadline: when to give up; None for no limit.
 
     Returns:
         How large the task is, and the findings.  Where one has the level ``error`` the task
@@ -30,21 +30,22 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
 
     Raises:
         InputError: a file can't be read or is wrong.
-        LimitReachedError: a limit came before the files were read.
+        LimitReachedError: a limit came first.
     """
-    work = Work(deadline)
+    limits = deadline or Deadline()
+    work = Work(limits)
     units = [read_unit(None, domain, problem, work) for domain, problem in files]
-    found = chain(task_findings(task), file_findings(task, units) if units else ())
+    found = chain(task_findings(task, limits), file_findings(task, units) if units else ())
     return TaskReport(
         task=task.name,
         human=task.agents[task.human],
         agents={
-            name: sum(agent in action.participants for action in task.actions)
+            name: sum(agent in action.participants for action in limits.each(task.actions))
             for agent, name in enumerate(task.agents)
         },
         facts=len(task.facts),
-        variables=len(task.variables),
-        actions=dict(Counter(_origin(task, action) for action in task.actions).most_common()),
+        variables=len(task.variables_within(limits)),
+        actions=dict(Counter(_origin(task, action) for action in limits.each(task.actions)).most_common()),
         findings=_sorted(found),
     )
 

@@ -3,28 +3,31 @@
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 
-from serendipity.model import Condition, GroundAction, Task
+from serendipity.model import Condition, Deadline, GroundAction, Task
 
 Fact = tuple[int, bool]
 """A fact, and whether it is true."""
 
 
-def unreachable(task: Task, goal: Condition, actions: Sequence[GroundAction]) -> tuple[Fact, ...]:
+def unreachable(
+    task: Task, goal: Condition, actions: Sequence[GroundAction], deadline: Deadline
+) -> tuple[Fact, ...]:
     """The literals of a goal that no sequence of some actions makes true, each by itself.
 
     Made true once, a literal stays so, beside its opposite; so what is not reached here can't
     be reached at all, and what is may still be out of reach.
     """
-    reached = _reached(task, actions)
+    reached = _reached(task, actions, deadline)
     wanted = [(fact, True) for fact in goal.positive] + [(fact, False) for fact in goal.negative]
     return tuple(literal for literal in wanted if literal not in reached)
 
 
-def _reached(task: Task, actions: Sequence[GroundAction]) -> set[Fact]:
+def _reached(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -> set[Fact]:
     reached = {(fact, fact in task.init) for fact in range(len(task.facts))}
     waiting: defaultdict[Fact, list[GroundAction]] = defaultdict(list)
     pending = list(actions)
     while pending:
+        deadline.tick()
         action = pending.pop()
         missing = next((literal for literal in _needs(action) if literal not in reached), None)
         if missing is not None:
@@ -37,17 +40,17 @@ def _reached(task: Task, actions: Sequence[GroundAction]) -> set[Fact]:
     return reached
 
 
-def relevant(task: Task) -> list[bool]:
+def relevant(task: Task, deadline: Deadline) -> list[bool]:
     """For each action whether it may contribute to a goal, the human's or the robots'."""
     makers: defaultdict[Fact, list[int]] = defaultdict(list)
-    for i, action in enumerate(task.actions):
+    for i, action in enumerate(deadline.each(task.actions)):
         for literal in _makes(action):
             makers[literal].append(i)
     found = [False] * len(task.actions)
     pending = [*_literals(task.goal), *_literals(task.robot_goal)]
     seen = set(pending)
     while pending:
-        for i in makers.pop(pending.pop(), ()):
+        for i in deadline.each(makers.pop(pending.pop(), ())):
             if not found[i]:
                 found[i] = True
                 new = [literal for literal in _needs(task.actions[i]) if literal not in seen]

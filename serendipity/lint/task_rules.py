@@ -4,46 +4,46 @@ from collections.abc import Iterator, Sequence
 
 from serendipity.lint.reach import Fact, relevant, unreachable
 from serendipity.lint.report import Finding
-from serendipity.model import Task
+from serendipity.model import Deadline, Task
 
 _LISTED = 3
 
 
-def task_findings(task: Task) -> Iterator[Finding]:
+def task_findings(task: Task, deadline: Deadline) -> Iterator[Finding]:
     """All findings for which no file is needed."""
     for text in task.warnings:
         yield Finding("warning", "reading", text)
-    yield from _goals(task)
-    yield from _agents(task)
+    yield from _goals(task, deadline)
+    yield from _agents(task, deadline)
 
 
-def _goals(task: Task) -> Iterator[Finding]:
+def _goals(task: Task, deadline: Deadline) -> Iterator[Finding]:
     human = task.agents[task.human]
     if not task.goal:
         yield Finding("warning", "goal-missing", f"{human} has no goal, so there is nothing to help with")
     elif task.goal.holds(task.init):
         yield Finding("warning", "goal-holds", f"{human}'s goal holds from the beginning")
     for whose, goal in ((f"{human}'s goal", task.goal), ("the robots' goal", task.robot_goal)):
-        never = unreachable(task, goal, task.actions)
+        never = unreachable(task, goal, task.actions, deadline)
         if never:
             text = f"{whose} can't be reached by all agents together: {_listed(task, never)}"
             yield Finding("error", "goal-unreachable", text)
-    yield from _alone(task)
+    yield from _alone(task, deadline)
 
 
-def _alone(task: Task) -> Iterator[Finding]:
+def _alone(task: Task, deadline: Deadline) -> Iterator[Finding]:
     own = [task.actions[i] for i in task.human_actions]
-    alone = unreachable(task, task.goal, own)
-    if alone and not unreachable(task, task.goal, task.actions):
+    alone = unreachable(task, task.goal, own, deadline)
+    if alone and not unreachable(task, task.goal, task.actions, deadline):
         human = task.agents[task.human]
         text = f"{human} can't reach the goal alone: {_listed(task, alone)}; there is no plan to preserve"
         yield Finding("warning", "goal-needs-help", text)
 
 
-def _agents(task: Task) -> Iterator[Finding]:
-    matters = relevant(task)
+def _agents(task: Task, deadline: Deadline) -> Iterator[Finding]:
+    matters = relevant(task, deadline)
     for agent, name in enumerate(task.agents):
-        own = [i for i, action in enumerate(task.actions) if agent in action.participants]
+        own = [i for i, action in enumerate(deadline.each(task.actions)) if agent in action.participants]
         if not own:
             yield Finding("warning", "agent-idle", f"{name} can do nothing")
         elif agent != task.human and (task.goal or task.robot_goal) and not any(matters[i] for i in own):

@@ -9,7 +9,7 @@ from hypothesis import given
 
 import serendipity
 from serendipity.lint.reach import relevant
-from serendipity.model import Condition, Task
+from serendipity.model import Condition, Deadline, Task
 from tests import cases
 from tests.builders import task as built
 from tests.pddl.texts import action, domain, pair, problem
@@ -39,7 +39,9 @@ def test_what_is_out_of_reach_cannot_be_planned(task: Task) -> None:
 
 @given(tasks())
 def test_what_does_not_matter_can_be_left_out(task: Task) -> None:
-    kept = [action for action, matters in zip(task.actions, relevant(task), strict=True) if matters]
+    kept = [
+        action for action, matters in zip(task.actions, relevant(task, Deadline()), strict=True) if matters
+    ]
     assert best(replace(task, actions=tuple(kept))) == best(task)
 
 

@@ -84,9 +84,11 @@ def _over_ties(answers: list[Optimum], ties: str) -> Optimum:
     return next(answer for answer in answers if answer.cost == chosen)
 
 
-def _mean(amounts: Iterable[Fraction | None]) -> Fraction:
-    listed = [amount or Fraction(0) for amount in amounts]
-    return sum(listed, Fraction(0)) / len(listed)
+def _mean(amounts: Iterable[Fraction | None]) -> Fraction | None:
+    """None where one of them is not known."""
+    listed = list(amounts)
+    known = [amount for amount in listed if amount is not None]
+    return sum(known, Fraction(0)) / len(known) if len(known) == len(listed) else None
 
 
 class Solver:

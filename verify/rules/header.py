@@ -31,7 +31,7 @@ def human_plan_valid(case: Case) -> Found | None:
 
 
 def horizon(case: Case) -> Found | None:
-    """``T``: as asked for, else ``|pi_H|``; never shorter (SPEC 2, 3.1)."""
+    """``T``: as asked for, else ``|pi_H|``; never shorter, nor than the human's own answer (SPEC 2)."""
     result = case.result
     asked, said = result.options.horizon, result.horizon
     if result.status == "unknown" and said is None:
@@ -39,7 +39,9 @@ def horizon(case: Case) -> Found | None:
     if case.human_plan is None and (result.mode == "individual" or result.options.windowed):
         return None if said is None else Found("a horizon, though there is no pi_H")
     expected: int | str | None = asked
-    if result.mode == "individual" or (asked is None and case.human_plan is not None):
+    if result.mode == "individual":
+        expected = max([len(case.pi_h), *(step.epoch for step in result.plan or ())])
+    elif asked is None and case.human_plan is not None:
         expected = len(case.pi_h)
     elif asked is None and result.mode == "composite":
         expected = INFINITE

@@ -150,6 +150,8 @@ def _claims_less(good: Good, result: Result) -> bool:
         if key in before.statistics:
             statistics[key] = before.statistics[key]
     same = replace(same, statistics=statistics)
+    if result.status == "feasible" and result.saving_alone is None:  # not known by then
+        same = replace(same, saving_alone=before.saving_alone)
     if not weaker or _meaning(same.to_dict()) != _meaning(before.to_dict()):
         return False
     if result.status == "unknown" and before.reason and not result.reason:
