@@ -7,8 +7,9 @@ import pytest
 
 import serendipity
 from serendipity import Task
-from serendipity.model import Result
+from serendipity.model import LimitReachedError, Result
 from tests.builders import task as build
+from tests.countdown import Countdown
 from tests.test_time_may_run_out_anywhere import answers
 
 
@@ -109,3 +110,30 @@ def test_answers_over_ties_are_certified_wherever_time_runs_out(ties: str) -> No
         assert _wrong(task, answer) is None
         if answer.status == "feasible":
             assert (answer.lower_bound or 0) <= (found[-1].objective or 0) <= (answer.objective or 0)
+
+
+def test_savings_are_counted_from_the_least_that_doing_nothing_costs() -> None:
+    """The first way that robots had found to their goal counted, before the least was known."""
+    task = build(
+        init="at0",
+        goal="at2",
+        robot_goal="clean",
+        actions={
+            "walk0 h": "at0 -> at1 !at0 @ 2",
+            "walk1 h": "at1 -> at2 !at1 @ 2",
+            "scrub r": "-> clean @ 9",
+            "fetch r": "-> brush @ 1",
+            "brush r": "brush -> clean @ 1",
+            "sweep r": "brush -> swept @ 1",
+        },
+    )
+    for looks in range(60):
+        used = replace(task)  # by a call that left some of what it found
+        early = Countdown(looks, lambda: LimitReachedError("time-limit"))
+        serendipity.plan(used, deadline=early, horizon=4)
+        for more in range(60):
+            late = Countdown(more, lambda: LimitReachedError("time-limit"))
+            answer = serendipity.plan(used, deadline=late, horizon=4)
+            assert serendipity.check(task, answer).refuted is None
+            if answer.status == "optimal":
+                break
