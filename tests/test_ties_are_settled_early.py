@@ -244,3 +244,17 @@ def test_no_mean_saving_where_doing_nothing_is_no_answer() -> None:
     assert len(answer.statistics["ties"]) == 2
     assert (answer.status, answer.saving, answer.saving_alone) == ("optimal", None, None)
     assert serendipity.verify(task, answer).verdict == "proved"
+
+
+@pytest.mark.parametrize("ties", ["robust", "expected"])
+def test_where_doing_nothing_is_no_answer_a_human_who_replans_is_helped(ties: str) -> None:
+    """The certificate saw no opportunity without a baseline."""
+    task = build(
+        init="dirty",
+        goal="done",
+        robot_goal="!dirty",
+        actions={"do h": "-> done", "make h": "-> done", "both h r": "-> done !dirty @ 1/2"},
+    )
+    answer = serendipity.plan(task, human_model="observant", ties=ties)
+    assert (answer.status, answer.opportunity, answer.saving) == ("optimal", True, None)
+    assert serendipity.verify(task, answer).verdict == "proved"

@@ -59,8 +59,8 @@ def _solved(call: Call) -> Solved:
         found = answer(call)
         return Solved(found.cost, found.objective, found.saving, found.opportunity)
     cost = human_cost(call)
-    if cost is None or call.baseline is None:
-        return Solved(cost, cost, None, opportunity=False)
+    if cost is None or call.baseline is None:  # whatever can be done then is an opportunity
+        return Solved(cost, cost, None, opportunity=cost is not None)
     saving = max(call.prices.cost(call.baseline) - cost, Fraction(0))
     return Solved(cost, cost, saving, opportunity=saving > 0)
 
