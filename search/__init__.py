@@ -3,12 +3,12 @@
 Knows the model (``serendipity.model``) and nothing of ``verify``.
 """
 
-from search.alone import PlanGraph
-from search.carrying import at_state
-from search.outcome import Outcome
+from search.cache_transfer import at_state
+from search.engine.outcome import Outcome
+from search.human.individual_planner import PlanGraph
 from search.planner import optimal_human_plan, optimal_human_plans, solve
 from search.prepare import prepare
-from search.tied import least_over_ties
+from search.tie_bound import least_over_ties
 
 __all__ = [
     "Outcome",

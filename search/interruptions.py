@@ -1,6 +1,6 @@
 """For each single window: the least the human pays, and the least the team pays (SPEC 3.2).
 
-One search per window and objective, in the space of ``search.fixed_window``.  What the
+One search per window and objective, in the space of ``search.spaces.fixed_window``.  What the
 human pays comes first in the one objective and what the team pays in the other, so either
 can be as small as any plan that fits the window makes it.
 """
@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.best_first import Incumbent, Progress, best_first
-from search.fixed_window import FixedWindow, Weighed
-from search.keys import INFINITE_KEY
-from search.ops import Op
-from search.outcome import path_steps, plan_steps
+from search.context import Tables
+from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.outcome import path_steps, plan_steps
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import Op
 from search.planner import left_alone
-from search.tables import Tables
+from search.spaces.fixed_window import FixedWindow, Weighed
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window

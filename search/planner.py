@@ -4,15 +4,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from search.alone import PlanGraph
-from search.best_first import Incumbent, Progress, Space, best_first
-from search.followed import Followed
-from search.free import Free
-from search.keys import INFINITE_KEY
-from search.outcome import Outcome, path_sets, path_steps, plan_steps
-from search.schedule import schedule
-from search.tables import Tables
-from search.windows import free_bounds, window_space
+from search.context import Tables
+from search.engine.best_first import Incumbent, Progress, Space, best_first
+from search.engine.outcome import Outcome, path_sets, path_steps, plan_steps
+from search.human.individual_planner import PlanGraph
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.parallelise import schedule
+from search.spaces.factory import free_bounds, window_space
+from search.spaces.fixed_human_plan import Followed
+from search.spaces.unrestricted import Free
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.options import INFINITE, Options

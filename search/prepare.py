@@ -2,10 +2,10 @@
 
 from math import prod
 
-from search.acts import AllActs
-from search.encoding import Encoding, encoding
-from search.projection import own_projection, private_fields
-from search.providers import shared_fields
+from search.heuristics.achievers import shared_fields
+from search.human.pattern_database import own_projection, private_fields
+from search.packed.packed_task import Encoding, encoding
+from search.robots.transition_graphs import AllActs
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 

@@ -16,8 +16,8 @@ from serendipity.model.task import Task
 
 def load_arrays() -> None:
     """Load what only large tasks need, and takes longer than a short time limit."""
-    import_module("search.assistance.layers")
-    import_module("search.assistance.ball")
+    import_module("search.assistance.distances.layers")
+    import_module("search.assistance.distances.perimeter")
 
 
 def assistance_answers(task: Task, options: Options, deadline: Deadline) -> Iterator[Callable[[], Result]]:

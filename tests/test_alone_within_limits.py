@@ -1,7 +1,7 @@
 """The human's key from a state, asked within limits: what is not below a limit is not out of reach."""
 
-from search.keys import INFINITE_KEY
-from search.tables import Tables
+from search.context import Tables
+from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
 from tests.builders import task as build

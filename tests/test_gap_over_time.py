@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from hypothesis import given
 
-from search import best_first, solve
+from search import solve
+from search.engine import best_first
 from serendipity import Result, plan, plan_anytime
 from serendipity.model import Options
 from serendipity.model.deadline import Deadline

@@ -5,9 +5,9 @@ from heapq import heappop, heappush
 import pytest
 from hypothesis import given
 
-from search.keys import INFINITE_KEY
-from search.tables import Tables
-from search.windows import free_bounds
+from search.context import Tables
+from search.packed.cost_vector import INFINITE_KEY
+from search.spaces.factory import free_bounds
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
 from serendipity.planning import plan

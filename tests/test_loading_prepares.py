@@ -3,7 +3,7 @@
 import pytest
 
 import serendipity
-from search.encoding import Encoding
+from search.packed.packed_task import Encoding
 from serendipity import pddl
 
 

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import pytest
 
 import serendipity
-from search import best_first
+from search.engine import best_first
 from serendipity import LimitReachedError, Task
 from serendipity.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result

@@ -5,9 +5,9 @@ from itertools import product
 import pytest
 
 import serendipity
-from search.encoding import encoding
-from search.tables import Tables
-from search.walks import Walks
+from search.context import Tables
+from search.packed.packed_task import encoding
+from search.robots.decoupled import Walks
 from serendipity.model import Window
 from serendipity.model.deadline import Deadline
 from tests import builders

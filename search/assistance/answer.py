@@ -5,14 +5,14 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final, TypeVar
 
-from search.assistance.bound import Bound
-from search.assistance.branching import Branching
-from search.assistance.game import INFINITE, Game
+from search.assistance.bounds.bound import Bound
+from search.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
+from search.assistance.game.game import INFINITE, Game
+from search.assistance.game.rules import Mean, Worst
+from search.assistance.game.solution import ZERO, Costs, Solution
 from search.assistance.phase import PhaseDeadline
-from search.assistance.relaxed import joint_lower_bound, upper_bound_alone
-from search.assistance.rules import Mean, Worst
-from search.assistance.shortest import Shortest
-from search.assistance.solution import ZERO, Costs, Solution
+from search.assistance.solvers.astar import Shortest
+from search.assistance.solvers.lao_star import Branching
 from search.assistance.writing import Writer
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, limit_reason

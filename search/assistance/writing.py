@@ -1,7 +1,7 @@
 """Writes solutions in the model's terms: names of facts and actions, plans by epochs."""
 
-from search.assistance.game import INFINITE, NOOP, Game, Move
-from search.assistance.solution import Costs, Solution
+from search.assistance.game.game import INFINITE, NOOP, Game, Move
+from search.assistance.game.solution import Costs, Solution
 from serendipity.model.actions import NOOP as NOOP_NAME
 from serendipity.model.errors import LIMITS
 from serendipity.model.plans import Step

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heappop, heappush
 
-from search.encoding import Encoding
-from search.keys import INFINITE_KEY, Weights
-from search.ops import OpIndex, forms_of
-from search.projection import human_projection
-from search.successors import Lookup
+from search.human.pattern_database import human_projection
+from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.operators import OpIndex, forms_of
+from search.packed.packed_task import Encoding
+from search.packed.successor_generator import Lookup
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options

@@ -18,13 +18,13 @@ from heapq import heappop, heappush
 from itertools import count
 from math import lcm
 
+from search.engine.outcome import Outcome, path_steps, plan_steps
 from search.goals.outcome import Candidate, Expected, Served
 from search.goals.tables import SharedTables, shared_packing, task_for, timeline
 from search.goals.timeline import Ended, Situation
-from search.keys import INFINITE_KEY
-from search.outcome import Outcome, path_steps, plan_steps
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.successor_generator import NOTHING, Option, Successors, as_option, together
 from search.planner import solve
-from search.successors import NOTHING, Option, Successors, as_option, together
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options

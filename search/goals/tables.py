@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from search.encoding import Encoding, human_facts
+from search.context import Tables
 from search.goals.outcome import Candidate
 from search.goals.timeline import Timeline
-from search.keys import Weights
-from search.tables import Tables
-from search.windows import suffix_rule
+from search.packed.cost_vector import Weights
+from search.packed.packed_task import Encoding, human_facts
+from search.spaces.factory import suffix_rule
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.task import Task

@@ -8,14 +8,14 @@ and phase differ in their keys only, and the smallest is enough.
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from search.best_first import Node
-from search.encoding import Encoding, Goal
-from search.keys import INFINITE_KEY, Keys
-from search.ops import Op, applicable
-from search.projection import Projection
-from search.successors import NOTHING, Option, Successors
-from search.suffix import Suffix
-from search.windowed import PREFIX, WINDOW
+from search.engine.best_first import Node
+from search.human.pattern_database import Projection
+from search.human.suffix_rules import Suffix
+from search.packed.cost_vector import INFINITE_KEY, Keys
+from search.packed.operators import Op, applicable
+from search.packed.packed_task import Encoding, Goal
+from search.packed.successor_generator import NOTHING, Option, Successors
+from search.spaces.windowed import PREFIX, WINDOW
 from serendipity.model.deadline import Deadline
 
 _Place = tuple[int, int]

@@ -1,6 +1,6 @@
 """Joint actions that contribute to no goal, and still change what a human who replans does (SPEC 6)."""
 
-from search.encoding import Encoding, encoding
+from search.packed.packed_task import Encoding, encoding
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 

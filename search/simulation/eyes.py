@@ -9,7 +9,7 @@ a bit by itself.
 from dataclasses import replace
 from typing import Protocol
 
-from search.encoding import Encoding
+from search.packed.packed_task import Encoding
 from search.simulation.diversions import diversions
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task

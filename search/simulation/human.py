@@ -3,11 +3,11 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from search.alone import Alone, Priced, canonical
-from search.encoding import Encoding
-from search.keys import INFINITE_KEY, Weights
-from search.ops import Op, applicable
-from search.projection import Projection, human_projection
+from search.human.individual_planner import Alone, Priced, canonical
+from search.human.pattern_database import Projection, human_projection
+from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.operators import Op, applicable
+from search.packed.packed_task import Encoding
 from search.simulation.diversions import diversions, with_diversions
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions

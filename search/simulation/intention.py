@@ -4,10 +4,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from search.encoding import Encoding, Goal
-from search.keys import Keys
-from search.ops import Op, applicable
-from search.successors import NOTHING, Option
+from search.packed.cost_vector import Keys
+from search.packed.operators import Op, applicable
+from search.packed.packed_task import Encoding, Goal
+from search.packed.successor_generator import NOTHING, Option
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from search.best_first import Incumbent, Progress, best_first
-from search.followed import Followed
-from search.keys import INFINITE_KEY
-from search.outcome import Outcome, path_steps, plan_steps
+from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.outcome import Outcome, path_steps, plan_steps
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.successor_generator import Successors, as_option
 from search.planner import optimal_human_plans
 from search.simulation.human import Human
 from search.simulation.space import Reactive
-from search.successors import Successors, as_option
+from search.spaces.fixed_human_plan import Followed
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.options import Options

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.ops import Op, applicable
+from search.packed.operators import Op, applicable
 from search.simulation.human import Human, Look
 from search.simulation.intention import Intention
 from serendipity.model.deadline import Deadline

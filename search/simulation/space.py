@@ -9,12 +9,12 @@ same.  So labels dominate as elsewhere, on state and mind.
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from search.best_first import Incumbent, Node
-from search.labels import Labels
-from search.ops import applicable
+from search.engine.best_first import Incumbent, Node
+from search.engine.dominance import Labels
+from search.packed.operators import applicable
+from search.packed.successor_generator import NOTHING, Option, Successors
 from search.simulation.human import Human, Look
 from search.simulation.intention import Intention
-from search.successors import NOTHING, Option, Successors
 
 
 class Mind(NamedTuple):

@@ -150,7 +150,11 @@ def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str
     """What is going to be loaded."""
     modules = ["serendipity.planning", "serendipity.certify"]
     if mode == "assistance":
-        modules += ["serendipity.assistance", "search.assistance.layers", "search.assistance.ball"]
+        modules += [
+            "serendipity.assistance",
+            "search.assistance.distances.layers",
+            "search.assistance.distances.perimeter",
+        ]
     if goals is not None:
         modules.append("serendipity.goals.planning")
     return [*modules, "verify.certify"] if certify else modules

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.assistance import closure
-from search.assistance.ball import ball_around
-from search.assistance.closure import Arc, Closure
-from search.encoding import Goal
-from search.keys import INFINITE_KEY
+from search.assistance.distances import closure
+from search.assistance.distances.closure import Arc, Closure
+from search.assistance.distances.perimeter import ball_around
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.packed_task import Goal
 from serendipity.model import Task
 from serendipity.model.deadline import Deadline
 from tests.assistance.oracle import by_rounds, explore, mean_over_all_policies

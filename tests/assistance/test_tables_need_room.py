@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import serendipity
-from search.assistance import closure
-from search.assistance.ball import Places, ball_around
-from search.assistance.closure import Arc, Closure, TooManyStatesError
-from search.assistance.layers import Layers
-from search.encoding import Goal
+from search.assistance.distances import closure
+from search.assistance.distances.closure import Arc, Closure, TooManyStatesError
+from search.assistance.distances.layers import Layers
+from search.assistance.distances.perimeter import Places, ball_around
+from search.packed.packed_task import Goal
 from serendipity.model import Deadline, LimitReachedError
 from tests.cases import case_5
 
@@ -41,8 +41,8 @@ def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.M
     arcs, goal, mask = line(40)
     values = [list(range(40))]
     assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * (1 << 24 | 1)
-    monkeypatch.setattr("search.assistance.layers._LARGE", 0)
-    monkeypatch.setattr("search.assistance.ball._LARGE", 0)
+    monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
+    monkeypatch.setattr("search.assistance.distances.perimeter._LARGE", 0)
     with pytest.raises(TooManyStatesError):
         Closure(arcs, goal, [mask], values, 1000, Full()).key(0)
     with pytest.raises(LimitReachedError):
@@ -60,7 +60,7 @@ def test_a_ball_asks_for_all_it_may_touch() -> None:
 def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
     arcs, goal, mask = line(40)
     Layers(arcs, goal, [mask], 0, 1000, Full())  # little is not asked for
-    monkeypatch.setattr("search.assistance.layers._LARGE", 0)
+    monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
     with pytest.raises(LimitReachedError):
         Layers(arcs, goal, [mask], 0, 1000, Full())
 
@@ -69,6 +69,6 @@ def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_answers_are_the_same_without_tables(ties: str, monkeypatch: pytest.MonkeyPatch) -> None:
     full = serendipity.plan(case_5(), mode="assistance", ties=ties)
     monkeypatch.setattr(closure, "SMALL", 1)
-    monkeypatch.setattr("search.assistance.layers._LARGE", 0)
+    monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
     answer = serendipity.plan(case_5(), mode="assistance", ties=ties, deadline=Full())
     assert (answer.status, answer.statistics["bounds"]) == (full.status, full.statistics["bounds"])

@@ -7,9 +7,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from search.assistance import Assistance, assist, ball, bound, branching, closure, provision, shortest
-from search.assistance.game import Game
-from search.assistance.relaxed import joint_lower_bound, upper_bound_alone
+from search.assistance import Assistance, assist
+from search.assistance.bounds import bound
+from search.assistance.bounds import relaxed_provision as provision
+from search.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
+from search.assistance.distances import closure
+from search.assistance.distances import perimeter as ball
+from search.assistance.game.game import Game
+from search.assistance.solvers import astar as shortest
+from search.assistance.solvers import lao_star as branching
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LimitReachedError

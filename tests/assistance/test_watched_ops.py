@@ -2,9 +2,9 @@
 
 from hypothesis import given
 
-from search.assistance.watched import Watched
-from search.encoding import encoding
-from search.ops import applicable
+from search.assistance.distances.watched import Watched
+from search.packed.operators import applicable
+from search.packed.packed_task import encoding
 from serendipity.model import Task
 from serendipity.model.deadline import Deadline
 from tests.assistance.strategies import games

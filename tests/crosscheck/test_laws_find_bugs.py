@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from search import best_first
-from search.encoding import Encoding
-from search.keys import INFINITE_KEY, Weights
+from search.engine import best_first
+from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.packed_task import Encoding
 from search.planner import _Call
-from search.windowed import Windowed
+from search.spaces.windowed import Windowed
 from serendipity.crosscheck import JUDGES, compare, random_call
 from serendipity.crosscheck.laws import LAWS
 from serendipity.model.actions import conflicting

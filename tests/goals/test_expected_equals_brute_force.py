@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
+from search.engine.outcome import plan_steps
 from search.goals import Candidate, Expected, Served, solve_expected
 from search.goals.planner import _Search
-from search.outcome import plan_steps
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
 from tests.builders import task as build
 from tests.goals.oracle import best_expected, robots_sets

@@ -3,10 +3,12 @@
 from dataclasses import replace
 from typing import Any
 
-from search import encoding, ops, schedule
-from search.encoding import Encoding, Goal
-from search.ops import Op, OpIndex
-from search.successors import Option, Successors
+from search.packed import operators as ops
+from search.packed import packed_task as encoding
+from search.packed import parallelise as schedule
+from search.packed.operators import Op, OpIndex
+from search.packed.packed_task import Encoding, Goal
+from search.packed.successor_generator import Option, Successors
 from serendipity.model import GroundAction
 from serendipity.model.actions import conflicting, disables
 from tests.verify.planted.bug import Bug, always, everywhere, replaced, wrapped

@@ -2,17 +2,18 @@
 
 from typing import Any
 
-from search import projection, windows
-from search.acts import Acts
-from search.alone import Alone
-from search.help import Helped, _Promise
-from search.keys import INFINITE_KEY
-from search.openings import HelpedOnTheWay
-from search.providers import Provided, Providers
-from search.provision import Distances, Provision
-from search.successors import Idle
-from search.touches import Touches
-from search.ways import Ways
+from search.heuristics.achiever_automaton import Distances, Provision
+from search.heuristics.achievers import Provided, Providers
+from search.heuristics.first_interaction import Helped, _Promise
+from search.heuristics.interactions import Touches
+from search.heuristics.prefix_bounds import HelpedOnTheWay
+from search.heuristics.private_distances import Ways
+from search.human import pattern_database as projection
+from search.human.individual_planner import Alone
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.successor_generator import Idle
+from search.robots.transition_graphs import Acts
+from search.spaces import factory as windows
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 

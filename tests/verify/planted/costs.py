@@ -3,12 +3,12 @@
 from dataclasses import replace
 from typing import Any
 
-from search.alone import PlanGraph
-from search.keys import INFINITE_KEY, Keys, Weights
-from search.labels import Label, Labels
-from search.ops import Op
-from search.successors import Idle
-from search.suffix import Preserved, Replan, Subplan
+from search.engine.dominance import Label, Labels
+from search.human.individual_planner import PlanGraph
+from search.human.suffix_rules import Preserved, Replan, Subplan
+from search.packed.cost_vector import INFINITE_KEY, Keys, Weights
+from search.packed.operators import Op
+from search.packed.successor_generator import Idle
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from search import planner
-from search.best_first import Incumbent, Node
-from search.followed import Followed
-from search.free import Free
+from search.engine.best_first import Incumbent, Node
+from search.packed.successor_generator import NOTHING, Option
 from search.planner import _Call
-from search.successors import NOTHING, Option
-from search.windowed import AnyOfPlan, Timetable, Windowed
+from search.spaces.fixed_human_plan import Followed
+from search.spaces.unrestricted import Free
+from search.spaces.windowed import AnyOfPlan, Timetable, Windowed
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from search.successors import Idle, Option, in_time
-from search.walks import FoldedSuccessors, Walks
+from search.packed.successor_generator import Idle, Option, in_time
+from search.robots.decoupled import FoldedSuccessors, Walks
 from tests.verify.planted.bug import Bug, always, everywhere, replaced, wrapped
 
 

@@ -1,0 +1,1 @@
+"""Values that no policy undercuts, and values that some plan attains."""

@@ -1,0 +1,280 @@
+"""What the prime still pays if the supporter provides whatever he needs, in time.
+
+His *private* fields are those that only he changes, *provided* ones those that only the
+supporter changes.  Projected onto the private fields, each of his actions is a
+transition; conditions on other fields are dropped.  A dropped condition on a provided
+field that does not hold now is charged to the supporter, at the price of the cheapest
+action that makes it true, where it is certain that it is charged once at most: where
+every action that asks for it sets, for the first time, one and the same fact that
+nothing ever unsets.  No plan of both together, with turns or without, is cheaper.
+"""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from typing import NamedTuple
+
+from search.assistance.game.game import INFINITE, Game
+from search.packed.operators import Op
+
+Pair = tuple[int, int]
+"""A field and a value of it."""
+
+
+class Step(NamedTuple):
+    """One of the prime's actions, projected; ``charges`` are due where their bit is unset."""
+
+    need_mask: int
+    need: int
+    forbidden: tuple[Pair, ...]
+    keep: int
+    put: int
+    cost: int
+    charges: tuple[tuple[int, int, Pair], ...]
+    """Supporter's cost, the bit that is set for the first time, what is asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Context:
+    """What is provided now: the steps under it, and what is known of states under it."""
+
+    steps: dict[int, list[Step]]
+    per_goal: dict[int, int]
+    """Least value of a step that sets a bit of the goal."""
+    known: dict[int, tuple[int, Step | None, int]]
+    """Exact value, first step of a cheapest way, the state after it."""
+
+
+class Provision:
+    """The bound; consistent over the moves of both."""
+
+    def __init__(self, game: Game) -> None:
+        self._game = game
+        encoding = game.encoding
+        by_prime = encoding.changed_by(encoding.own)
+        by_supporter = encoding.changed_by(game.supporter_ops)
+        self._private = by_prime & ~by_supporter
+        self._provided = by_supporter & ~by_prime
+        self._monotone = _monotone(encoding.own, self._private, encoding.fields)
+        self._field = _busiest(encoding.own, encoding.fields, self._private)
+        self._setters = self._find_setters()
+        self._charged = self._find_charged()
+        goal = game.goal
+        self._goal_mask = goal.need_mask & self._private
+        self._goal_need = goal.need & self._private
+        self._goal_forbidden = tuple((m, v) for m, v in goal.forbidden if m & self._private)
+        self._countable = self._find_countable()
+        self._contexts: dict[int, _Context] = {}
+
+    def __call__(self, state: int) -> int:
+        """A value that no policy undercuts from ``state``."""
+        if self._game.goal.need < 0:
+            return INFINITE
+        return self._search(self._context(state), state & self._private)
+
+    def wanted(self, state: int) -> frozenset[int]:
+        """Actions of the supporter that provide what a cheapest way is charged for."""
+        context = self._context(state)
+        at = state & self._private
+        if self._search(context, at) >= INFINITE:
+            return frozenset()
+        wanted: set[int] = set()
+        while True:
+            _, step, after = context.known[at]
+            if step is None:
+                return frozenset(wanted)
+            for _, bit, pair in step.charges:
+                if not at & bit:
+                    wanted.update(op.action for op in self._setters[pair])
+            at = after
+
+    def _find_setters(self) -> dict[Pair, list[Op]]:
+        setters: dict[Pair, list[Op]] = {}
+        for op in self._game.supporter_ops:
+            self._game.deadline.tick()
+            for field in self._game.encoding.fields:
+                if field & self._provided and not field & op.keep:
+                    setters.setdefault((field, op.put & field), []).append(op)
+        return setters
+
+    def _asked(self, op: Op) -> list[Pair]:
+        fields = self._game.encoding.fields
+        mask = op.need_mask & self._provided
+        return [(field, op.need & field) for field in fields if field & mask] if mask else []
+
+    def _find_charged(self) -> dict[Pair, tuple[int, int]]:
+        """For each condition that is charged its price and the bit that is set with it."""
+        together: dict[Pair, int] = {}
+        for op in self._game.encoding.own:
+            self._game.deadline.tick()
+            for pair in self._asked(op):
+                first_set = op.put & self._monotone
+                together[pair] = together.get(pair, first_set) & first_set
+        bits = {pair: bit & -bit for pair, bit in together.items() if bit and pair in self._setters}
+        charged = {}
+        for pair, bit in bits.items():
+            prices = []
+            for op in self._setters[pair]:
+                self._game.deadline.tick()
+                also = sum((field, op.put & field) in bits for field in self._fields_set(op))
+                prices.append(self._game.cost(op) // also)
+            charged[pair] = (min(prices), bit)
+        return charged
+
+    def _fields_set(self, op: Op) -> list[int]:
+        return [field for field in self._game.encoding.fields if not field & op.keep]
+
+    def _find_countable(self) -> int:
+        """Bits of the goal that each cost a step of their own; none if a step can set two."""
+        bits = self._goal_need & self._goal_mask & self._monotone
+        if any((op.put & bits).bit_count() > 1 for op in self._game.encoding.own):
+            return 0
+        return bits
+
+    def _context(self, state: int) -> _Context:
+        provided = state & self._provided
+        context = self._contexts.get(provided)
+        if context is None:
+            context = self._contexts[provided] = self._make_context(provided)
+        return context
+
+    def _make_context(self, provided: int) -> _Context:
+        steps: dict[int, list[Step]] = {}
+        least: dict[int, Pair] = {}
+        for op in self._game.encoding.own:
+            self._game.deadline.tick()
+            step = self._step(op, provided)
+            if step is None:
+                continue
+            steps.setdefault(op.need & self._field if op.need_mask & self._field else -1, []).append(step)
+            bit = op.put & self._countable
+            if bit:
+                charge = sum(price for price, set_with, _ in step.charges if set_with == bit)
+                cost, price = least.get(bit, (step.cost, charge))
+                least[bit] = (min(cost, step.cost), min(price, charge))
+        per_goal = {bit: (cost << self._game.unit_bits) + price for bit, (cost, price) in least.items()}
+        return _Context(steps, per_goal, {})
+
+    def _step(self, op: Op, provided: int) -> Step | None:
+        """An op under what is provided; None if it can never be applied."""
+        private = self._private
+        charges = []
+        for pair in self._asked(op):
+            field, value = pair
+            if provided & field == value:
+                continue
+            if pair not in self._setters:
+                return None
+            if pair in self._charged:
+                price, bit = self._charged[pair]
+                charges.append((price, bit, pair))
+        forbidden = tuple((m, v) for m, v in op.forbidden if m & private)
+        return Step(
+            op.need_mask & private,
+            op.need & private,
+            forbidden,
+            op.keep,
+            op.put & private,
+            self._game.cost(op),
+            tuple(charges),
+        )
+
+    def _holds(self, at: int) -> bool:
+        if at & self._goal_mask != self._goal_need:
+            return False
+        return all(at & mask != value for mask, value in self._goal_forbidden)
+
+    def _least(self, context: _Context, at: int) -> int:
+        """Every bit of the goal that is missing costs a step."""
+        missing = self._countable & ~at
+        total = 0
+        while missing:
+            bit = missing & -missing
+            total += context.per_goal.get(bit, INFINITE)
+            missing -= bit
+        return min(total, INFINITE)
+
+    def _search(self, context: _Context, start: int) -> int:
+        known = context.known
+        if start in known:
+            return known[start][0]
+        best = {start: 0}
+        parents: dict[int, tuple[int, Step, int]] = {}
+        queue = [(self._least(context, start), 0, start)]
+        closed: set[int] = set()
+        while queue:
+            f, minus, at = heappop(queue)
+            if f >= INFINITE:
+                break
+            if at in closed:
+                continue
+            closed.add(at)
+            self._game.deadline.tick()
+            g = best[at]
+            if at in known or self._holds(at):
+                if at not in known:
+                    known[at] = (0, None, at)
+                rest = known[at][0]
+                if rest >= INFINITE or not self._is_least(queue, g + rest):
+                    # A known value may exceed the estimate that brought the state up.
+                    if rest < INFINITE:
+                        closed.discard(at)
+                        heappush(queue, (g + rest, minus, at))
+                    continue
+                return self._remember(known, parents, start, at)
+            for value, after, step in self._steps_from(context, at):
+                cost = g + value
+                if cost < best.get(after, INFINITE):
+                    best[after] = cost
+                    parents[after] = (at, step, value)
+                    heappush(queue, (cost + self._least(context, after), -cost, after))
+        known[start] = (INFINITE, None, start)
+        return INFINITE
+
+    @staticmethod
+    def _is_least(queue: list[tuple[int, int, int]], value: int) -> bool:
+        return not queue or value <= queue[0][0]
+
+    @staticmethod
+    def _remember(
+        known: dict[int, tuple[int, Step | None, int]],
+        parents: dict[int, tuple[int, Step, int]],
+        start: int,
+        end: int,
+    ) -> int:
+        value = known[end][0]
+        at = end
+        while at != start:
+            before, step, weight = parents[at]
+            value += weight
+            known[before] = (value, step, at)
+            at = before
+        return known[start][0]
+
+    def _steps_from(self, context: _Context, at: int) -> Iterable[tuple[int, int, Step]]:
+        for steps in (context.steps.get(at & self._field, ()), context.steps.get(-1, ())):
+            for step in steps:
+                if at & step.need_mask != step.need or any(at & m == v for m, v in step.forbidden):
+                    continue
+                after = at & step.keep | step.put
+                if after != at:
+                    charge = sum(price for price, bit, _ in step.charges if not at & bit)
+                    yield (step.cost << self._game.unit_bits) + charge, after, step
+
+
+def _monotone(ops: Iterable[Op], private: int, fields: list[int]) -> int:
+    """The private single-bit fields that no action unsets."""
+    bits = 0
+    for field in fields:
+        if field & private and field.bit_count() == 1:
+            bits |= field
+    for op in ops:
+        bits &= op.keep | op.put
+    return bits
+
+
+def _busiest(ops: Iterable[Op], fields: list[int], among: int) -> int:
+    asked = Counter(op.need_mask for op in ops)
+    private = [field for field in fields if field & among]
+    return max(private, key=lambda field: sum(n for mask, n in asked.items() if mask & field), default=0)

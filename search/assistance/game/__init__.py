@@ -1,0 +1,1 @@
+"""The game of silent assistance: moves, values, rules of choice, solutions."""

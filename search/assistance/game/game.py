@@ -1,0 +1,133 @@
+"""The game of silent assistance (SPEC 7), packed: who may do what, and what it costs.
+
+A *value* is one integer, ``prime * unit + supporter``: adding values adds both costs,
+comparing them compares lexicographically.  Costs are scaled to integers.
+"""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cached_property
+from math import lcm
+from typing import Final, NamedTuple
+
+from search.assistance.distances.watched import Watched
+from search.assistance.game.own import UNREACHABLE, OwnCosts
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import Op, applicable
+from search.packed.packed_task import Encoding, encoding
+from serendipity.model.actions import Condition
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import UsageError
+from serendipity.model.task import Task
+
+INFINITE: Final = INFINITE_KEY
+"""A run that never ends."""
+
+_RUN_BITS: Final = 40
+"""A run has fewer than so many bits' steps."""
+
+NOOP: Final = -1
+"""The id under which waiting is listed."""
+
+
+class Move(NamedTuple):
+    """What one of the two may do: its value, the state after it, the action's id."""
+
+    value: int
+    after: int
+    action: int
+
+
+class Game:
+    """Supporter and prime, moving in turn.
+
+    Args:
+        task: one human (the prime) and one robot (the supporter); joint actions are
+            nobody's move.
+        deadline: asked for time.
+        own_deadline: asked for time while the prime's own optimum is worked out; default ``deadline``.
+
+    Raises:
+        UsageError: there is not exactly one robot.
+    """
+
+    def __init__(self, task: Task, deadline: Deadline, own_deadline: Deadline | None = None) -> None:
+        if len(task.robots) != 1:
+            raise UsageError(f"mode: 'assistance' is for one robot, the task has {len(task.robots)}")
+        self.task = task.with_goal(task.goal, Condition()) if task.robot_goal else task
+        self.deadline = deadline
+        self._own_deadline = own_deadline or deadline
+        self.encoding: Encoding = encoding(self.task, deadline)
+        self.init = self.encoding.init
+        self.goal = self.encoding.goal
+        self.scale = lcm(1, *(cost.denominator for cost in self.encoding.costs))
+        self._scaled = [int(cost * self.scale) for cost in self.encoding.costs]
+        self.unit_bits = max(self._scaled, default=0).bit_length() + _RUN_BITS
+        robot = 1 << task.robots[0]
+        self.supporter_ops = tuple(op for op in self.encoding.others if op.agents == robot)
+        self._supporter_index = Watched(self.supporter_ops, self.encoding.fields, deadline)
+        self._prime_moves: dict[int, tuple[Move, ...]] = {}
+
+    @cached_property
+    def own(self) -> OwnCosts:
+        """The prime by himself."""
+        return OwnCosts(self.encoding, self._scaled, self._own_deadline)
+
+    def forget_own(self) -> None:
+        """Drop what was found about the prime by himself, which may be what fills the memory."""
+        self.__dict__.pop("own", None)
+
+    def cost(self, op: Op) -> int:
+        """Scaled cost of an op."""
+        return self._scaled[op.cost]
+
+    def pair(self, value: int) -> tuple[Fraction, Fraction]:
+        """The costs of prime and supporter in a value."""
+        prime, supporter = divmod(value, 1 << self.unit_bits)
+        return Fraction(prime, self.scale), Fraction(supporter, self.scale)
+
+    def supporter(self, state: int) -> list[Move]:
+        """What the supporter may do, waiting first; of moves to one state the cheapest."""
+        found = {state: Move(0, state, NOOP)}
+        for op in self._supporter_index.candidates(state):
+            if applicable(op, state):
+                after = state & op.keep | op.put
+                cost = self._scaled[op.cost]
+                known = found.get(after)
+                if known is None or cost < known.value:
+                    found[after] = Move(cost, after, op.action)
+        return list(found.values())
+
+    def prime(self, state: int) -> tuple[Move, ...]:
+        """The prime's optimal actions, smallest name first; empty if he has no plan alone.
+
+        The goal does not hold in ``state``.
+        """
+        moves = self._prime_moves.get(state)
+        if moves is None:
+            moves = self._prime_moves[state] = tuple(self._optimal(state))
+        return moves
+
+    def _optimal(self, state: int) -> list[Move]:
+        actions = self.encoding.task.actions
+        seen: set[tuple[str, int]] = set()
+        moves = []
+        for op, after in self.own.optimal(state):
+            form = (actions[op.action].name, after)
+            if form not in seen:
+                seen.add(form)
+                moves.append(Move(self._scaled[op.cost] << self.unit_bits, after, op.action))
+        return moves
+
+    def alone(self, state: int) -> int:
+        """The value if the supporter does nothing for ever; ``INFINITE`` if that does not end.
+
+        Whatever he chooses among his optimal actions, the prime pays his optimal cost.
+        """
+        key = self.own.key(state)
+        return INFINITE if key >= UNREACHABLE else self.own.cost_in(key) << self.unit_bits
+
+    def facts(self, state: int) -> frozenset[int]:
+        """Ids of the relevant facts that are true in a packed state."""
+        bits: Sequence[tuple[int, int] | None] = self.encoding.fact_bits
+        return frozenset(i for i, pair in enumerate(bits) if pair is not None and state & pair[0] == pair[1])

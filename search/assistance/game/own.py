@@ -1,0 +1,115 @@
+"""The prime by himself: his optimal (cost, length) from any state of the game.
+
+Facts that he does not change himself are the *context* of his search; for each context
+a table over the rest is filled in where it is asked for.
+"""
+
+from typing import Final
+
+from search.assistance.distances.closure import Arc, Closure, TooManyStatesError
+from search.assistance.distances.watched import Watched
+from search.human.individual_planner import Alone
+from search.human.pattern_database import Projection
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import Op, applicable
+from search.packed.packed_task import Encoding, Goal
+from serendipity.model.deadline import Deadline
+
+LENGTH_BITS: Final = 24
+UNREACHABLE: Final = INFINITE_KEY
+"""At or above it: he has no plan alone."""
+
+MAX_STATES: Final = 3_000_000
+"""The largest table of one context; beyond it each state is searched by itself."""
+
+
+class OwnCosts:
+    """His optimal keys ``cost << LENGTH_BITS | length``, with the supporter idle.
+
+    Args:
+        encoding: the packed task.
+        scaled: integer cost by the index of an op's cost.
+        deadline: asked for time.
+    """
+
+    def __init__(self, encoding: Encoding, scaled: list[int], deadline: Deadline) -> None:
+        self._encoding = encoding
+        self._deadline = deadline
+        self._weights = [(cost << LENGTH_BITS) + 1 for cost in scaled]
+        self._changed = encoding.changed_by(encoding.own)
+        self._mask = encoding.own_mask | encoding.goal.mask
+        self._tables: dict[int, Closure | None] = {}
+        self._index = Watched(encoding.own, encoding.fields, deadline)
+        self._single: Alone | None = None
+        self._too_large = False
+
+    def cost_in(self, key: int) -> int:
+        """The scaled cost in a key."""
+        return key >> LENGTH_BITS
+
+    def key(self, state: int, limit: int = UNREACHABLE) -> int:
+        """His optimal key; ``UNREACHABLE`` if he has no plan; at or above ``limit`` any such value."""
+        context = state & self._mask & ~self._changed
+        if context in self._tables:
+            table = self._tables[context]
+        else:
+            table = self._tables[context] = self._table(context)
+        if table is None:
+            return UNREACHABLE
+        if not self._too_large:
+            try:
+                return table.key(state & self._changed, limit)
+            except TooManyStatesError:
+                self._too_large = True
+        return self._search(state, limit)
+
+    def optimal(self, state: int) -> list[tuple[Op, int]]:
+        """Actions that start an optimal plan, ascending, with their successors."""
+        key = self.key(state)
+        if key >= UNREACHABLE:
+            return []
+        found = []
+        for op in self._index.candidates(state):
+            if applicable(op, state):
+                after = state & op.keep | op.put
+                rest = key - self._weights[op.cost]
+                if after != state and self.key(after, rest + 1) == rest:
+                    found.append((op, after))
+        return found
+
+    def _table(self, context: int) -> Closure | None:
+        """The table of a context, still empty; None where the context denies the goal."""
+        changed = self._changed
+        goal = _within(self._encoding.goal, changed, context)
+        if goal is None:
+            return None
+        arcs = []
+        for op in self._encoding.own:
+            self._deadline.tick()
+            condition = _within(Goal(op.need_mask, op.need, op.forbidden), changed, context)
+            if condition is not None:
+                arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))
+        fields = [field for field in self._encoding.fields if field & changed]
+        values = [self._encoding.values(field) for field in fields]
+        return Closure(arcs, goal, fields, values, MAX_STATES, self._deadline)
+
+    def _search(self, state: int, limit: int) -> int:
+        if self._single is None:
+            encoding, weights = self._encoding, self._weights
+            blind = Projection(0, {0: 0})
+            self._single = Alone(encoding, encoding.goal, lambda op: weights[op.cost], blind, self._deadline)
+        return self._single.key(state, limit)
+
+
+def _within(condition: Goal, changed: int, context: int) -> Goal | None:
+    """What a condition asks of the ``changed`` fields; None if the context denies it."""
+    rest = condition.need_mask & ~changed
+    if condition.need < 0 or context & rest != condition.need & rest:
+        return None
+    forbidden = []
+    for field, value in condition.forbidden:
+        if field & changed:
+            forbidden.append((field, value))
+        elif context & field == value:
+            return None
+    return Goal(condition.need_mask & changed, condition.need & changed, tuple(forbidden))

@@ -1,0 +1,1 @@
+"""What every search is made of: the best-first loop, dominance, outcomes."""

@@ -1,0 +1,120 @@
+"""The best-first loop that serves every mode: a mode is a space and a bound.
+
+Keys are those of ``search.packed.cost_vector``: one comparison orders objective, cost, window,
+start and length at once, so the first proof is already the answer of SPEC 3.1.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
+from typing import NamedTuple, Protocol
+
+from serendipity.model.deadline import Deadline
+
+_PATIENCE = 1.25
+"""Reports of the bound are this factor apart in time: a few dozen in all."""
+
+
+class Node(NamedTuple):
+    """A search node: the agents have acted in epochs ``1 .. epoch``."""
+
+    key: int
+    epoch: int
+    state: int
+    phase: int
+    start: int
+    """First epoch of the window, 0 while it has not been opened."""
+    parent: "Node | None"
+    actions: tuple[int, ...]
+    """What was done in ``epoch``."""
+    idle: tuple[int, ...] = ()
+    """For how long robots have been idle, where their walks are folded."""
+
+
+@dataclass(slots=True)
+class Incumbent:
+    """The best complete plan so far.
+
+    Attributes:
+        key: its key, or ``INFINITE_KEY`` where there is none.
+        node: the last node before the suffix, or None for the answer that was there first.
+        end: first epoch of the suffix (``xi2``), 0 without a window.
+        tail: actions of the human after ``node``, one an epoch.
+    """
+
+    key: int
+    node: Node | None = None
+    end: int = 0
+    tail: tuple[int, ...] = ()
+
+
+@dataclass(slots=True)
+class Progress:
+    """What a search knows of itself at any moment.
+
+    Attributes:
+        bound: no complete plan has a smaller key.
+        finished: the incumbent is proved optimal.
+    """
+
+    bound: int = 0
+    expanded: int = 0
+    generated: int = 0
+    finished: bool = False
+    told: int = 0
+    """The bound when it was last reported."""
+    told_at: float = 0.01
+    """Seconds by the deadline when it was; short searches don't report theirs."""
+
+    def due(self, deadline: Deadline) -> bool:
+        """Whether the bound has risen, and long enough after it was last reported."""
+        if self.bound <= self.told or (now := deadline.elapsed()) < _PATIENCE * self.told_at:
+            return False
+        self.told, self.told_at = self.bound, now
+        return True
+
+
+class Space(Protocol):
+    """What a mode defines."""
+
+    def roots(self) -> Iterable[tuple[int, Node]]:
+        """Bounded initial nodes."""
+
+    def alive(self, node: Node) -> bool:
+        """Whether no better node makes this one superfluous."""
+
+    def expand(self, node: Node, best: Incumbent) -> Iterable[tuple[int, Node]]:
+        """Bounded successors; complete plans met on the way are offered to ``best``."""
+
+
+def best_first(space: Space, best: Incumbent, progress: Progress, deadline: Deadline) -> Iterator[Incumbent]:
+    """Yield each better incumbent, and now and then the same one where the bound has risen.
+
+    On return ``best`` is optimal and the bound is its key.
+
+    Raises:
+        LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
+    """
+    tie = count()
+    queue: list[tuple[int, int, Node]] = []
+    for bound, node in space.roots():
+        heappush(queue, (bound, -next(tie), node))
+    known = best.key
+    while queue and queue[0][0] < best.key:
+        bound, _, node = heappop(queue)
+        progress.bound = max(progress.bound, bound)
+        if not space.alive(node):
+            continue
+        deadline.check()
+        progress.expanded += 1
+        for child_bound, child in space.expand(node, best):
+            deadline.tick()
+            progress.generated += 1
+            if child_bound < best.key:
+                heappush(queue, (child_bound, -next(tie), child))
+        if best.key < known or progress.due(deadline):
+            known = best.key
+            yield best
+    progress.bound = best.key
+    progress.finished = True

@@ -1,0 +1,1 @@
+"""Lower bounds: what help may bring about, and what that costs at least."""

@@ -1,0 +1,396 @@
+"""What it costs robots, at least, to provide what a touch needs.
+
+One outside field is looked at together with the place of one robot at a time:
+the robot that is *tracked*.  It walks (ops on its place), it acts on the field,
+and where the next op on the field has other actors, tracking passes on: to a
+robot that takes part in both ops, from where the first one left it, or, where
+there is none, to any robot, anywhere, for nothing.  All other conditions are
+dropped, so distances are admissible for any number of robots that relay.
+
+Glossary: *place* - see :mod:`search.robots.transition_graphs`; *label* - value of the field, team of the
+last op on it (0 at the start).
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
+from heapq import heappop, heappush
+from typing import NamedTuple
+
+from search.heuristics.interactions import Need
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import Op, forms_of
+from search.packed.packed_task import Encoding
+from search.robots.transition_graphs import AllActs, Places, by_value, with_anything
+from serendipity.model.deadline import Deadline
+
+Spot = tuple[int, int, int, int]
+"""Value of the field, team of the last op on it, tracked robot's bit, its place.
+Robot 0 stands for "any robot that did not take part in the last op"."""
+
+Label = tuple[int, int, int]
+"""A spot wherever the robot is."""
+
+Teams = tuple[tuple[int, tuple[int, ...], bool], ...]
+"""Teams, robots that may be tracked after them by their order among all, and whether any one of
+those will do (team 0 stands for no team)."""
+
+Edge = tuple[int, Spot]
+"""Weight, and where it leads."""
+
+
+class Provision:
+    """Distances in the automaton of one outside field.
+
+    Args:
+        encoding: the packed task.
+        field: the outside field.
+        needs: ids of the needs that are judged by this field, with the needs.
+        weights: key increment of a robots' op by the index of its cost.
+        flips: ops of the human that may change the field on his way, for nothing.
+        deadline: asked for time.
+
+    Attributes:
+        cost: least cost from the initial state by need id.
+        unchanged: the initial value of the field, or -1 where some walks mention the field.
+    """
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        field: int,
+        needs: Sequence[tuple[int, Need]],
+        weights: Sequence[int],
+        flips: Iterable[Op],
+        deadline: Deadline,
+    ) -> None:
+        self._places = encoding.derived(Places, deadline)
+        self._field = field
+        self._weights = weights
+        self._deadline = deadline
+        self._initial = encoding.init
+        self._encoding = encoding
+        self._acts = encoding.derived(AllActs, deadline).on(field)
+        changing = (op for op in flips if field & ~op.keep)
+        self._flips = by_value(field, forms_of(changing, encoding.all_ones, deadline))
+        self._anyhow: dict[int, list[int]] = {}
+        self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
+        self._detached: dict[int, list[tuple[int, int]]] = {}
+        for i, need in needs:
+            deadline.tick()
+            self._index(i, need)
+        # Spots go by the order in which they were met.
+        self._ids: dict[Spot, int] = {}
+        self._spots: list[Spot] = []
+        self._entries: list[list[tuple[int, int]]] = []
+        self._forward: list[int] = []
+        self._accepted: dict[int, list[int]] = {}
+        self._stopped: dict[Label, list[int]] = {}
+        self._too_dear = INFINITE_KEY
+        self._steps: dict[Label, int] = {}
+        self.cost: dict[int, int] = {}
+        self.unchanged = self._initial & field if self._acts.walks is self._places.walks else -1
+
+    def explore(self, pays: Callable[[int], bool]) -> None:
+        """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
+        value = self._initial & self._field
+        robots = self._places.field.items()
+        queue = _Levels(self._meet((value, 0, robot, self._initial & place)) for robot, place in robots)
+        forward = self._forward
+        open_exits: dict[Label, set[int]] = {}
+        while queue.costs:
+            cost = heappop(queue.costs)
+            for i in queue.at[cost]:
+                if forward[i] >= 0:
+                    continue
+                forward[i] = cost
+                self._deadline.tick()
+                spot = self._spots[i]
+                self._accept(spot, i, cost)
+                value, team, robot, place = spot
+                for weight, after in self._changes(spot):
+                    self._relax(queue, i, cost, weight, after, pays)
+                if not robot:
+                    continue
+                label = value, team, robot
+                exits = open_exits.get(label)
+                if exits is None:
+                    exits = open_exits[label] = self._exits(value, robot)
+                exits.discard(place)
+                exits.discard(-1)
+                goes_on = bool(exits)
+                for there, index in self._acts.from_place(robot, place):
+                    after = (value, team, robot, there)
+                    if goes_on or self.settled(after) >= 0:
+                        self._relax(queue, i, cost, self._weights[index], after, pays)
+                    else:
+                        # Where else the walk may lead is left open (see `distances`).
+                        self._stopped.setdefault(label, []).append(i)
+                        if label not in self._steps:
+                            self._steps[label] = self._least_step(label)
+
+    def settled(self, spot: Spot) -> int:
+        """The id of a spot that was explored, or -1."""
+        i = self._ids.get(spot, -1)
+        return i if i >= 0 and self._forward[i] >= 0 else -1
+
+    def _meet(self, spot: Spot) -> int:
+        """An id for a new spot."""
+        i = self._ids[spot] = len(self._spots)
+        self._spots.append(spot)
+        self._entries.append([])
+        self._forward.append(-1)
+        return i
+
+    def _relax(
+        self, queue: "_Levels", before: int, cost: int, weight: int, after: Spot, pays: Callable[[int], bool]
+    ) -> None:
+        i = self._ids.get(after)
+        if i is None:
+            i = self._meet(after)
+        self._entries[i].append((weight, before))
+        if self._forward[i] < 0 and cost + weight < self._too_dear:
+            if pays(cost + weight):
+                queue.push(cost + weight, i)
+            else:
+                self._too_dear = cost + weight  # nor does what costs more
+
+    def _changes(self, spot: Spot) -> list[Edge]:
+        """Edges that set the field, or hand over tracking."""
+        value, team, robot, place = spot
+        edges: list[Edge] = []
+        if robot:
+            ops = with_anything(self._acts.by_place(value, robot), place)
+        else:
+            ops = [op for op in self._acts.on(value) if not op.agents & team]
+        for op in ops:
+            after = op.put & self._field if self._field & ~op.keep else value
+            weight = self._weights[op.cost]
+            for other, field in self._places.field.items():
+                if op.agents & other:
+                    here = place if other == robot else -1
+                    edges += [
+                        (weight, (after, op.agents, other, p)) for p in self._after(op, other, field, here)
+                    ]
+        for op in with_anything(self._flips, value):
+            edges.append((0, (op.put & self._field, team, robot, place)))
+        if robot and team and len(self._places.field) > 1:
+            edges.append((0, (value, team, 0, 0)))
+        return edges
+
+    def _after(self, op: Op, robot: int, field: int, place: int) -> list[int]:
+        """Where a robot can be after an op: known, set by it, asked for by it, or anywhere."""
+        if field & ~op.keep:
+            return [op.put & field]
+        if place >= 0:
+            return [place]
+        if op.need_mask & field:
+            return [op.need & field]
+        return self._encoding.values(field)
+
+    def _index(self, i: int, need: Need) -> None:
+        """By value and place, where a need is provided."""
+        value = need.value & self._field
+        robots = [robot for robot, field in self._places.field.items() if need.mask & field]
+        for robot in robots:
+            spots = self._at_place.setdefault((value, robot), {})
+            spots.setdefault(need.value & self._places.field[robot], []).append(i)
+        if robots:
+            self._detached.setdefault(value, []).append((i, sum(robots)))
+        else:
+            self._anyhow.setdefault(value, []).append(i)
+
+    def _exits(self, value: int, robot: int) -> set[int]:
+        """Places in which something can happen to the value (-1: anywhere)."""
+        return {*self._acts.by_place(value, robot), *self._at_place.get((value, robot), ())}
+
+    def _least_step(self, label: Label) -> int:
+        """The least that a robot pays from where no exit is; 0 where it need not walk to go on."""
+        value, team, robot = label
+        if team or with_anything(self._flips, value) or -1 in self._exits(value, robot):
+            return 0
+        walks = self._acts.walks[robot].values()
+        return min((self._weights[index] for ways in walks for _, index in ways), default=0)
+
+    def _accept(self, spot: Spot, at: int, cost: int) -> None:
+        """Note the needs that are provided at a spot."""
+        value, team, robot, place = spot
+        found = list(self._anyhow.get(value, ()))
+        if robot:
+            found += self._at_place.get((value, robot), {}).get(place, ())
+        else:
+            found += [i for i, robots in self._detached.get(value, ()) if not robots & team]
+        for i in found:
+            self._accepted.setdefault(i, []).append(at)
+            self.cost.setdefault(i, cost)
+
+    def distances(self, need: int, slack: int) -> "Distances":
+        """Backward from a need, over what :meth:`explore` has seen.
+
+        Args:
+            need: its id.
+            slack: if robots pay as much or more from the initial state on, it is too dear.
+        """
+        queue = _Levels(self._accepted.get(need, ()))
+        at = queue.at
+        found: dict[int, int] = {}
+        elsewhere: dict[Label, int] = {}
+        forward, spots, entries, stopped = self._forward, self._spots, self._entries, self._stopped
+        while queue.costs:
+            cost = heappop(queue.costs)
+            latest = slack - cost
+            for i in at[cost]:
+                if i in found or forward[i] >= latest:
+                    continue
+                found[i] = cost
+                self._deadline.tick()
+                label = spots[i][:3]
+                if label in stopped and label not in elsewhere:
+                    # From beyond where it stopped walking this is in reach, at the least.
+                    step = 0 if need in self._anyhow.get(label[0], ()) else self._steps[label]
+                    elsewhere[label] = cost + step
+                    for before in stopped[label]:
+                        queue.push(cost + 2 * step, before)
+                for weight, before in entries[i]:
+                    if before not in found:
+                        if (level := at.get(cost + weight)) is not None:
+                            level.append(before)
+                        else:
+                            queue.push(cost + weight, before)
+        return Distances(self, self._field, self._places.field, found, elsewhere)
+
+    def teams(self, value: int) -> Teams:
+        """The teams that may have been the last to act on the field, by its value.
+
+        Where the field is as it was initially, what a robot can do next does not depend on
+        whether others have changed it meanwhile.
+        """
+        if value == self.unchanged:
+            return ((0, tuple(range(len(self._places.field))), False),)
+        return self._changed.get(value, ())
+
+    @cached_property
+    def _changed(self) -> dict[int, Teams]:
+        found: dict[int, set[int]] = {}
+        for (value, team, _, _), cost in zip(self._spots, self._forward, strict=True):
+            if cost >= 0:
+                found.setdefault(value, set()).add(team)
+        return {value: tuple(self._team(value, team) for team in teams) for value, teams in found.items()}
+
+    def _team(self, value: int, team: int) -> tuple[int, tuple[int, ...], bool]:
+        """An entry of :data:`Teams`.
+
+        What happens next without the whole team is known by any robot.  If every other thing
+        that can happen has the same robot of the team in it, then it is enough to track that
+        one, and what it needs is a bound by itself.
+        """
+        robots = list(enumerate(self._places.field))
+        if not team:
+            return 0, tuple(j for j, _ in robots), False
+        needed = [op.agents for op in self._acts.on(value)]
+        needed += [who for _, who in self._detached.get(value, ())]
+        meeting = [who for who in needed if who & team]
+        always = tuple(j for j, robot in robots if robot & team and all(who & robot for who in meeting))
+        members = tuple(j for j, robot in robots if robot & team)
+        return team, always or members, bool(always)
+
+
+class _Robot(NamedTuple):
+    """A robot's part of :class:`Distances`: its bit, its place, the fields it depends on, what is known."""
+
+    bit: int
+    place: int
+    mask: int
+    known: dict[int, tuple[tuple[int, ...], int]]
+
+
+class Distances:
+    """Least robots' weight from a packed state to provide one need.
+
+    What :meth:`Provision.explore` has not reached is too dear for a state in which robots
+    have paid for getting there.  Where it stopped walking, since all that can happen to the
+    field is within reach, the least of what it knows stands for the rest.
+
+    Args:
+        provision: what was explored.
+        field: the outside field.
+        places: place field by robot's bit.
+        found: distance by spot.
+        elsewhere: the least one by label, where walking stopped.
+    """
+
+    def __init__(
+        self,
+        provision: Provision,
+        field: int,
+        places: dict[int, int],
+        found: dict[int, int],
+        elsewhere: dict[Label, int],
+    ) -> None:
+        self._provision = provision
+        self._alone = len(places) == 1
+        self._unchanged = provision.unchanged
+        self._field = field
+        self._found = found
+        self._elsewhere = elsewhere
+        self._robots = [_Robot(robot, place, field | place, {}) for robot, place in places.items()]
+
+    def __call__(self, state: int) -> int:
+        """The bound from a packed state."""
+        value = state & self._field
+        if self._alone or value == self._unchanged:
+            best = INFINITE_KEY
+            for robot in self._robots:
+                _, least = self._at(robot, state)
+                if least < best:
+                    best = least
+            return best
+        best, rows = INFINITE_KEY, [self._at(robot, state)[0] for robot in self._robots]
+        for i, (_, members, each) in enumerate(self._provision.teams(value)):
+            weights = [rows[j][i] for j in members]
+            best = min(best, max(weights) if each else min(weights))
+        return best
+
+    def each(self, state: int) -> list[int]:
+        """The same for each robot, if it is the first to act; in the order of ``task.robots``."""
+        return [self._at(robot, state)[1] for robot in self._robots]
+
+    def _at(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
+        """The bounds if a robot is the first to act, after each team that may have acted; the least."""
+        return robot.known.get(state & robot.mask) or self._look(robot, state)
+
+    def _look(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
+        value, place = state & self._field, state & robot.place
+        teams = self._provision.teams(value)
+        row = tuple([self._after(value, team, robot.bit, place) for team, *_ in teams])
+        found = robot.known[state & robot.mask] = row, min(row, default=INFINITE_KEY)
+        return found
+
+    def _after(self, value: int, team: int, robot: int, place: int) -> int:
+        if team and not team & robot:
+            return self._found.get(self._provision.settled((value, team, 0, 0)), INFINITE_KEY)
+        spot = self._provision.settled((value, team, robot, place))
+        if spot >= 0:
+            return self._found.get(spot, INFINITE_KEY)
+        return self._elsewhere.get((value, team, robot), INFINITE_KEY)
+
+
+class _Levels:
+    """A queue for Dijkstra's algorithm where few costs differ.
+
+    Attributes:
+        costs: a heap of the costs.
+        at: ids by cost; a level may grow while it is gone through.
+    """
+
+    def __init__(self, sources: Iterable[int]) -> None:
+        self.costs = [0]
+        self.at = {0: list(sources)}
+
+    def push(self, cost: int, i: int) -> None:
+        """Add an id."""
+        level = self.at.get(cost)
+        if level is None:
+            self.at[cost] = [i]
+            heappush(self.costs, cost)
+        else:
+            level.append(i)

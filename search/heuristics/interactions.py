@@ -1,0 +1,108 @@
+"""How the human depends on others: his touches, and what each of them needs.
+
+Fields fall apart into the human's *private* ones (no op changes them without
+him), and *outside* ones, which robots change.  A *touch* is an op of his that
+mentions an outside field, or a joint one.  Between touches he is by himself in
+his private fields, and nothing outside changes but by robots.  A *need* is the
+outside part of the condition of a touch.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from search.human.pattern_database import human_graph
+from search.packed.operators import Op, OpIndex
+from search.packed.packed_task import Encoding
+from serendipity.model.deadline import Deadline
+
+
+class Need(NamedTuple):
+    """Outside fields that a touch asks for, and their values."""
+
+    mask: int
+    value: int
+
+
+class Seen(NamedTuple):
+    """An op of his in the projection onto his private fields."""
+
+    need_mask: int
+    need: int
+    keep: int
+    put: int
+    cost: int
+    """Index of its cost."""
+    touch: int
+    """Id of its need; -1 if it is no touch."""
+
+
+class Touches:
+    """The human's ops, split at what they mention; kept with the packed task.
+
+    Attributes:
+        mask: the private fields that the projection keeps.
+        outside: the fields that some op without him changes.
+        needs: the needs met so far; a need's id is its index.
+    """
+
+    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
+        self.mask = encoding.derived(human_graph, deadline).mask
+        self.needs: list[Need] = []
+        self._ids: dict[tuple[int, int], int] = {}
+        self._kinds: dict[tuple[int, int, int, object], tuple[int, int, bool]] = {}
+        self._encoding = encoding
+        self.outside = encoding.outside
+        self._indices = [encoding.own_index, encoding.joint_index]
+        self._seen: list[dict[int, list[Seen]]] = [{}, {}]
+
+    def seen(self, state: int) -> list[Seen]:
+        """Moves and touches that are possible in a projected state."""
+        found = []
+        for index, known in zip(self._indices, self._seen, strict=True):
+            value = state & index.field
+            ops = known.get(value)
+            if ops is None:
+                ops = known[value] = self._look(index, value)
+            found += [op for op in ops if state & op.need_mask == op.need]
+        return found
+
+    def of(self, need: int) -> Iterator[Seen]:
+        """All touches of a need."""
+        mask, value = self.needs[need]
+        for form in (*self._encoding.own_forms, *self._encoding.joint_forms):
+            if form.need_mask & self.outside == mask and self._encoding.is_touch(form):
+                for op in form.ops:
+                    if op.need & self.outside == value:
+                        yield self._project(op)
+
+    def is_touch(self, action: int) -> bool:
+        """Whether an action of the human's is a touch."""
+        return self._involves_others(self._encoding.op(action))
+
+    def _involves_others(self, op: Op) -> bool:
+        return self._encoding.involves_others(op.agents, self._encoding.mentioned(op))
+
+    def _look(self, index: OpIndex, value: int) -> list[Seen]:
+        """The ops under a value of an index; under every value, if the field is not his own."""
+        hidden = index.field & ~self.mask
+        ops = (
+            (op for ops in index.by_value.values() for op in ops) if hidden else index.by_value.get(value, ())
+        )
+        return [self._project(op) for op in (*ops, *index.always)]
+
+    def _project(self, op: Op) -> Seen:
+        form = op.need_mask, op.keep, op.agents, op.forbidden
+        kind = self._kinds.get(form)
+        if kind is None:
+            touch = self._involves_others(op)
+            kind = self._kinds[form] = op.need_mask & self.mask, op.need_mask & self.outside, touch
+        need_mask, asked, touch = kind
+        mask, number = self.mask, -1
+        if touch:
+            need = asked, op.need & self.outside
+            known = self._ids.get(need)
+            if known is None:
+                known = self._ids[need] = len(self.needs)
+                self.needs.append(Need(*need))
+            number = known
+        return Seen(need_mask, op.need & mask, op.keep, op.put & mask, op.cost, number)

@@ -1,0 +1,180 @@
+"""The human's side of help: his way to each touch, and on to the goal, in his private fields."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from heapq import heapify, heappop, heappush
+
+from search.heuristics.interactions import Seen, Touches
+from search.human.dijkstra import backward
+from search.human.pattern_database import Projection, human_graph, own_projection
+from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
+from search.packed.packed_task import Encoding
+from serendipity.model.deadline import Deadline
+
+NEVER = 1 << 40
+"""An epoch after every horizon."""
+
+_MOST_KEPT = 200_000
+"""Distances that are kept with a task, some tens of megabytes."""
+
+
+class Corridor:
+    """What the human can do from some states before a first touch, within a limit.
+
+    Attributes:
+        without: least total to the goal without a touch.
+        totals: least total by the need of the first touch.
+    """
+
+    def __init__(self, deadline: Deadline) -> None:
+        self._deadline = deadline
+        self.without = INFINITE_KEY
+        self.totals: dict[int, int] = {}
+        self._before: dict[int, list[tuple[int, int]]] = {}
+        self._entries: dict[int, list[tuple[int, int]]] = {}
+
+    def move(self, at: int, weight: int, after: int) -> None:
+        """Record a move."""
+        self._before.setdefault(after, []).append((weight, at))
+
+    def touch(self, at: int, spent: int, need: int, rest: int) -> None:
+        """Record a touch and what it costs to the goal, it included."""
+        self._entries.setdefault(need, []).append((rest, at))
+        if spent + rest < self.totals.get(need, INFINITE_KEY):
+            self.totals[need] = spent + rest
+
+    def through(self, need: int) -> dict[int, int]:
+        """Least key to the goal with a first touch of a need, by projected state."""
+        return backward(self._entries.get(need, ()), [self._before], self._deadline)
+
+
+class Ways:
+    """Distances by moves alone, up to a first touch.
+
+    Args:
+        encoding: the packed task.
+        touches: what his ops mention.
+        bound: private distances to the goal.
+        steps: the same, counting actions.
+        weights: key increments of the call.
+        deadline: asked for time.
+
+    Attributes:
+        outside: the fields that others change.
+        steps_after: least number of actions to the goal after a touch, by its need, over
+            the touches that :meth:`explore` has met.
+    """
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        touches: Touches,
+        bound: Projection,
+        steps: Projection,
+        weights: Weights,
+        deadline: Deadline,
+    ) -> None:
+        self.outside = touches.outside
+        self._encoding = encoding
+        self._touches = touches
+        self._bound = bound
+        self._steps = steps
+        self._weights = weights
+        self._deadline = deadline
+        self.steps_after: dict[int, int] = {}
+
+    def explore(self, sources: Sequence[tuple[int, int]], limit: int) -> Corridor:
+        """From some states at once, in order of what has been spent.
+
+        Args:
+            sources: what has been spent, and where he is then (a packed state).
+            limit: what costs as much or more is left out.
+        """
+        found = Corridor(self._deadline)
+        bound, weights = self._bound.distances, self._weights.human
+        queue = [(spent, state & self._touches.mask) for spent, state in sources]
+        heapify(queue)
+        seen: set[int] = set()
+        while queue:
+            spent, at = heappop(queue)
+            if at in seen:
+                continue
+            seen.add(at)
+            self._deadline.check()  # touches of one state may be hundreds
+            rest = bound.get(at, INFINITE_KEY)
+            if spent + rest >= limit:
+                continue
+            if rest == 0:
+                found.without = min(found.without, spent)
+            for op in self._touches.seen(at):
+                after = at & op.keep | op.put
+                weight = weights[op.cost]
+                if op.touch < 0:
+                    found.move(at, weight, after)
+                    if after not in seen:
+                        heappush(queue, (spent + weight, after))
+                    continue
+                rest = weight + bound.get(after, INFINITE_KEY)
+                if spent + rest < limit:
+                    found.touch(at, spent, op.touch, rest)
+                    steps = self._steps(after)
+                    if steps < self.steps_after.get(op.touch, NEVER):
+                        self.steps_after[op.touch] = steps
+        return found
+
+    def to_goal(self) -> dict[int, int]:
+        """Least key to the goal without a touch, by projected state."""
+        return self._weights.of_own(self._own().to_goal(self._deadline))
+
+    def through(self, need: int) -> dict[int, int]:
+        """Least key to the goal with a first touch of a need, by projected state."""
+        return self._weights.of_own(self._own().through(need, self._deadline))
+
+    def _own(self) -> "OwnWays":
+        return self._encoding.derived(OwnWays, self._touches, self._deadline)
+
+
+class OwnWays:
+    """His ways backward, in the unit of :func:`search.packed.cost_vector.own_weights`; kept with the packed task."""
+
+    def __init__(self, encoding: Encoding, touches: Touches, deadline: Deadline) -> None:
+        self._weights = own_weights(encoding)
+        self._touches = touches
+        self._distances = encoding.derived(own_projection, deadline).distances
+        self._moves = encoding.derived(human_graph, deadline).moves
+        self._field = encoding.own_index.field & touches.mask
+        self._by_value: dict[int, list[int]] = {}
+        for at in self._distances:
+            self._by_value.setdefault(at & self._field, []).append(at)
+        self._to_goal: dict[int, int] | None = None
+        self._through: dict[int, dict[int, int]] = {}
+
+    def to_goal(self, deadline: Deadline) -> dict[int, int]:
+        """Least cost to the goal without a touch, by projected state."""
+        if self._to_goal is None:
+            goals = [(0, at) for at, rest in self._distances.items() if rest == 0]
+            self._to_goal = backward(goals, [self._moves], deadline)
+        return self._to_goal
+
+    def through(self, need: int, deadline: Deadline) -> dict[int, int]:
+        """Least cost to the goal with a first touch of a need, by projected state."""
+        found = self._through.get(need)
+        if found is None:
+            if len(self._through) * len(self._distances) > _MOST_KEPT:
+                self._through.clear()
+            found = self._through[need] = backward(self._entries(need), [self._moves], deadline)
+        return found
+
+    def _entries(self, need: int) -> Iterator[tuple[int, int]]:
+        """What a touch of a need costs to the goal, it included, and where it is possible."""
+        for op in self._touches.of(need):
+            weight = self._weights[op.cost]
+            for at in self._where(op):
+                rest = self._distances.get(at & op.keep | op.put)
+                if rest is not None and at & op.need_mask == op.need:
+                    yield weight + rest, at
+
+    def _where(self, op: Seen) -> Iterable[int]:
+        """Projected states in which an op may be possible."""
+        if op.need_mask & self._field:
+            return self._by_value.get(op.need & self._field, ())
+        return self._distances

@@ -1,0 +1,306 @@
+"""The human by himself: his optimal cost from a state, and all his optimal plans.
+
+*Optimal* means least cost, then fewest actions (SPEC 1); both are in the key.
+Costs are cached on the facts that his own actions mention, so a state costs one
+search per projection, and a search also fills in the states along its result.
+"""
+
+from collections.abc import Callable, Iterator
+from heapq import heappop, heappush
+
+from search.human.pattern_database import Projection, own_projection
+from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
+from search.packed.operators import Op
+from search.packed.packed_task import Encoding, Goal
+from search.packed.successor_generator import Lookup
+from serendipity.model.deadline import Deadline
+
+Edges = dict[int, list[tuple[int, int]]]
+"""Per state the actions that continue an optimal plan, ascending, with their successors."""
+
+
+class PlanGraph:
+    """The optimal plans from a state as a graph: they share prefixes and suffixes.
+
+    Args:
+        start: the packed state that they start from.
+        edges: the steps that lie on an optimal plan.
+        expanded: states that the search for them expanded.
+        generated: steps that it looked at.
+    """
+
+    def __init__(self, start: int, edges: Edges, expanded: int, generated: int) -> None:
+        self._start = start
+        self._edges = edges
+        self.expanded = expanded
+        self.generated = generated
+
+    def canonical(self) -> tuple[int, ...]:
+        """The plan that takes the smallest action at each step (SPEC 1)."""
+        return next(self.plans())
+
+    def plans(self) -> Iterator[tuple[int, ...]]:
+        """All of them, in string order, lazily."""
+        path: list[int] = []
+        open_steps = [iter(self._edges.get(self._start, ()))]
+        if self._start not in self._edges:
+            yield ()
+            return
+        while open_steps:
+            step = next(open_steps[-1], None)
+            if step is None:
+                open_steps.pop()
+                if path:
+                    path.pop()
+                continue
+            action, after = step
+            path.append(action)
+            if after in self._edges:
+                open_steps.append(iter(self._edges[after]))
+            else:
+                yield tuple(path)
+                path.pop()
+
+    def layers(self) -> list[set[int]]:
+        """Per step the actions that some optimal plan does then."""
+        found: list[set[int]] = []
+        layer = {self._start}
+        while steps := [step for state in layer for step in self._edges.get(state, ())]:
+            found.append({action for action, _ in steps})
+            layer = {after for _, after in steps}
+        return found
+
+    def count(self) -> int:
+        """How many there are, without listing them."""
+        counts: dict[int, int] = {}
+        pending = [self._start]
+        while pending:
+            state = pending[-1]
+            after = [successor for _, successor in self._edges.get(state, ())]
+            missing = [successor for successor in after if successor not in counts]
+            if missing:
+                pending.extend(missing)
+            else:
+                counts[state] = sum(counts[successor] for successor in after) if after else 1
+                pending.pop()
+        return counts[self._start]
+
+
+class Memory:
+    """What has been found out about the human alone; good for calls that weigh alike."""
+
+    def __init__(self, lookup: Lookup) -> None:
+        self.lookup = lookup
+        self.known: dict[int, int] = {}
+        self.at_least: dict[int, int] = {}
+        self.plans: tuple[int, PlanGraph | None] | None = None
+
+
+class Alone:
+    """The human's optimal key to a goal with every robot idle.
+
+    Args:
+        encoding: the packed task.
+        goal: what has to hold at the end.
+        weight: key increment of one of his own ops.
+        bound: admissible lower bound to ``goal``.
+        deadline: asked for time.
+        memory: what earlier calls have found with the same goal and weights.
+    """
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        goal: Goal,
+        weight: Callable[[Op], int],
+        bound: Projection,
+        deadline: Deadline,
+        memory: Memory | None = None,
+    ) -> None:
+        self._actions = encoding.task.actions
+        self._goal = goal
+        self._bound = bound
+        self._deadline = deadline
+        self._mask = goal.mask | bound.mask | encoding.own_mask
+        self._memory = memory or Memory(Lookup(encoding.own_index, weight))
+        self._lookup = self._memory.lookup
+        self._known = self._memory.known
+        self._at_least = self._memory.at_least
+
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """His optimal key from a packed state; at or above ``limit`` any value means "not below"."""
+        state &= self._mask
+        known = self._known.get(state)
+        if known is not None:
+            return known
+        floor = self._at_least.get(state, 0)
+        if floor >= limit:
+            return floor
+        return self._search(state, limit)
+
+    def _search(self, start: int, limit: int) -> int:
+        """A*; exact below ``limit``."""
+        known, bound, holds = self._known, self._bound, self._goal.holds
+        first = bound(start)
+        queue = [(first, 0, start)]
+        best = {start: 0}
+        parents: dict[int, tuple[int, int]] = {}
+        closed: set[int] = set()
+        target, end, beyond = limit, -1, False
+        while queue and queue[0][0] < target:
+            _, negative, state = heappop(queue)
+            if state in closed:
+                continue
+            closed.add(state)
+            self._deadline.tick()
+            g = -negative
+            rest = known.get(state)
+            if rest is None and holds(state):
+                rest = 0
+            if rest is not None:
+                if g + rest < target:
+                    target, end = g + rest, state
+                beyond = beyond or rest < INFINITE_KEY
+                continue
+            for option in self._lookup.options(state):
+                after = state & option.keep | option.put
+                cost = g + option.weight
+                if cost < best.get(after, INFINITE_KEY):
+                    best[after] = cost
+                    parents[after] = (state, option.weight)
+                    heappush(queue, (cost + bound(after), -cost, after))
+        if end < 0:
+            if not beyond and (not queue or queue[0][0] >= INFINITE_KEY):
+                known[start] = INFINITE_KEY
+                return INFINITE_KEY
+            self._at_least[start] = max(limit, self._at_least.get(start, 0))
+            return limit
+        rest = target - best[end]
+        known[end] = rest
+        while end != start:
+            end, step = parents[end]
+            rest += step
+            known[end] = rest
+        return target
+
+    def plans(self, state: int) -> "PlanGraph | None":
+        """All his optimal plans from a packed state; None if there is none."""
+        start = state & self._mask
+        last = self._memory.plans
+        if last is None or last[0] != start:
+            last = self._memory.plans = start, self._optimal(start)
+        return last[1]
+
+    def _optimal(self, start: int) -> PlanGraph | None:
+        """The graph of the optimal plans; None if there is no plan.
+
+        Every state whose bound does not exceed the optimum is expanded; edges that lie on
+        an optimal path are then those between exact distances.
+        """
+        known = self._known.get(start)
+        if known == INFINITE_KEY:
+            return None
+        optimum = INFINITE_KEY if known is None else known
+        distance = {start: 0}
+        expanded: dict[int, list[tuple[int, int, int]]] = {}
+        queue = [(self._bound(start), 0, start)]
+        goals = []
+        while queue and queue[0][0] <= optimum and queue[0][0] < INFINITE_KEY:
+            _, g, state = heappop(queue)
+            if state in expanded:
+                continue
+            self._deadline.tick()
+            steps: list[tuple[int, int, int]] = []
+            expanded[state] = steps
+            if self._goal.holds(state):
+                optimum = g  # the first one is a cheapest one, others are no dearer
+                goals.append(state)
+                continue
+            for option in self._lookup.options(state):
+                after = state & option.keep | option.put
+                cost = g + option.weight
+                steps.append((option.actions[0], after, cost))
+                if cost < distance.get(after, INFINITE_KEY):
+                    distance[after] = cost
+                    heappush(queue, (cost + self._bound(after), cost, after))
+        if not goals:
+            self._known[start] = INFINITE_KEY
+            return None
+        edges = _edges_into(goals, expanded, distance, self._deadline)
+        for state, onward in edges.items():
+            edges[state] = self._one_a_name(onward)
+        for state in (*edges, *goals):
+            self._known[state] = optimum - distance[state]
+        return PlanGraph(start, edges, len(expanded), sum(map(len, expanded.values())))
+
+    def _one_a_name(self, steps: list[tuple[int, int]]) -> list[tuple[int, int]]:
+        """The first step of each name: variants of one action make no different plan (SPEC 1)."""
+        names = [self._actions[action].name for action, _ in steps]
+        return [step for step, name, last in zip(steps, names, ["", *names], strict=False) if name != last]
+
+
+class Priced:
+    """:class:`Alone` to ``G_H``, in the keys of a call; what it finds is kept with the packed task.
+
+    Args:
+        encoding: the packed task.
+        weights: key increments of the call, which say nothing of communication.
+        deadline: asked for time.
+    """
+
+    def __init__(self, encoding: Encoding, weights: Weights, deadline: Deadline) -> None:
+        own = own_weights(encoding)
+        bound = encoding.derived(own_projection, deadline)
+        memory = encoding.derived(_memory)
+        self._alone = Alone(encoding, encoding.goal, lambda op: own[op.cost], bound, deadline, memory)
+        self._weights = weights
+
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """See :meth:`Alone.key`."""
+        if limit >= INFINITE_KEY:
+            found = self._alone.key(state)
+        else:
+            found = self._alone.key(state, self._weights.own_limit(limit))
+        return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
+
+    def plans(self, state: int) -> PlanGraph | None:
+        """See :meth:`Alone.plans`."""
+        return self._alone.plans(state)
+
+
+def _memory(encoding: Encoding) -> Memory:
+    own = own_weights(encoding)
+    return Memory(Lookup(encoding.own_index, lambda op: own[op.cost]))
+
+
+def canonical(alone: Alone | Priced, state: int) -> tuple[int, ...]:
+    """The canonical optimal plan (SPEC 1) from a packed state that has one."""
+    graph = alone.plans(state)
+    assert graph is not None, "asked for plans where there are none"
+    return graph.canonical()
+
+
+def _edges_into(
+    goals: list[int],
+    expanded: dict[int, list[tuple[int, int, int]]],
+    distance: dict[int, int],
+    deadline: Deadline,
+) -> Edges:
+    tight: dict[int, list[tuple[int, int]]] = {}
+    for state, steps in expanded.items():
+        deadline.tick()
+        for action, after, cost in steps:
+            if distance.get(after) == cost:
+                tight.setdefault(after, []).append((action, state))
+    edges: Edges = {}
+    pending, seen = list(goals), set(goals)
+    while pending:
+        after = pending.pop()
+        for action, state in tight.get(after, ()):
+            edges.setdefault(state, []).append((action, after))
+            if state not in seen:
+                seen.add(state)
+                pending.append(state)
+    for onward in edges.values():
+        onward.sort()
+    return edges

@@ -1,0 +1,202 @@
+"""Admissible bounds on what the human still has to pay, by projection.
+
+His *private* variables are those that no action changes without him.  Projected
+onto them, with every other condition dropped, each of his actions (joint ones
+included) is a weighted transition; exact distances to the projected goal bound
+his share of any plan from below, in every mode, since robots' costs are only
+left out.  This is a pattern database (Culberson and Schaeffer 1998) on one
+agent's variables.  It depends on the task alone and is kept with it; a call has
+the distances in its keys.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from search.human.dijkstra import backward
+from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_weights
+from search.packed.operators import Form, set_by
+from search.packed.packed_task import Encoding, Goal
+from serendipity.model.deadline import Deadline
+
+_MAX_STATES = 50_000
+
+Predecessors = dict[int, list[tuple[int, int]]]
+"""Per projected state the cheapest ways to it: weight (:func:`search.packed.cost_vector.own_weights`), state before it."""
+
+
+class Projection:
+    """Distances to the goal in a projection.
+
+    Attributes:
+        mask: the fields that the projection keeps.
+        distances: key increment to the goal per projected state; a state that is not
+            listed can't reach the goal.
+    """
+
+    __slots__ = ("distances", "mask")
+
+    def __init__(self, mask: int, distances: dict[int, int]) -> None:
+        self.mask = mask
+        self.distances = distances
+
+    def __call__(self, state: int) -> int:
+        """Lower bound of the key increment from a packed state; ``INFINITE_KEY`` if none."""
+        return self.distances.get(state & self.mask, INFINITE_KEY)
+
+
+@dataclass(frozen=True, slots=True)
+class Projected:
+    """The human's actions projected onto fields of his, as far as they lead from ``I``.
+
+    Attributes:
+        mask: the fields that are kept.
+        moves: per projected state what leads to it by what mentions nothing that others change.
+        touches: the same by all else.
+    """
+
+    mask: int
+    moves: Predecessors
+    touches: Predecessors
+
+
+def human_projection(encoding: Encoding, weights: Weights, deadline: Deadline) -> Projection:
+    """Key increments to his goal in his private variables, or in as many as stay tractable.
+
+    Args:
+        encoding: the packed task.
+        weights: key increments of the call.
+        deadline: asked for time while the table is built.
+    """
+    own = encoding.derived(own_projection, deadline)
+    return Projection(own.mask, weights.of_own(own.distances))
+
+
+def own_projection(encoding: Encoding, deadline: Deadline) -> Projection:
+    """The same in the unit of :func:`search.packed.cost_vector.own_weights`."""
+    graph = encoding.derived(human_graph, deadline)
+    goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
+    return Projection(graph.mask, backward(goals, (graph.moves, graph.touches), deadline))
+
+
+def human_steps(encoding: Encoding, deadline: Deadline) -> Projection:
+    """The least number of his actions to his goal, in the same variables."""
+    if len(encoding.costs) == 1:  # every action costs the same, so the cheapest way is the shortest
+        own = encoding.derived(own_projection, deadline)
+        return Projection(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
+    graph = encoding.derived(human_graph, deadline)
+    goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
+    counted = [
+        {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}
+        for kind in (graph.moves, graph.touches)
+    ]
+    return Projection(graph.mask, backward(goals, counted, deadline))
+
+
+def private_fields(encoding: Encoding) -> list[int]:
+    """The fields that only he changes, alone or with others."""
+    changed = set_by((*encoding.own_forms, *encoding.joint_forms))
+    return [field for field in encoding.fields if field & changed and not field & encoding.outside]
+
+
+def human_graph(encoding: Encoding, deadline: Deadline) -> Projected:
+    """His graph over all his private fields, or over as many as stay tractable."""
+    private = private_fields(encoding)
+    goal_first = sorted(private, key=lambda field: (not field & encoding.goal.mask, field))
+    weights = own_weights(encoding)
+    # The cheapest last, so that it stays where forms look alike.
+    dearest_first = sorted((*encoding.own_forms, *encoding.joint_forms), key=lambda form: -form.cost)
+    weighed = [(form, weights[form.cost], encoding.is_touch(form)) for form in dearest_first]
+    for count in range(len(private), 0, -1):
+        fields = goal_first[:count]
+        mask = sum(fields)
+        steps = _Steps(fields, weighed, deadline)
+        graph = _explore(mask, encoding.init & mask, steps, deadline)
+        if graph is not None:
+            return graph
+    return Projected(0, {0: []}, {0: []})
+
+
+def _satisfying(graph: Projected, goal: Goal) -> list[int]:
+    """The projected states of which some state may satisfy the goal."""
+    if goal.need < 0:
+        return []
+    mask, need = goal.need_mask & graph.mask, goal.need & graph.mask
+    forbidden = [(m, value) for m, value in goal.forbidden if m & graph.mask]
+    found = [state for state in graph.moves if state & mask == need]
+    return [s for s in found if all(s & m != v for m, v in forbidden)] if forbidden else found
+
+
+def _explore(mask: int, start: int, steps: "_Steps", deadline: Deadline) -> Projected | None:
+    """What leads from ``start`` to each projected state; None if they are too many."""
+    moves: Predecessors = {start: []}
+    touches: Predecessors = {start: []}
+    index, by_value, always = steps.index, steps.by_value, steps.always
+    pending = [start]
+    while pending:
+        state = pending.pop()
+        deadline.tick()
+        for entries in (by_value.get(state & index, ()), always):
+            for need_mask, need, keep, put, forbidden, weight, touch in entries:
+                if state & need_mask != need:
+                    continue
+                after = state & keep | put
+                if after == state or (forbidden and any(state & m == value for m, value in forbidden)):
+                    continue
+                if after not in moves:
+                    if len(moves) >= _MAX_STATES:
+                        return None
+                    moves[after], touches[after] = [], []
+                    pending.append(after)
+                (touches if touch else moves)[after].append((weight, state))
+    return Projected(mask, moves, touches)
+
+
+Transition = tuple[int, int, int, int, tuple[tuple[int, int], ...], int, bool]
+"""``need_mask, need, keep, put, forbidden, weight`` of an op seen through the projection, and
+whether it is a touch."""
+
+Literals = tuple[tuple[int, int], ...]
+"""Fields, and values that they must not have."""
+
+
+class _Steps:
+    """Ops in the projection, by the value of one field; those that look alike are merged, the cheapest kept.
+
+    Attributes:
+        index: the field that most of them ask for.
+        by_value: those that ask for it, by its value.
+        always: the others.
+    """
+
+    def __init__(
+        self, fields: Sequence[int], forms: Iterable[tuple[Form, int, bool]], deadline: Deadline
+    ) -> None:
+        mask = sum(fields)
+        merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
+        for form, weight, touch in forms:
+            deadline.check()
+            if form.sets & mask:
+                shape = form.need_mask & mask, mask & ~form.sets, touch
+                merged.setdefault(shape, {}).update(_seen(form, mask, weight))
+        self.index = max(fields, key=lambda field: sum(len(m) for s, m in merged.items() if s[0] & field))
+        self.by_value: dict[int, list[Transition]] = {}
+        self.always: list[Transition] = []
+        for (need_mask, keep, touch), values in merged.items():
+            indexed = need_mask & self.index
+            for (need, put, forbidden), weight in values.items():
+                deadline.tick()
+                entry = (need_mask, need, keep, put, forbidden, weight, touch)
+                if indexed:
+                    self.by_value.setdefault(need & self.index, []).append(entry)
+                else:
+                    self.always.append(entry)
+
+
+def _seen(form: Form, mask: int, weight: int) -> dict[tuple[int, int, Literals], int]:
+    """What the ops of a form ask for and set in some fields, with their weight."""
+    if not form.forbids & mask:
+        return {(op.need & mask, op.put & mask, ()): weight for op in form.ops}
+    return {
+        (op.need & mask, op.put & mask, tuple((m, v) for m, v in op.forbidden if m & mask)): weight
+        for op in form.ops
+    }

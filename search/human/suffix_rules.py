@@ -1,0 +1,194 @@
+"""What the human does after the window, by himself (SPEC 3.1 rule 3, 3.3)."""
+
+from typing import Protocol
+
+from search.human.individual_planner import Alone, Priced, canonical
+from search.packed.cost_vector import INFINITE_KEY, Keys
+from search.packed.operators import applicable
+from search.packed.packed_task import Encoding, Goal
+from serendipity.model.deadline import Deadline
+from serendipity.model.task import HumanPlan
+
+_Rest = tuple[int, int, int]
+"""The first step of ``pi_H`` that is left, a packed state, and how many epochs are left."""
+
+
+class Suffix(Protocol):
+    """A rule for the epochs from ``xi2`` on."""
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """Key increment of the best suffix that fits ``epochs``; ``INFINITE_KEY`` if none does.
+
+        Args:
+            state: packed state at the end of the window.
+            epochs: how many are left.
+            start: ``xi1`` of the window.
+            limit: values at or above it are not told apart.
+        """
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """The actions of that suffix."""
+
+
+class Replan:
+    """An optimal plan of his own, without regard to the horizon (Def. 2.0a).
+
+    Args:
+        alone: his optimal keys to ``G_H``.
+        both: his optimal keys to ``G_H`` and the robots' goal, or None where he can't
+            affect that goal.
+        robot_goal: the robots' goal.
+        keys: layout of keys.
+    """
+
+    def __init__(self, alone: Alone | Priced, both: Alone | None, robot_goal: Goal, keys: Keys) -> None:
+        self._alone = alone
+        self._both = both
+        self._robot_goal = robot_goal
+        self._keys = keys
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """See :class:`Suffix`."""
+        if self._both is None and not self._robot_goal.holds(state):
+            return INFINITE_KEY
+        own = self._alone.key(state, limit)
+        if own >= limit or self._keys.actions(own) > epochs:
+            return INFINITE_KEY
+        if self._both is not None:
+            # His plan must be optimal for G_H alone and happen to leave G_R true.
+            kept = self._both.key(state)
+            shift = self._keys.action_shift
+            if kept >> shift != own >> shift:
+                return INFINITE_KEY
+            own = kept
+        return self._keys.announce(own)
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """See :class:`Suffix`."""
+        return canonical(self._both or self._alone, state)
+
+
+class Subplan:
+    """A subsequence of ``pi_H`` in its order, between noops (Def. 2.0, eq. 9)."""
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        plan: HumanPlan,
+        weights: list[int],
+        goals: list[Goal],
+        deadline: Deadline,
+    ) -> None:
+        self._steps = list(zip((encoding.op(i) for i in plan), weights, strict=True))
+        self._goals = goals
+        self._deadline = deadline
+        self._known: dict[_Rest, tuple[int, bool]] = {}
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """See :class:`Suffix`."""
+        return self._best((0, state, min(epochs, len(self._steps))))[0]
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """See :class:`Suffix`."""
+        chosen = []
+        left = min(epochs, len(self._steps))
+        for index, (op, _) in enumerate(self._steps):
+            if self._best((index, state, left))[1]:
+                chosen.append(op.action)
+                state = state & op.keep | op.put
+                left -= 1
+        return tuple(chosen)
+
+    def _best(self, wanted: _Rest) -> tuple[int, bool]:
+        """Best key of a rest, and whether it takes its first step."""
+        known = self._known
+        pending = [wanted]  # plans may be longer than Python's stack is deep
+        while pending:
+            self._deadline.tick()
+            at = pending[-1]
+            missing = [] if at in known else [rest for rest, _ in self._choices(at) if rest not in known]
+            if missing:
+                pending += missing
+            else:
+                known[at] = self._cheapest(pending.pop())
+        return known[wanted]
+
+    def _cheapest(self, at: _Rest) -> tuple[int, bool]:
+        index, state, _ = at
+        if index == len(self._steps):
+            return (0 if all(goal.holds(state) for goal in self._goals) else INFINITE_KEY), False
+        keys = [weight + self._known[rest][0] for rest, weight in self._choices(at)]
+        return min(keys), keys[-1] < keys[0]
+
+    def _choices(self, at: _Rest) -> list[tuple[_Rest, int]]:
+        """What is left after a step is skipped, and after it is taken if it can be; its weight."""
+        index, state, left = at
+        if index == len(self._steps):
+            return []
+        choices = [((index + 1, state, left), 0)]
+        op, weight = self._steps[index]
+        if left and applicable(op, state):
+            choices.append(((index + 1, state & op.keep | op.put, left - 1), weight))
+        return choices
+
+
+class Preserved:
+    """The rest ``pi_H[j+1..]``, from a state that still contains what ``pi_H[1..j]`` made
+    true of the human's own facts (Def. 3.1, read literally).
+    """
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        plan: HumanPlan,
+        weights: list[int],
+        goals: list[Goal],
+        expected: list[list[int]],
+    ) -> None:
+        self._encoding = encoding
+        self._ops = [encoding.op(i) for i in plan]
+        self._goals = goals
+        self._expected = [_Contained(encoding, facts) for facts in expected]
+        rest = [0]
+        for weight in reversed(weights):
+            rest.append(rest[-1] + weight)
+        self._rest = rest[::-1]
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """See :class:`Suffix`."""
+        return min((self._rest[j] for j in self._fitting(state, epochs, start)), default=INFINITE_KEY)
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """See :class:`Suffix`."""
+        best = min(self._fitting(state, epochs, start), key=lambda j: self._rest[j])
+        return tuple(op.action for op in self._ops[best:])
+
+    def _fitting(self, state: int, epochs: int, start: int) -> list[int]:
+        first = max(start - 1, len(self._ops) - epochs)
+        return [
+            j
+            for j in range(first, len(self._ops) + 1)
+            if self._expected[j].holds(state) and self._works(state, j)
+        ]
+
+    def _works(self, state: int, index: int) -> bool:
+        for op in self._ops[index:]:
+            if not applicable(op, state):
+                return False
+            state = state & op.keep | op.put
+        return all(goal.holds(state) for goal in self._goals)
+
+
+class _Contained:
+    """Whether a packed state contains a set of facts."""
+
+    def __init__(self, encoding: Encoding, facts: list[int]) -> None:
+        self.mask = self.value = 0
+        for fact in facts:
+            bits = encoding.fact_bits[fact]
+            assert bits is not None, "the full encoding packs every fact of the human's domain"
+            self.mask |= bits[0]
+            self.value |= bits[1]
+
+    def holds(self, state: int) -> bool:
+        return state & self.mask == self.value

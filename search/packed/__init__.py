@@ -1,0 +1,1 @@
+"""A task in machine words: operators, successor generator, lexicographic costs."""

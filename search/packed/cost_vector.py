@@ -1,0 +1,235 @@
+"""Order of answers as one integer: additive, and compared lexicographically.
+
+SPEC 3.1 orders answers by objective, cost, window length, later start, number of
+actions.  Every component is a sum over the steps of a plan, so all five are bit
+fields of a single int: adding keys adds components, comparing keys compares the
+components in that order.
+
+Costs are scaled to integers by the least common denominator, so ties are exact.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import lcm
+
+from search.packed.operators import Op
+from search.packed.packed_task import Encoding
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan
+
+_ACTIONS_BITS = 24
+_ACTIONS = (1 << _ACTIONS_BITS) - 1
+_EPOCH_BITS = 20
+
+INFINITE_KEY = 1 << 4096
+"""Above every key: no plan."""
+
+
+@dataclass(frozen=True, slots=True)
+class Keys:
+    """Widths of the fields, low to high: announced, actions, start, length, cost, objective.
+
+    ``epoch_weight`` is the increment of one more epoch of the window.  ``announced`` holds
+    the communication cost of a suffix, which ranks below the human's own preferences while
+    he replans and is moved into the objective afterwards.
+    """
+
+    scale: int
+    announced_bits: int
+    cost_bits: int
+    epoch_weight: int
+
+    @property
+    def action_shift(self) -> int:
+        """Lowest bit of the number of actions."""
+        return self.announced_bits
+
+    @property
+    def start_shift(self) -> int:
+        """Lowest bit of the start field (horizon + 1 - xi1)."""
+        return self.announced_bits + _ACTIONS_BITS
+
+    @property
+    def length_shift(self) -> int:
+        """Lowest bit of the window's length."""
+        return self.start_shift + _EPOCH_BITS
+
+    @property
+    def cost_shift(self) -> int:
+        """Lowest bit of the scaled cost."""
+        return self.length_shift + _EPOCH_BITS
+
+    @property
+    def objective_shift(self) -> int:
+        """Lowest bit of the scaled objective."""
+        return self.cost_shift + self.cost_bits
+
+    def actions(self, key: int) -> int:
+        """Number of actions in a key."""
+        return (key >> self.action_shift) & ((1 << _ACTIONS_BITS) - 1)
+
+    def start_field(self, key: int) -> int:
+        """``horizon + 1 - xi1`` in a key: smaller for a later start."""
+        return (key >> self.start_shift) & ((1 << _EPOCH_BITS) - 1)
+
+    def length(self, key: int) -> int:
+        """Length of the window in a key, in epochs."""
+        return (key >> self.length_shift) & ((1 << _EPOCH_BITS) - 1)
+
+    def scaled_cost(self, key: int) -> int:
+        """Cost in a key, times ``scale``."""
+        return (key >> self.cost_shift) & ((1 << self.cost_bits) - 1)
+
+    def cost(self, key: int) -> Fraction:
+        """Cost in a key, in the domain's unit."""
+        return Fraction(self.scaled_cost(key), self.scale)
+
+    def objective(self, key: int) -> Fraction:
+        """Objective in a key (for a bound: at least this much)."""
+        return Fraction(key >> self.objective_shift, self.scale)
+
+    def of_cost(self, cost: Fraction) -> int:
+        """Key increment of an amount of cost."""
+        scaled = cost * self.scale
+        assert scaled.denominator == 1, "the scale covers every cost of the task"
+        return (scaled.numerator << self.cost_shift) + (scaled.numerator << self.objective_shift)
+
+    def of_action(self, cost: Fraction) -> int:
+        """Key increment of one action with the given team cost."""
+        return self.of_cost(cost) + (1 << self.action_shift)
+
+    def of_start(self, start: int, horizon: int) -> int:
+        """Key increment of opening a window at epoch ``start`` of ``horizon``."""
+        return (horizon + 1 - start) << self.start_shift
+
+    def announce(self, key: int) -> int:
+        """Moves the low ``announced`` field of a suffix's key into the objective."""
+        low = key & ((1 << self.announced_bits) - 1)
+        return key - low + (low << self.objective_shift)
+
+
+class Weights:
+    """Key increments of ops.
+
+    Attributes:
+        keys: layout of the keys.
+        announces: whether off-plan actions cost communication.
+        human: increment of an action of the human by the index of its cost,
+            communication left out.
+        robots: increment of an action without the human by the index of its cost.
+
+    Args:
+        packed: the packed task.
+        options: discount, window weight and communication weight.
+        plan: ``pi_H``, or None to leave communication costs out.
+    """
+
+    def __init__(self, packed: Encoding, options: Options, plan: HumanPlan | None) -> None:
+        announces = options.mode == "communication" and plan is not None
+        announced = options.communication_weight if announces else Fraction(0)
+        known = packed.derived(_scales)
+        factors = options.discount, options.window_weight, announced
+        scaled = known.get(factors)
+        if scaled is None:
+            scaled = known[factors] = _scaled(packed, *factors)
+        self.keys = scaled.keys
+        self.announces = bool(announced)
+        self.human = scaled.human
+        self.robots = scaled.robots
+        self._announced = scaled.announced
+        self._per_cost = scaled.per_cost
+        self._human_bit = packed.human_bit
+        self._actions = packed.task.actions
+        # By name: who does what they planned did not change their mind, whichever of its variants it is.
+        self._planned = packed.task.names(plan or ()) if announces else frozenset()
+
+    def team(self, op: Op) -> int:
+        """Increment of an op inside a composite plan, communication included."""
+        if not op.agents & self._human_bit:
+            return self.robots[op.cost]
+        weight = self.human[op.cost]
+        if self.announces and not self._is_planned(op):
+            weight += self._announced[op.cost] << self.keys.objective_shift
+        return weight
+
+    def of_own(self, costs: Mapping[int, int]) -> dict[int, int]:
+        """Key increments of costs in the unit of :func:`own_weights`, by whatever they are listed."""
+        per_cost, action = self._per_cost, self.keys.action_shift
+        return {
+            at: (cost >> _ACTIONS_BITS) * per_cost + ((cost & _ACTIONS) << action)
+            for at, cost in costs.items()
+        }
+
+    def own_limit(self, limit: int) -> int:
+        """A cost in the unit of :func:`own_weights` from which on no key is below a limit."""
+        return limit // self._per_cost + 1 << _ACTIONS_BITS
+
+    def alone(self, op: Op) -> int:
+        """Increment of an op for the human's own preferences; communication ranks last."""
+        weight = self.human[op.cost]
+        if self.announces and not self._is_planned(op):
+            weight += self._announced[op.cost]
+        return weight
+
+    def _is_planned(self, op: Op) -> bool:
+        return self._actions[op.action].name in self._planned
+
+
+@dataclass(frozen=True, slots=True)
+class _Scaled:
+    """Costs of a task as integers; see :class:`Weights`.
+
+    Attributes:
+        announced: communication cost of an action by the index of its cost.
+        per_cost: key increment of one unit of cost.
+    """
+
+    keys: Keys
+    human: list[int]
+    robots: list[int]
+    announced: list[int]
+    per_cost: int
+
+
+def _scales(_: Encoding) -> dict[tuple[Fraction, Fraction, Fraction], _Scaled]:
+    """By discount, window weight and communication weight; filled by calls, kept with the packed task."""
+    return {}
+
+
+def _scaled(packed: Encoding, discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
+    costs = packed.costs
+    factors = (Fraction(1), 1 - discount, announced)
+    scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
+    dearest = int(max(costs, default=Fraction(0)) * scale)
+    announced_bits = int(dearest * announced).bit_length() + _ACTIONS_BITS if announced else 0
+    layout = Keys(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
+    epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
+    keys = replace(layout, epoch_weight=epoch)
+    per_cost = scale // _own_scale(packed)
+    return _Scaled(
+        keys,
+        human=[keys.of_action(cost) for cost in costs],
+        robots=[keys.of_action(cost * (1 - discount)) for cost in costs],
+        announced=[int(cost * announced * scale) for cost in costs],
+        per_cost=(per_cost << layout.cost_shift) + (per_cost << layout.objective_shift),
+    )
+
+
+def own_weights(packed: Encoding) -> list[int]:
+    """Undiscounted costs by their index, in a unit that no option changes.
+
+    Cost (in the least unit of the task's costs) and number of actions are the two fields of
+    an int: what the human prefers by himself (SPEC 1).  :meth:`Weights.of_own` makes keys of sums.
+    """
+    scale = _own_scale(packed)
+    return [(int(cost * scale) << _ACTIONS_BITS) + 1 for cost in packed.costs]
+
+
+def own_actions(cost: int) -> int:
+    """The number of actions in a sum of :func:`own_weights`."""
+    return cost & _ACTIONS
+
+
+def _own_scale(packed: Encoding) -> int:
+    return lcm(*(cost.denominator for cost in packed.costs))

@@ -1,0 +1,335 @@
+"""States packed into one Python int: a bit field per finite-domain variable.
+
+An action is then two masks to test and two to apply, whatever the number of
+facts.  Only facts that some useful action or a goal can ask for are packed;
+conflicts between actions are still judged on their declared effects (SPEC 2).
+
+*Leader* is the agent under whom an op is looked up: the human if he takes part.
+"""
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterable
+from copy import copy
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, Concatenate, ParamSpec, TypeVar
+
+from search.packed.operators import Form, Op, OpIndex, forms_of, set_by
+from search.packed.relevance import relevant_to_goals
+from serendipity.model.actions import Condition, conflicting
+from serendipity.model.collection import no_collection
+from serendipity.model.deadline import Deadline
+from serendipity.model.task import Task
+
+T = TypeVar("T")
+P = ParamSpec("P")
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """A packed condition."""
+
+    need_mask: int
+    need: int
+    forbidden: tuple[tuple[int, int], ...]
+
+    @property
+    def mask(self) -> int:
+        """The fields that the condition looks at."""
+        mask = self.need_mask
+        for field, _ in self.forbidden:
+            mask |= field
+        return mask
+
+    def holds(self, state: int) -> bool:
+        """Whether the packed state satisfies the condition."""
+        if state & self.need_mask != self.need:
+            return False
+        return not self.forbidden or all(state & mask != value for mask, value in self.forbidden)
+
+
+class Encoding:
+    """Packed form of a task.
+
+    Args:
+        task: the task.
+        extra: ids of facts to pack although no useful action asks for them.
+        deadline: asked for time.
+        kept: ids of actions to pack although they contribute to nothing.
+
+    Attributes:
+        useful: ids of the actions that can contribute to a goal or an ``extra`` fact, or are ``kept``.
+        fact_bits: per fact id its field's mask and value, or None where it is not packed.
+        fields: masks of the fields.
+        costs: the different undiscounted costs of the task's actions, ascending.
+        human_bit: the human in a bit set of agents.
+        own: useful ops that the human does alone and that some state allows.
+        joint: those in which the human and others take part.
+        others: those without the human.
+        own_forms, joint_forms, other_forms: the same by their forms.
+        own_index: ``own`` by their busiest field.
+        joint_index: ``joint`` by theirs.
+        robot_indices: ``others`` by theirs, an index for each first participant.
+    """
+
+    def __init__(
+        self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...] = ()
+    ) -> None:
+        self.task = task
+        self.human_bit = 1 << task.human
+        self._agents: dict[tuple[int, ...], int] = {}
+        with no_collection():
+            self._build(task, extra, deadline, kept)
+
+    def _build(self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...]) -> None:
+        relevant, useful = relevant_to_goals(task, extra, deadline, kept)
+        self.useful = useful
+        self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
+        self.fields: list[int] = []
+        self._values: dict[int, list[int]] = {0: [0]}
+        shift = 0
+        for variable in task.variables:
+            deadline.check()  # a place may have thousands of facts
+            if not any(f in relevant for f in variable.facts):
+                continue
+            width = 1 if variable.boolean else max(1, (len(variable.facts) - 1).bit_length())
+            mask = (1 << width) - 1 << shift
+            for code, fact in enumerate(variable.facts):
+                value = 1 if variable.boolean else code
+                self.fact_bits[fact] = (mask, value << shift)
+            self.fields.append(mask)
+            codes = range(2) if variable.boolean else range(len(variable.facts))
+            self._values[mask] = [code << shift for code in codes]
+            shift += width
+        self.boolean = {f for v in task.variables if v.boolean for f in v.facts}
+        # Deleting a value of a group clears nothing: what is added instead does.
+        self._cleared = [
+            bits[0] if bits is not None and fact in self.boolean else 0
+            for fact, bits in enumerate(self.fact_bits)
+        ]
+        self.all_ones = (1 << shift) - 1
+        self.init = self.pack(task.init)
+        self.goal = self.condition(task.goal)
+        self.robot_goal = self.condition(task.robot_goal)
+        self.costs = task.derived(_distinct_costs)
+        self._cost_index = {cost: i for i, cost in enumerate(self.costs)}
+        self._cost_by_identity: dict[int, int] = {}
+        self._ops: dict[int, Op] = {}
+        self._compatible: dict[tuple[int, int, bool], bool] = {}
+        self._derived: dict[Any, Any] = {}
+        self._sort_by_actor(deadline)
+
+    def moved_to(self, task: Task, *, derived: bool) -> "Encoding":
+        """The same packing for a task that differs in its initial state only.
+
+        Args:
+            task: the task.
+            derived: whether what was derived from this packing holds for the state, too.
+        """
+        moved = copy(self)
+        moved.task = task
+        moved.init = moved.pack(task.init)
+        if not derived:
+            moved._derived = {}
+        return moved
+
+    def for_goal(self, task: Task) -> "Encoding":
+        """The same packing for a task that differs in the human's goal, over packed facts, only."""
+        other = copy(self)
+        other.task = task
+        other.goal = other.condition(task.goal)
+        other._derived = {}
+        return other
+
+    def _sort_by_actor(self, deadline: Deadline) -> None:
+        own: list[Op] = []
+        joint: list[Op] = []
+        others: list[Op] = []
+        human = self.human_bit
+        for op in map(self.op, self.useful):
+            deadline.tick()
+            if op.need < 0:
+                continue  # no state passes its test
+            if op.agents == human:
+                own.append(op)
+            elif op.agents & human:
+                joint.append(op)
+            else:
+                others.append(op)
+        self.own, self.joint, self.others = tuple(own), tuple(joint), tuple(others)
+        self.own_forms = forms_of(own, self.all_ones, deadline)
+        self.joint_forms = forms_of(joint, self.all_ones, deadline)
+        self.other_forms = forms_of(others, self.all_ones, deadline)
+        led: dict[int, list[Form]] = {}
+        for form in self.other_forms:
+            led.setdefault(form.agents & -form.agents, []).append(form)
+        self.own_index = OpIndex(self.own_forms, self.fields, deadline)
+        self.joint_index = OpIndex(self.joint_forms, self.fields, deadline)
+        self.robot_indices = tuple(OpIndex(forms, self.fields, deadline) for _, forms in sorted(led.items()))
+
+    @cached_property
+    def outside(self) -> int:
+        """The fields that some op without the human sets."""
+        return set_by(self.other_forms)
+
+    @cached_property
+    def own_mask(self) -> int:
+        """The fields that what the human does alone asks for or sets."""
+        mask = 0
+        for form in self.own_forms:
+            mask |= form.mentions
+        return mask
+
+    def is_touch(self, form: Form) -> bool:
+        """Whether ops of the human mention what others change, or others take part (``search.heuristics.interactions``)."""
+        return self.involves_others(form.agents, form.mentions)
+
+    def involves_others(self, agents: int, fields: int) -> bool:
+        """Whether others than the human take part, or change some of the fields."""
+        return agents != self.human_bit or bool(fields & self.outside)
+
+    def derived(self, build: "Callable[Concatenate[Encoding, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
+        """``build(self, ...)``, computed once: tables that depend on nothing but the packed task.
+
+        What else is given may only say how it is built (a deadline to ask for time, say), not what.
+        """
+        if build not in self._derived:
+            self._derived[build] = build(self, *args, **kwargs)
+        return self._derived[build]  # type: ignore[no-any-return]
+
+    def kept(self, build: "Callable[Concatenate[Encoding, P], T]") -> T | None:
+        """What :meth:`derived` keeps already; None where nobody has asked for it yet."""
+        return self._derived.get(build)
+
+    def pack(self, state: Iterable[int]) -> int:
+        """The packed form of a set of true facts."""
+        packed = 0
+        for fact in state:
+            bits = self.fact_bits[fact]
+            if bits is not None:
+                packed |= bits[1]
+        return packed
+
+    def values(self, field: int) -> list[int]:
+        """The values that a field can have, in place."""
+        return self._values[field]
+
+    def condition(self, condition: Condition) -> Goal:
+        """The packed form of a conjunction of literals over packed facts."""
+        return Goal(*self._literals(condition.positive, condition.negative))
+
+    def op(self, action_id: int) -> Op:
+        """The packed form of an action, made when first asked for."""
+        op = self._ops.get(action_id)
+        if op is None:
+            op = self._ops[action_id] = self._pack_action(action_id)
+        return op
+
+    def is_useful(self, action_id: int) -> bool:
+        """Whether an action is packed: it can contribute to something."""
+        place = bisect_left(self.useful, action_id)
+        return place < len(self.useful) and self.useful[place] == action_id
+
+    def compatible(self, first: int, second: int, strict: bool) -> bool:
+        """Whether two actions may share an epoch (SPEC 2)."""
+        key = (first, second, strict)
+        answer = self._compatible.get(key)
+        if answer is None:
+            actions = self.task.actions
+            answer = not conflicting(actions[first], actions[second], strict=strict)
+            self._compatible[key] = answer
+        return answer
+
+    def mentioned(self, op: Op) -> int:
+        """The fields that an op asks for or sets."""
+        mask = op.need_mask | self.all_ones & ~op.keep
+        for field, _ in op.forbidden:
+            mask |= field
+        return mask
+
+    def changed_by(self, ops: Iterable[Op]) -> int:
+        """The union of the fields that some of ``ops`` set."""
+        mask = 0
+        for op in ops:
+            mask |= self.all_ones & ~op.keep
+        return mask
+
+    def _literals(
+        self, positive: Iterable[int], negative: Iterable[int]
+    ) -> tuple[int, int, tuple[tuple[int, int], ...]]:
+        need_mask = need = 0
+        forbidden = []
+        impossible = False
+        fact_bits = self.fact_bits
+        for fact in positive:
+            bits = fact_bits[fact]
+            assert bits is not None, "a condition asks only for packed facts"
+            mask, value = bits
+            if need_mask & mask and need & mask != value:
+                impossible = True
+            need_mask |= mask
+            need |= value
+        for fact in negative:
+            bits = fact_bits[fact]
+            assert bits is not None, "a condition asks only for packed facts"
+            mask, value = bits
+            if fact in self.boolean:
+                impossible |= bool(need & mask)
+                need_mask |= mask
+            else:
+                forbidden.append((mask, value))
+        # Two values of one variable: a test that no state passes.
+        return need_mask, (-1 if impossible else need), tuple(forbidden)
+
+    def _pack_action(self, action_id: int) -> Op:
+        action = self.task.actions[action_id]
+        need_mask, need, forbidden = self._literals(action.pre, action.neg)
+        clear = put = 0
+        for fact in action.delete:
+            clear |= self._cleared[fact]
+        for fact in action.add:
+            bits = self.fact_bits[fact]
+            if bits is not None:
+                clear |= bits[0]
+                put |= bits[1]
+        agents = self._agents.get(action.participants)
+        if agents is None:
+            agents = self._agents[action.participants] = sum(1 << agent for agent in action.participants)
+        cost = self._cost_by_identity.get(id(action.cost))
+        if cost is None:  # the task keeps its costs alive, so identities don't recur
+            cost = self._cost_by_identity[id(action.cost)] = self._cost_index[action.cost]
+        return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
+
+
+def encoding(task: Task, deadline: Deadline) -> Encoding:
+    """The encoding of the facts that matter to the goals, kept with the task."""
+    return task.derived(plain_encoding, deadline)
+
+
+def plain_encoding(task: Task, deadline: Deadline) -> Encoding:
+    """An encoding of the facts that matter to the goals."""
+    return Encoding(task, frozenset(), deadline)
+
+
+def full_encoding(task: Task, deadline: Deadline) -> Encoding:
+    """The encoding that also holds every fact of the human's own domain (SPEC 3.3)."""
+    return task.derived(_with_human_facts, deadline)
+
+
+def human_facts(task: Task) -> frozenset[int]:
+    """Ids of the facts that the human's own domain mentions (SPEC 3.3)."""
+    mentioned = {*task.goal.positive, *task.goal.negative}
+    for i in task.human_actions:
+        action = task.actions[i]
+        mentioned.update(action.pre, action.neg, action.add, action.delete)
+    return frozenset(mentioned)
+
+
+def _with_human_facts(task: Task, deadline: Deadline) -> Encoding:
+    return Encoding(task, human_facts(task), deadline)
+
+
+def _distinct_costs(task: Task) -> tuple[Fraction, ...]:
+    by_identity = {id(action.cost): action.cost for action in task.actions}
+    return tuple(sorted(set(by_identity.values())))

@@ -1,0 +1,240 @@
+"""What the agents can do in one epoch, all of them at once (SPEC 2).
+
+Ops are looked up under their leader by the value of one field, the one that most
+of the leader's actions ask for (a position, as a rule).
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
+from typing import NamedTuple
+
+from search.packed.operators import Op, OpIndex, applicable
+from search.packed.packed_task import Encoding
+from serendipity.model.actions import disables
+from serendipity.model.deadline import Deadline
+
+
+class Option(NamedTuple):
+    """One agent's applicable action, or several robots' at once, in some state."""
+
+    weight: int
+    keep: int
+    put: int
+    actions: tuple[int, ...]
+    agents: int
+    """Bit set of the agents that are busy with it."""
+    due: tuple[tuple[int, int], ...] = ()
+    """Where walks are folded (``search.robots.decoupled``): slots of robots, and for how long they have
+    to have been idle."""
+
+
+Idle = tuple[int, ...]
+"""Per slot for how long a robot has been idle; empty where walks are not folded."""
+
+NOTHING = Option(0, -1, 0, (), 0)
+"""Everybody waits."""
+
+
+_MANY = 1023
+"""All ones in binary: sets of actions between two looks at the deadline, less one."""
+
+
+class Lookup:
+    """Weighted ops of one leader; what a value of the index allows is put together once."""
+
+    def __init__(self, index: OpIndex, weight: Callable[[Op], int]) -> None:
+        self._index = index
+        self._field = index.field
+        self._weight = weight
+        self._weighted: dict[int, list[tuple[Op, Option]]] = {}
+
+    def options(self, state: int) -> list[Option]:
+        """What is applicable in a packed state, cheapest first."""
+        candidates = self._weighted.get(state & self._field)
+        if candidates is None:
+            candidates = self._prepare(state)
+        return [
+            option
+            for op, option in candidates
+            if state & op.need_mask == op.need and (not op.forbidden or applicable(op, state))
+        ]
+
+    def _prepare(self, state: int) -> list[tuple[Op, Option]]:
+        found = [(op, as_option(op, self._weight(op))) for op in self._index.candidates(state)]
+        found.sort(key=lambda pair: (pair[1].weight, pair[0].action))
+        self._weighted[state & self._field] = found
+        return found
+
+
+def as_option(op: Op, weight: int) -> Option:
+    """One op as what an agent may do."""
+    return Option(weight, op.keep, op.put, (op.action,), op.agents)
+
+
+class Successors:
+    """Applicable action sets of a task.
+
+    Args:
+        encoding: the packed task.
+        weight: key increment of an op.
+        deadline: asked for time; sets of several robots' actions can be many.
+        strict: strict interference (SPEC 2).
+        idle: robots do nothing.
+    """
+
+    def __init__(
+        self,
+        encoding: Encoding,
+        weight: Callable[[Op], int],
+        deadline: Deadline,
+        *,
+        strict: bool,
+        idle: bool = False,
+    ) -> None:
+        self._encoding = encoding
+        self._deadline = deadline
+        self._strict = strict
+        self._own = Lookup(encoding.own_index, weight)
+        self._joint = Lookup(encoding.joint_index, weight) if encoding.joint and not idle else None
+        self._led = [] if idle else [Lookup(index, weight) for index in encoding.robot_indices]
+        self._busy: dict[int, list[Option]] = {}
+
+    def human(self, state: int) -> list[Option]:
+        """What the human can do alone in a packed state, cheapest first (not: wait)."""
+        return self._own.options(state)
+
+    def joint(self, state: int) -> list[Option]:
+        """Joint actions with the human that are applicable."""
+        return self._joint.options(state) if self._joint is not None else []
+
+    def robots(self, state: int) -> list[Option]:
+        """Every applicable set of actions of the robots without the human, cheapest first."""
+        found = self._busy.get(state)
+        if found is None:
+            found = [NOTHING]
+            for lookup in self._led:
+                found += list(self._extend(found, lookup.options(state)))
+            found.sort(key=lambda option: option.weight)
+            self._busy[state] = found
+        return found
+
+    def with_robots(self, first: Option, state: int) -> Iterator[Option]:
+        """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
+        return self._combine(first, self.robots(state))
+
+    def beside(
+        self, first: Option, state: int, idle: Idle, promising: Callable[[Option], bool]
+    ) -> Iterable[Option]:
+        """The same, cheapest first, as far as it is possible and worth looking at.
+
+        Args:
+            first: the human's part.
+            state: the packed state.
+            idle: for how long robots have been idle.
+            promising: whether the part and what one robot does are worth looking at.
+        """
+        return self.with_robots(first, state)
+
+    def rested(self, idle: Idle, option: Option, state: int) -> Idle:
+        """For how long robots are idle after an epoch.
+
+        Args:
+            idle: before it.
+            option: what is done in it.
+            state: the packed state after it.
+        """
+        return ()
+
+    def in_turn(self, state: int) -> Iterator[tuple[Option, Option]]:
+        """What can happen next where epochs don't count: one action, or a set that needs one epoch.
+
+        The human's part comes first, then the whole.
+        """
+        groups = [[*self.human(state), *self.joint(state)]]
+        groups += [lookup.options(state) for lookup in self._led]
+        for part in groups[0]:
+            yield part, part
+        for option in chain.from_iterable(groups[1:]):
+            yield NOTHING, option
+        if not self._strict:  # which keeps apart what could be in a circle
+            yield from self._circles([self._entangled(group, groups) for group in groups])
+
+    def _entangled(self, group: list[Option], groups: list[list[Option]]) -> list[Option]:
+        """Options that may disable others of the groups, and be disabled by them."""
+        asked = changed = 0
+        for option in chain.from_iterable(other for other in groups if other is not group):
+            asked |= self._asked(option)
+            changed |= ~option.keep
+        return [o for o in group if ~o.keep & asked and self._asked(o) & changed]
+
+    def _asked(self, option: Option) -> int:
+        """The fields that a single action asks for."""
+        op = self._encoding.op(option.actions[0])
+        asked = op.need_mask
+        for mask, _ in op.forbidden:
+            asked |= mask
+        return asked
+
+    def _circles(self, groups: list[list[Option]]) -> Iterator[tuple[Option, Option]]:
+        """Sets of one option from each of several groups that can't be done in a sequence."""
+        sets = [NOTHING]
+        for group in groups[1:]:
+            sets += list(self._extend(sets, group))
+        for part in (NOTHING, *groups[0]):
+            for option in self._combine(part, sets):
+                if len(option.actions) > 1 and not self.sequential(option.actions):
+                    yield part, option
+
+    def sequential(self, actions: tuple[int, ...]) -> bool:
+        """Whether a compatible set has the same effect one action after another, in some order.
+
+        It does not where actions disable each other in a circle: then it needs one epoch.
+        """
+        left = [self._encoding.task.actions[i] for i in actions]
+        while left:
+            last = next((a for a in left if not any(b is not a and disables(b, a) for b in left)), None)
+            if last is None:
+                return False
+            left.remove(last)
+        return True
+
+    def _extend(self, sets: list[Option], more: list[Option]) -> Iterator[Option]:
+        for chosen in sets:
+            self._deadline.tick()
+            for option in more:
+                if not chosen.agents & option.agents and self._fits(option, chosen):
+                    yield together(chosen, option)
+
+    def _combine(self, first: Option, sets: list[Option]) -> Iterator[Option]:
+        for number, chosen in enumerate(sets):
+            if not number & _MANY:
+                self._deadline.check()
+            if not chosen.actions:
+                yield first
+            elif not chosen.agents & first.agents and self._fits(first, chosen):
+                yield together(first, chosen)
+
+    def _fits(self, single: Option, others: Option) -> bool:
+        """Whether ``single`` (of at most one action) may share an epoch with ``others``."""
+        if not single.actions:
+            return True
+        mine = single.actions[0]
+        return all(self._encoding.compatible(mine, other, self._strict) for other in others.actions)
+
+
+def together(a: Option, b: Option) -> Option:
+    """Both in one epoch."""
+    return Option(
+        a.weight + b.weight,
+        a.keep & b.keep,
+        a.put | b.put,
+        a.actions + b.actions,
+        a.agents | b.agents,
+        a.due + b.due,
+    )
+
+
+def in_time(option: Option, idle: Idle) -> bool:
+    """Whether robots have been idle for long enough to have walked to their deeds."""
+    late = [slot for slot, steps in option.due if idle[slot] < steps]  # thrice as fast as a generator
+    return not late

@@ -1,0 +1,1 @@
+"""What robots can do by themselves: transition graphs of variables, decoupled ways."""

@@ -1,0 +1,139 @@
+"""What robots can do: their walks, and their ops as a field sees them; kept with the packed task.
+
+Glossary: *place* - the value of the field that most of a robot's own ops ask for.
+"""
+
+from collections.abc import Iterable, Sequence
+from collections.abc import Set as AbstractSet
+from typing import TypeVar
+
+from search.packed.operators import Form, Op, set_by, split
+from search.packed.packed_task import Encoding
+from serendipity.model.deadline import Deadline
+
+Item = TypeVar("Item")
+
+
+class Places:
+    """The place field of each robot, and what moves it; kept with the packed task.
+
+    Attributes:
+        field: per robot's bit its place field, 0 where it has none.
+        moves: per robot and place, -1 for anywhere, what sets its place: the place, and the op.
+        walks: the same with the index of the op's cost.
+    """
+
+    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
+        self.field: dict[int, int] = {}
+        self.moves: dict[int, dict[int, list[tuple[int, Op]]]] = {}
+        forms = (*encoding.own_forms, *encoding.joint_forms, *encoding.other_forms)
+        for robot in encoding.task.robots:
+            bit = 1 << robot
+            mine = [form for form in encoding.other_forms if form.agents & bit]
+            foreign = set_by(form for form in forms if not form.agents & bit)
+            private = set_by(mine) & ~foreign
+            counts = {
+                field: sum(len(form.ops) for form in mine if form.need_mask & field)
+                for field in encoding.fields
+                if field & private
+            }
+            field = max(counts, key=lambda f: counts[f], default=0)
+            self.field[bit] = field
+            moves: dict[int, list[tuple[int, Op]]] = {}
+            for form in mine:
+                if not field & form.sets:
+                    continue
+                # Without a condition on the place it can be done from anywhere: key -1.
+                anywhere = not form.need_mask & field
+                for op in form.ops:
+                    deadline.tick()
+                    moves.setdefault(-1 if anywhere else op.need & field, []).append((op.put & field, op))
+            self.moves[bit] = moves
+        self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
+
+
+class Acts:
+    """Robots' ops as one outside field sees them; kept with the packed task.
+
+    Attributes:
+        walks: per robot and place what leads elsewhere without mentioning the field: the
+            place, and the index of the cost.  Walks that are possible anywhere stand under -1.
+    """
+
+    def __init__(self, field: int, forms: Sequence[Form], places: Places) -> None:
+        self._on = by_value(field, forms)
+        self._places = places.field
+        self._here: dict[tuple[int, int], dict[int, list[Op]]] = {}
+        self.walks = places.walks
+        if any(
+            form.agents & bit and form.sets & place for form in forms for bit, place in self._places.items()
+        ):
+            mentioning = {op.action for form in forms for op in form.ops}
+            self.walks = {robot: _walks(moves, mentioning) for robot, moves in places.moves.items()}
+
+    def on(self, value: int) -> list[Op]:
+        """What robots can do to a value of the field."""
+        return with_anything(self._on, value)
+
+    def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
+        """Where a robot can walk from a place, with the index of the cost."""
+        return with_anything(self.walks[robot], place)
+
+    def by_place(self, value: int, robot: int) -> dict[int, list[Op]]:
+        """What a robot can do to a value of the field, by its place (-1: anywhere)."""
+        found = self._here.get((value, robot))
+        if found is None:
+            found = self._here[value, robot] = {}
+            place = self._places[robot]
+            for op in self.on(value):
+                if op.agents & robot:
+                    found.setdefault(op.need & place if op.need_mask & place else -1, []).append(op)
+        return found
+
+
+class AllActs:
+    """:class:`Acts` by field, made when first asked for; kept with the packed task."""
+
+    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
+        self._encoding = encoding
+        self._places = encoding.derived(Places, deadline)
+        self._mentioning: dict[int, list[Form]] = {}
+        by_lowest_bit = {field & -field: field for field in encoding.fields}
+        for form in encoding.other_forms:
+            for field in split(form.mentions, by_lowest_bit):
+                self._mentioning.setdefault(field, []).append(form)
+        self._known: dict[int, Acts] = {}
+
+    def on(self, field: int) -> Acts:
+        """What robots' ops are to a field."""
+        if field not in self._known:
+            forms = self._mentioning.get(field, ())
+            self._known[field] = Acts(field, forms, self._places)
+        return self._known[field]
+
+
+def with_anything(by_value: dict[int, list[Item]], value: int) -> list[Item]:
+    """What stands under a value or a place, and what stands under all of them (-1)."""
+    anything = by_value.get(-1)
+    known = by_value.get(value, [])
+    return known + anything if anything else known
+
+
+def _walks(moves: dict[int, list[tuple[int, Op]]], but: AbstractSet[int]) -> dict[int, list[tuple[int, int]]]:
+    """Moves with the index of their cost, some actions left out."""
+    return {
+        origin: [(there, op.cost) for there, op in ops if op.action not in but]
+        for origin, ops in moves.items()
+    }
+
+
+def by_value(field: int, forms: Iterable[Form]) -> dict[int, list[Op]]:
+    """Ops by the value of a field that they ask for; under -1 where they don't."""
+    found: dict[int, list[Op]] = {}
+    for form in forms:
+        if not form.need_mask & field:
+            found.setdefault(-1, []).extend(form.ops)
+            continue
+        for op in form.ops:
+            found.setdefault(op.need & field, []).append(op)
+    return found

@@ -1,0 +1,71 @@
+"""The human executes ``pi_H`` exactly while robots, without him, see to ``G_R`` (SPEC 3.1)."""
+
+from collections.abc import Iterator
+
+from search.engine.best_first import Incumbent, Node
+from search.packed.operators import Op, applicable
+from search.packed.packed_task import Goal
+from search.packed.successor_generator import NOTHING, Option, Successors
+
+
+class Followed:
+    """The search space of plans in which the human does not deviate.
+
+    Args:
+        initial: packed initial state.
+        horizon: number of epochs ``T``, or None for any.
+        steps: the human's packed actions and what they do, in order.
+        goals: what has to hold at the end.
+        successors: what agents can do in an epoch.
+    """
+
+    def __init__(
+        self,
+        *,
+        initial: int,
+        horizon: int | None,
+        steps: list[tuple[Op, Option]],
+        goals: tuple[Goal, ...],
+        successors: Successors,
+    ) -> None:
+        self._initial = initial
+        self._horizon = horizon
+        self._steps = steps
+        self._goals = goals
+        self._successors = successors
+        self._best: dict[tuple[int, int], int] = {}
+        self._rest = [0]
+        for _, option in reversed(steps):
+            self._rest.append(self._rest[-1] + option.weight)
+        self._rest.reverse()
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The initial state."""
+        self._best[0, self._initial] = 0
+        yield self._rest[0], Node(0, 0, self._initial, 0, 0, None, ())
+
+    def alive(self, node: Node) -> bool:
+        """Whether the state was not reached cheaper in the same epoch."""
+        return self._best[node.epoch, node.state] == node.key
+
+    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors of a node; it is offered to ``best`` where ``pi_H`` is over and goals hold."""
+        done = node.epoch >= len(self._steps)
+        if done and node.key < best.key and all(goal.holds(node.state) for goal in self._goals):
+            best.key, best.node = node.key, node
+        if node.epoch == self._horizon:
+            return
+        # Without a horizon, epochs after the end of pi_H need no telling apart.
+        epoch = node.epoch + (self._horizon is not None or not done)
+        part = NOTHING
+        if not done:
+            op, part = self._steps[node.epoch]
+            if not applicable(op, node.state):
+                return
+        for option in self._successors.with_robots(part, node.state):
+            state = node.state & option.keep | option.put
+            key = node.key + option.weight
+            if key < self._best.get((epoch, state), best.key):
+                self._best[epoch, state] = key
+                bound = key + (self._rest[epoch] if epoch < len(self._steps) else 0)
+                yield bound, Node(key, epoch, state, 0, 0, node, option.actions)

@@ -1,0 +1,157 @@
+"""The search space of plans that fit one given window, under any weights (SPEC 3.2)."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+from search.context import Tables
+from search.engine.best_first import Incumbent, Node
+from search.engine.dominance import Labels
+from search.heuristics.first_interaction import Bounds, Choice, no_bound
+from search.heuristics.prefix_bounds import HelpedOnTheWay
+from search.human.suffix_rules import Suffix
+from search.packed.operators import Op, applicable
+from search.packed.successor_generator import NOTHING, Option, Successors
+from search.spaces.factory import bounds_along, suffix_rule
+from search.spaces.windowed import PREFIX, TOUCHED, WINDOW
+from serendipity.model.plans import Window
+from serendipity.model.task import HumanPlan
+
+
+class Weighed:
+    """What the spaces of all windows share: the task under some weights, and bounds.
+
+    Args:
+        tables: tables of the call.
+        plan: ``pi_H``.
+        horizon: ``T``.
+        weight: key increment of an op.
+        robots: the same for a robots' op by the index of its cost.
+        limit: key that a plan has to beat.
+    """
+
+    def __init__(
+        self,
+        tables: Tables,
+        plan: HumanPlan,
+        horizon: int,
+        weight: Callable[[Op], int],
+        robots: Sequence[int],
+        limit: int,
+    ) -> None:
+        self.initial = tables.encoding.init
+        self.horizon = horizon
+        self.steps = tables.followed(plan)
+        self.successors = Successors(tables.encoding, weight, tables.deadline, strict=tables.options.strict)
+        self.suffix: Suffix = suffix_rule(tables, plan)
+        opened = [0] * len(plan)
+        on_the_way, self._helped = bounds_along(tables, plan, horizon, limit, opened, robots, idle=False)
+        self.on_the_way: HelpedOnTheWay = on_the_way
+        self.bounds = Bounds(tables.bound, tables.steps, no_bound, tables.touches)
+        self._choices: dict[int, list[Choice]] = {}
+
+    def untouched(self, epoch: int, state: int, until: int) -> int:
+        """Least key increment before the first touch in the window, if robots act up to ``until``."""
+        if self._helped is None:
+            return 0
+        choices = self._choices.get(state)
+        if choices is None:
+            choices = self._choices[state] = self._helped.choices(state)
+        return next(c.total for c in choices if epoch + c.steps <= min(until, c.latest))
+
+
+class FixedWindow:
+    """The search space of plans that fit one window.
+
+    Only the window's end is left open to waiting: a node inside it stands for everybody
+    waiting until the end, too.
+
+    Args:
+        weighed: what all windows share.
+        window: the window.
+    """
+
+    def __init__(self, weighed: Weighed, window: Window) -> None:
+        self._weighed = weighed
+        self._window = window
+        self._opens = window.start - 1
+        self._left = weighed.horizon + 1 - window.end
+        self._prefix: dict[tuple[int, int], int] = {}
+        self._labels = Labels()
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The initial state."""
+        initial = self._weighed.initial
+        phase = PREFIX if self._opens else WINDOW
+        self._remember(0, initial, 0)
+        yield self._bound_before(0, initial), Node(0, 0, initial, phase, 0, None, ())
+
+    def alive(self, node: Node) -> bool:
+        """Whether no better node makes this one superfluous."""
+        if node.phase == PREFIX:
+            return self._prefix[node.epoch, node.state] == node.key
+        return self._labels.alive(node.state, node.epoch, node.key)
+
+    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors; a node of the window is offered to ``best`` as the last in which anybody acts."""
+        if node.phase == PREFIX:
+            op, option = self._weighed.steps[node.epoch]
+            if applicable(op, node.state):
+                yield from self._follow(node, option, best)
+            return
+        self._end(node, best)
+        if node.epoch + 1 < self._window.end:
+            successors, state = self._weighed.successors, node.state
+            for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+                yield from self._act(node, part, best)
+
+    def _follow(self, node: Node, part: Option, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Robots act while the human takes his step of ``pi_H``."""
+        epoch = node.epoch + 1
+        phase = PREFIX if epoch < self._opens else WINDOW
+        for option in self._weighed.successors.with_robots(part, node.state):
+            state = node.state & option.keep | option.put
+            key = node.key + option.weight
+            bound = key + self._bound_before(epoch, state)
+            if bound < best.key and self._remember(epoch, state, key):
+                yield bound, Node(key, epoch, state, phase, 0, node, option.actions)
+
+    def _act(self, node: Node, part: Option, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Inside the window, with the human's part of an epoch."""
+        epoch, bounds, weighed = node.epoch + 1, self._weighed.bounds, self._weighed
+        # Robots don't change the variables that the private bound looks at.
+        at = node.state & part.keep | part.put
+        rest = bounds.private(at)
+        if epoch + bounds.steps(at) > weighed.horizon:
+            return
+        touched = node.phase == TOUCHED or bounds.touches(part.actions)
+        phase = TOUCHED if touched else WINDOW
+        for option in weighed.successors.with_robots(part, node.state):
+            key = node.key + option.weight
+            bound = key + rest
+            if bound >= best.key:
+                break
+            state = node.state & option.keep | option.put
+            if not touched:
+                bound = max(bound, key + weighed.untouched(epoch, state, self._window.end - 1))
+            if bound < best.key and self._remember(epoch, state, key):
+                yield bound, Node(key, epoch, state, phase, 0, node, option.actions)
+
+    def _bound_before(self, epoch: int, state: int) -> int:
+        """Least key increment after an epoch of the prefix, in which he follows ``pi_H``."""
+        return self._weighed.on_the_way.opening_after(self._opens, epoch, state, self._window.end - 1)
+
+    def _remember(self, epoch: int, state: int, key: int) -> bool:
+        """Whether the state was not reached as cheaply before: in that epoch, or in the window by then."""
+        if epoch >= self._opens:
+            return self._labels.add(state, epoch, key)
+        known = self._prefix.get((epoch, state))
+        if known is not None and known <= key:
+            return False
+        self._prefix[epoch, state] = key
+        return True
+
+    def _end(self, node: Node, best: Incumbent) -> None:
+        suffix, limit = self._weighed.suffix, best.key - node.key
+        rest = suffix.key(node.state, self._left, self._window.start, limit)
+        if rest < limit:
+            tail = suffix.actions(node.state, self._left, self._window.start)  # where time may run out
+            best.key, best.node, best.end, best.tail = node.key + rest, node, self._window.end, tail

@@ -1,0 +1,102 @@
+"""Communication and composite planning: no prefix, no window (SPEC 3.4, Def. 1.1)."""
+
+from collections.abc import Iterator
+
+from search.engine.best_first import Incumbent, Node
+from search.engine.dominance import Labels
+from search.heuristics.first_interaction import Bounds
+from search.packed.cost_vector import Keys
+from search.packed.packed_task import Goal
+from search.packed.successor_generator import NOTHING, Option, Successors
+
+UNTOUCHED, TOUCHED = 0, 1
+"""Phases: before and after the human's first touch."""
+
+
+class Free:
+    """The search space of composite plans.
+
+    Args:
+        initial: packed initial state.
+        horizon: number of epochs ``T``, or None for any.
+        most_cost: largest scaled cost of an acceptable plan, or None.
+        goals: what has to hold at the end.
+        keys: layout of keys.
+        successors: what agents can do in an epoch.
+        bounds: lower bounds on what still has to be paid.
+    """
+
+    def __init__(
+        self,
+        *,
+        initial: int,
+        horizon: int | None,
+        most_cost: int | None,
+        goals: tuple[Goal, ...],
+        keys: Keys,
+        successors: Successors,
+        bounds: Bounds,
+    ) -> None:
+        self._initial = initial
+        self._horizon = horizon
+        self._most_cost = most_cost
+        self._goals = goals
+        self._keys = keys
+        self._successors = successors
+        self._bounds = bounds
+        self._labels = Labels()
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The initial state."""
+        self._labels.add(self._initial, 0, 0)
+        yield self._bounds.untouched(0, self._initial, 0), Node(0, 0, self._initial, UNTOUCHED, 0, None, ())
+
+    def alive(self, node: Node) -> bool:
+        """Whether no cheaper node that is as early makes this one superfluous."""
+        return self._labels.alive(node.state, node.epoch, node.key)
+
+    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors of a node; those in which the goals hold are offered to ``best``."""
+        if node.parent is None:
+            self._offer(node, best)
+        epoch = node.epoch if self._horizon is None else node.epoch + 1
+        if self._horizon is not None and epoch > self._horizon:
+            return
+        bounds = self._bounds
+        for part, option in self._together(node.state):
+            after = node.state & option.keep | option.put
+            key = node.key + option.weight
+            bound = key + bounds.private(after)
+            if bound >= best.key or self._too_dear(bound) or not option.actions:
+                continue
+            if self._horizon is not None and epoch + bounds.steps(after) > self._horizon:
+                continue
+            touched = node.phase == TOUCHED or bounds.touches(part.actions)
+            if not touched:
+                bound = max(bound, key + bounds.untouched(epoch, after, key))
+                if bound >= best.key:
+                    continue
+            if self._labels.add(after, epoch, key):
+                child = Node(key, epoch, after, TOUCHED if touched else UNTOUCHED, 0, node, option.actions)
+                if not self._offer(child, best):
+                    yield bound, child
+
+    def _offer(self, node: Node, best: Incumbent) -> bool:
+        """Whether a plan ends at the node (going on could only cost more)."""
+        if node.key >= best.key or not all(goal.holds(node.state) for goal in self._goals):
+            return False
+        best.key, best.node = node.key, node
+        return True
+
+    def _together(self, state: int) -> Iterator[tuple[Option, Option]]:
+        """The human's part of each action set, and the whole set."""
+        successors = self._successors
+        if self._horizon is None:
+            yield from successors.in_turn(state)
+            return
+        for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+            for option in successors.with_robots(part, state):
+                yield part, option
+
+    def _too_dear(self, key: int) -> bool:
+        return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

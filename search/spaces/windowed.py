@@ -1,0 +1,273 @@
+"""Serendipity: a prefix that leaves the human alone, a window, a suffix (SPEC 3.1).
+
+Nodes are (phase, epoch, packed state).  In the prefix the human follows ``pi_H``
+(or, where the robot may announce itself, does any actions of ``pi_H``); a window
+may open before any epoch; each epoch inside it may be its last.
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import Protocol
+
+from search.engine.best_first import Incumbent, Node
+from search.engine.dominance import Labels
+from search.heuristics.first_interaction import Bounds
+from search.heuristics.prefix_bounds import HelpedOnTheWay
+from search.human.pattern_database import Projection
+from search.human.suffix_rules import Suffix
+from search.packed.cost_vector import Keys
+from search.packed.operators import Op, applicable
+from search.packed.successor_generator import NOTHING, Idle, Option, Successors, in_time
+from serendipity.model.task import HumanPlan, Task
+
+PREFIX, WINDOW, TOUCHED = 0, 1, 2
+"""Phases: before the window; in it, before and after the first touch of the human in it."""
+
+
+class Prefix(Protocol):
+    """What the human may do before the window, and a bound on what follows.
+
+    Attributes:
+        last: the last epoch in which a window may open (``xi1 <= |pi_H|``).
+    """
+
+    last: int
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """The human's part of ``epoch`` from a packed state."""
+
+    def bound(self, epoch: int, state: int, idle: Idle) -> int:
+        """Least key increment from a prefix node after ``epoch``, window included."""
+
+    def opening(self, epoch: int, state: int, idle: Idle) -> int:
+        """The same, if the window opens in the next epoch."""
+
+
+class Timetable:
+    """Rule 1: in epoch ``t`` the human does exactly ``pi_H[t]`` (Def. 3.0).
+
+    His private variables follow ``pi_H``, so the bound is known per epoch in advance.
+
+    Args:
+        steps: his packed actions and what they do, in order.
+        bound: lower bound after ``0 .. |pi_H| - 1`` epochs of the prefix.
+    """
+
+    def __init__(self, steps: list[tuple[Op, Option]], bound: HelpedOnTheWay) -> None:
+        self.last = len(steps)
+        self._steps = steps
+        self._bound = bound
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """See :class:`Prefix`."""
+        op, option = self._steps[epoch - 1]
+        return (option,) if applicable(op, state) else ()
+
+    def bound(self, epoch: int, state: int, idle: Idle) -> int:
+        """See :class:`Prefix`."""
+        return self._bound.later(epoch, state, idle)
+
+    def opening(self, epoch: int, state: int, idle: Idle) -> int:
+        """See :class:`Prefix`."""
+        return self._bound.opening(epoch, state, idle)
+
+
+class Unscheduled:
+    """A :class:`Prefix` whose epochs are not known in advance: his private distances bound the rest.
+
+    Args:
+        last: the last epoch in which a window may open.
+        bound: his private distances to the goal.
+        keys: layout of keys.
+        horizon: number of epochs.
+    """
+
+    def __init__(self, last: int, bound: Projection, keys: Keys, horizon: int) -> None:
+        self.last = last
+        self._bound = bound
+        self._keys = keys
+        self._horizon = horizon
+
+    def bound(self, epoch: int, state: int, idle: Idle) -> int:
+        """See :class:`Prefix`."""
+        return self._keys.of_start(self.last, self._horizon) + self._keys.epoch_weight + self._bound(state)
+
+    def opening(self, epoch: int, state: int, idle: Idle) -> int:
+        """See :class:`Prefix`."""
+        return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
+
+
+class AnyOfPlan(Unscheduled):
+    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (SPEC 3.4)."""
+
+    def __init__(
+        self,
+        successors: Successors,
+        task: Task,
+        plan: HumanPlan,
+        bound: Projection,
+        keys: Keys,
+        horizon: int,
+    ) -> None:
+        super().__init__(len(plan), bound, keys, horizon)
+        self._successors = successors
+        self._actions = task.actions
+        self._planned = task.names(plan)
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """See :class:`Prefix`."""
+        own = self._successors.human(state)
+        return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
+
+
+class Windowed:
+    """The search space of plans with a window.
+
+    Args:
+        initial: packed initial state.
+        idle: per slot 0 where robots' walks are folded, else empty.
+        horizon: number of epochs ``T``.
+        max_window: most epochs of a window.
+        most_cost: largest scaled cost of an acceptable plan, or None.
+        keys: layout of keys.
+        successors: what agents can do in an epoch.
+        bounds: lower bounds on what still has to be paid.
+        prefix: rule 1.
+        suffix: rule 3.
+        labels: dominance among nodes of the window.
+    """
+
+    def __init__(
+        self,
+        *,
+        initial: int,
+        idle: Idle,
+        horizon: int,
+        max_window: int,
+        most_cost: int | None,
+        keys: Keys,
+        successors: Successors,
+        bounds: Bounds,
+        prefix: Prefix,
+        suffix: Suffix,
+        labels: Labels,
+    ) -> None:
+        self._initial = initial
+        self._idle = idle
+        self._horizon = horizon
+        self._max_window = max_window
+        self._most_cost = most_cost
+        self._keys = keys
+        self._successors = successors
+        self._bounds = bounds
+        self._prefix = prefix
+        self._suffix = suffix
+        self._labels = labels
+        self._followed = Labels()
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The initial state, in the prefix."""
+        if self._prefix.last >= 1:
+            self._followed.add((0, self._initial), 0, 0, self._idle)
+            root = Node(0, 0, self._initial, PREFIX, 0, None, (), self._idle)
+            yield self._prefix.bound(0, self._initial, self._idle), root
+
+    def alive(self, node: Node) -> bool:
+        """Whether no better node makes this one superfluous."""
+        if node.phase == PREFIX:
+            return self._followed.alive((node.epoch, node.state), node.epoch, node.key, node.idle)
+        return self._labels.alive(node.state, node.epoch, node.key, node.idle)
+
+    def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors of a node; ends of windows are offered to ``best``."""
+        if node.phase != PREFIX:
+            yield from self._inside(node, best)
+            return
+        yield from self._open(node)
+        if node.epoch + 1 < self._prefix.last:
+            yield from self._follow(node, best)
+
+    def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
+        start = node.epoch + 1
+        key = node.key + self._keys.of_start(start, self._horizon)
+        bound = node.key + self._prefix.opening(node.epoch, node.state, node.idle)
+        if not self._too_dear(bound) and self._labels.add(node.state, node.epoch, key, node.idle):
+            yield bound, node._replace(key=key, phase=WINDOW, start=start)
+
+    def _follow(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        epoch, successors = node.epoch + 1, self._successors
+        sooner = _sooner(node.idle)
+
+        def promising(option: Option) -> bool:
+            after = node.state & option.keep | option.put
+            return node.key + option.weight + self._prefix.bound(epoch, after, sooner) < best.key
+
+        for part in self._prefix.options(epoch, node.state):
+            for option in successors.beside(part, node.state, node.idle, promising):
+                state = node.state & option.keep | option.put
+                key = node.key + option.weight
+                idle = successors.rested(node.idle, option, state)
+                bound = key + self._prefix.bound(epoch, state, idle)
+                if bound >= best.key or self._too_dear(bound):
+                    continue
+                if self._followed.add((epoch, state), epoch, key, idle):
+                    yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions, idle)
+
+    def _inside(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        epoch = node.epoch + 1
+        if epoch > self._horizon:
+            return
+        base = node.key + self._keys.epoch_weight
+        again = self._keys.epoch_weight
+        goes_on = epoch < self._horizon and epoch - node.start + 1 < self._max_window
+        successors, bounds, state = self._successors, self._bounds, node.state
+        sooner = _sooner(node.idle)
+        for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+            # Robots don't change the variables that the private bound looks at.
+            at = state & part.keep | part.put
+            rest = bounds.private(at)
+            if not in_time(part, node.idle):
+                continue
+            if base + part.weight + rest >= best.key or epoch + bounds.steps(at) > self._horizon:
+                continue
+            touched = node.phase == TOUCHED or bounds.touches(part.actions)
+
+            def promising(option: Option, rest: int = rest, touched: bool = touched) -> bool:
+                least = rest
+                if not touched:
+                    after = state & option.keep | option.put
+                    least = max(rest, bounds.untouched(epoch, after, base + option.weight, sooner))
+                return base + option.weight + least < best.key
+
+            for option in successors.beside(part, state, node.idle, promising):
+                key = base + option.weight
+                bound = key + rest
+                if bound >= best.key or self._too_dear(bound):
+                    break
+                after = state & option.keep | option.put
+                phase = TOUCHED if touched else WINDOW
+                idle = successors.rested(node.idle, option, after)
+                child = Node(key, epoch, after, phase, node.start, node, option.actions, idle)
+                self._end(child, best)
+                if not goes_on or bound + again >= best.key:
+                    continue
+                ahead = rest if touched else max(rest, bounds.untouched(epoch, after, key, idle))
+                bound = key + again + ahead
+                if bound < best.key and self._labels.add(after, epoch, key, idle):
+                    yield bound, child
+
+    def _end(self, node: Node, best: Incumbent) -> None:
+        """Offer the plan whose window ends after the node."""
+        left = self._horizon - node.epoch
+        limit = best.key - node.key
+        rest = self._suffix.key(node.state, left, node.start, limit)
+        if rest < limit and not self._too_dear(node.key + rest):
+            tail = self._suffix.actions(node.state, left, node.start)  # where time may run out
+            best.key, best.node, best.end, best.tail = node.key + rest, node, node.epoch + 1, tail
+
+    def _too_dear(self, key: int) -> bool:
+        return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost
+
+
+def _sooner(idle: Idle) -> Idle:
+    """Idle robots after an epoch in which it is left open which of them act."""
+    return tuple(epochs + 1 for epochs in idle)

@@ -1,0 +1,95 @@
+"""What no answer costs less than, whichever optimal plan the human follows (SPEC 1).
+
+All his optimal plans are as long and cost as much, so one search does for them: before the
+window he does, in each epoch, anything that some optimal plan does then.  That allows at least
+what each plan allows.  A window of n epochs is answered only if it saves at least (n - 1) K.
+"""
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+from search.context import Tables
+from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.dominance import Labels
+from search.heuristics.first_interaction import Bounds, no_bound
+from search.human.individual_planner import PlanGraph
+from search.human.pattern_database import Projection
+from search.packed.cost_vector import Keys
+from search.packed.operators import Op, applicable
+from search.packed.successor_generator import Option
+from search.planner import solve
+from search.spaces.factory import no_worse, suffix_rule
+from search.spaces.windowed import Unscheduled, Windowed
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan, Task
+
+
+def least_over_ties(task: Task, options: Options, graph: PlanGraph, deadline: Deadline) -> Fraction | None:
+    """A lower bound on the cost of the answers to all of his optimal plans; None if time is up.
+
+    Args:
+        task: the task; robots have no goals of their own.
+        options: of the call, in mode ``serendipity`` or ``communication``.
+        graph: his optimal plans from the initial state.
+        deadline: deadline and cancellation.
+    """
+    plan = graph.canonical()
+    horizon = options.horizon if isinstance(options.horizon, int) else len(plan)
+    replans = options.suffix == "replan" and options.preservation == "kernel"
+    try:
+        if options.mode == "serendipity" and options.human_model == "omniscient" and replans and plan:
+            return _by_windows(task, options, graph, plan, horizon, deadline)
+    except LIMITS:
+        return None
+    told = Options(
+        mode="communication",
+        discount=options.discount,
+        horizon=horizon,
+        interference=options.interference,
+    )
+    *_, outcome = solve(task, told, deadline=deadline)
+    return outcome.cost if outcome.status == "optimal" else None
+
+
+def _by_windows(
+    task: Task, options: Options, graph: PlanGraph, plan: HumanPlan, horizon: int, deadline: Deadline
+) -> Fraction:
+    most = horizon if options.max_window is None else options.max_window
+    if options.window_weight:
+        most = min(most, int(task.cost_of(plan) / options.window_weight) + 1)
+    free = options.but(window_weight=0, max_window=most, max_cost=None)
+    tables = Tables(task, free, deadline)
+    steps = [tables.followed(tuple(sorted(layer))) for layer in graph.layers()]
+    space = Windowed(
+        initial=tables.encoding.init,
+        idle=(),
+        horizon=horizon,
+        max_window=most,
+        most_cost=None,
+        keys=tables.keys,
+        successors=tables.successors(),
+        bounds=Bounds(tables.bound, tables.steps, no_bound, tables.touches),
+        prefix=_AnyOptimal(steps, tables.bound, tables.keys, horizon),
+        suffix=suffix_rule(tables, plan),
+        labels=Labels(no_worse(tables.keys, free, None)),
+    )
+    best = Incumbent(sum(option.weight for _, option in tables.followed(plan)))
+    for _ in best_first(space, best, Progress(), deadline):
+        pass
+    return tables.keys.cost(best.key)
+
+
+class _AnyOptimal(Unscheduled):
+    """Rule 1 for all optimal plans at once; see :class:`search.spaces.windowed.Prefix`."""
+
+    def __init__(
+        self, steps: Sequence[Sequence[tuple[Op, Option]]], bound: Projection, keys: Keys, horizon: int
+    ) -> None:
+        super().__init__(len(steps), bound, keys, horizon)
+        self._steps = steps
+
+    def options(self, epoch: int, state: int) -> Iterable[Option]:
+        """What some optimal plan does in the epoch, where it is applicable."""
+        return [option for op, option in self._steps[epoch - 1] if applicable(op, state)]
