@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.context import Tables
+from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.outcome import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Op
+from search.packed.operators import Operator
 from search.planner import left_alone
 from search.spaces.fixed_window import FixedWindow, Weighed
 from serendipity.model.deadline import Deadline
@@ -84,53 +84,53 @@ def interruptions(
     asked = options.but(
         mode="serendipity", max_cost=None, max_window=None, keep_prefix=False, window_weight=0
     )
-    tables = Tables(task, asked, deadline or Deadline())
-    nothing = left_alone(tables, human_plan)
+    context = SearchContext(task, asked, deadline or Deadline())
+    nothing = left_alone(context, human_plan)
     if nothing is None:
         return None
-    windows = _examined(tables, nothing.plan, nothing.horizon, on_progress)
+    windows = _examined(context, nothing.plan, nothing.horizon, on_progress)
     return Interruptions(nothing.plan, nothing.horizon, nothing.cost, windows)
 
 
 def _examined(
-    tables: Tables, plan: HumanPlan, horizon: int, on_progress: Callable[[int, int], None] | None
+    context: SearchContext, plan: HumanPlan, horizon: int, on_progress: Callable[[int, int], None] | None
 ) -> Iterator[WindowOutcome]:
     """What is possible in each window, those first that say most of the others."""
     if not plan:
         return
-    tables = tables.for_plan(plan)
-    idling = _idle_key(tables, plan)
+    context = context.for_plan(plan)
+    idling = _idle_key(context, plan)
     windows = len(plan) * (horizon + 1) - len(plan) * (len(plan) + 1) // 2
     count = _Count(2 * windows, on_progress)
     human, team = (
-        _Objective(tables, Weighed(tables, plan, horizon, weight, robots, idling), idling, count)
-        for weight, robots in (_human_first(tables), (tables.weights.team, tables.weights.robots))
+        _Objective(context, Weighed(context, plan, horizon, weight, robots, idling), idling, count)
+        for weight, robots in (_human_first(context), (context.weights.team, context.weights.robots))
     )
     for window in _ordered(len(plan), horizon):
-        tables.deadline.check()  # where neither objective has anything left to search
-        yield _outcome(tables, plan, window, human.best(window), team.best(window))
+        context.deadline.check()  # where neither objective has anything left to search
+        yield _outcome(context, plan, window, human.best(window), team.best(window))
 
 
-def _idle_key(tables: Tables, plan: HumanPlan) -> int:
+def _idle_key(context: SearchContext, plan: HumanPlan) -> int:
     """The key of ``pi_H`` with robots idle, which fits every window (SPEC 3.1)."""
-    if tables.task.robot_goal:
+    if context.task.robot_goal:
         return INFINITE_KEY
-    return sum(option.weight for _, option in tables.followed(plan))
+    return sum(option.weight for _, option in context.followed(plan))
 
 
-def _human_first(tables: Tables) -> tuple[Callable[[Op], int], list[int]]:
+def _human_first(context: SearchContext) -> tuple[Callable[[Operator], int], list[int]]:
     """Weights under which what the human pays is the objective, and what the team pays comes next."""
-    keys, human_bit = tables.keys, tables.encoding.human_bit
-    robots = [weight & (1 << keys.objective_shift) - 1 for weight in tables.weights.robots]
+    keys, human_bit = context.keys, context.packed.human_bit
+    robots = [weight & (1 << keys.objective_shift) - 1 for weight in context.weights.robots]
 
-    def weight(op: Op) -> int:
-        return tables.weights.team(op) if op.agents & human_bit else robots[op.cost]
+    def weight(op: Operator) -> int:
+        return context.weights.team(op) if op.agents & human_bit else robots[op.cost]
 
     return weight, robots
 
 
 def _outcome(
-    tables: Tables, plan: HumanPlan, window: Window, human: Incumbent, team: Incumbent
+    context: SearchContext, plan: HumanPlan, window: Window, human: Incumbent, team: Incumbent
 ) -> WindowOutcome:
     if human.key >= INFINITE_KEY:
         return WindowOutcome(window, None, None, None)
@@ -138,7 +138,7 @@ def _outcome(
         steps = plan_steps(plan)
     else:
         steps = path_steps(human.node) + plan_steps(human.tail, human.end)
-    keys = tables.keys
+    keys = context.keys
     return WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 
@@ -181,12 +181,12 @@ class _Objective:
     those around it; where the two meet there is nothing to search.
     """
 
-    def __init__(self, tables: Tables, weighed: Weighed, idle: int, count: _Count) -> None:
-        self._deadline = tables.deadline
+    def __init__(self, context: SearchContext, weighed: Weighed, idle: int, count: _Count) -> None:
+        self._deadline = context.deadline
         self._count = count
         self._weighed = weighed
         self._idle = idle
-        self._nested = tables.options.preservation == "kernel"
+        self._nested = context.options.preservation == "kernel"
         self._found: dict[Window, Incumbent] = {}
 
     def best(self, window: Window) -> Incumbent:

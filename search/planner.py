@@ -4,15 +4,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from search.context import Tables
+from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, Space, best_first
 from search.engine.outcome import Outcome, path_sets, path_steps, plan_steps
 from search.human.individual_planner import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.spaces.factory import free_bounds, window_space
-from search.spaces.fixed_human_plan import Followed
-from search.spaces.unrestricted import Free
+from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.spaces.unrestricted import Unrestricted
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.options import INFINITE, Options
@@ -36,15 +36,15 @@ def solve(
     """
     deadline = deadline or Deadline(options.time_limit)
     try:
-        tables = Tables(task, options, deadline)
-        predicted = tables.optimal_plans() if human_plan is None else None
+        context = SearchContext(task, options, deadline)
+        predicted = context.optimal_plans() if human_plan is None else None
         plan = human_plan if predicted is None else predicted.canonical()
         if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
             answers = iter((Outcome("infeasible", reason="no-human-plan"),))
         elif plan is not None and options.mode == "individual":
-            answers = iter((_individual(tables, plan),))
+            answers = iter((_individual(context, plan),))
         else:
-            answers = _Call(tables, plan, given=human_plan is not None).answers()
+            answers = _Call(context, plan, given=human_plan is not None).answers()
     except LIMITS as limit:
         answers = iter((Outcome("unknown", reason=limit_reason(limit)),))
     yield from answers
@@ -62,7 +62,7 @@ def optimal_human_plans(task: Task, deadline: Deadline | None = None) -> PlanGra
     Raises:
         LimitReachedError: the deadline ran out.
     """
-    return Tables(task, Options(), deadline or Deadline()).optimal_plans()
+    return SearchContext(task, Options(), deadline or Deadline()).optimal_plans()
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ class LeftAlone:
     cost: Fraction | None
 
 
-def left_alone(tables: Tables, human_plan: HumanPlan | None) -> LeftAlone | None:
+def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlone | None:
     """Doing nothing for the human, in a mode with windows; None where he has no plan alone.
 
     Args:
@@ -91,22 +91,22 @@ def left_alone(tables: Tables, human_plan: HumanPlan | None) -> LeftAlone | None
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
         LimitReachedError: the deadline ran out.
     """
-    graph = tables.optimal_plans() if human_plan is None else None
+    graph = context.optimal_plans() if human_plan is None else None
     plan = human_plan if graph is None else graph.canonical()
     if plan is None:
         return None
-    call = _Call(tables, plan, given=human_plan is not None)
+    call = _Call(context, plan, given=human_plan is not None)
     call.leave_alone()
     key = call.baseline.key
     return LeftAlone(plan, int(call.horizon), call.keys.cost(key) if key < INFINITE_KEY else None)
 
 
-def _individual(tables: Tables, plan: HumanPlan) -> Outcome:
+def _individual(context: SearchContext, plan: HumanPlan) -> Outcome:
     """The human alone, optimally, whatever plan of his is given."""
-    graph = tables.optimal_plans()
+    graph = context.optimal_plans()
     assert graph is not None, "a plan that reaches the goal was given or found"
     best = graph.canonical()
-    cost, given = tables.task.cost_of(best), tables.task.cost_of(plan)
+    cost, given = context.task.cost_of(best), context.task.cost_of(plan)
     answer = plan if cost == given else best
     return Outcome(
         "optimal",
@@ -151,16 +151,16 @@ class _Call:
     to beat that, too; ``best`` is the incumbent over everything.
     """
 
-    def __init__(self, tables: Tables, plan: HumanPlan | None, *, given: bool) -> None:
-        self.task = tables.task
-        self.options = tables.options
-        self.deadline = tables.deadline
+    def __init__(self, context: SearchContext, plan: HumanPlan | None, *, given: bool) -> None:
+        self.task = context.task
+        self.options = context.options
+        self.deadline = context.deadline
         self.plan = plan
         self.given = given
         self.horizon = _horizon(self.options, self.task, plan)
         self.epochs = None if self.horizon == INFINITE else int(self.horizon)
-        self.tables = tables.for_plan(plan or ())
-        self.keys = self.tables.keys
+        self.context = context.for_plan(plan or ())
+        self.keys = self.context.keys
         self.progress = Progress()
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)
@@ -201,7 +201,7 @@ class _Call:
         plan, epochs = self.plan, self.epochs
         if plan is not None and (epochs is None or len(plan) <= epochs):
             if not self.task.robot_goal:
-                self.baseline.key = sum(option.weight for _, option in self.tables.followed(plan))
+                self.baseline.key = sum(option.weight for _, option in self.context.followed(plan))
             else:
                 self._pursue_robot_goal(plan)
         self.idle = replace(self.baseline, key=self.baseline.key + self._window_of_nothing())
@@ -211,12 +211,12 @@ class _Call:
             self.best = replace(self.idle)
 
     def _pursue_robot_goal(self, plan: HumanPlan) -> None:
-        space = Followed(
-            initial=self.tables.encoding.init,
+        space = FixedHumanPlan(
+            initial=self.context.packed.init,
             horizon=self.epochs,
-            steps=self.tables.followed(plan),
-            goals=self.tables.goals,
-            successors=self.tables.successors(),
+            steps=self.context.followed(plan),
+            goals=self.context.goals,
+            successors=self.context.successors(),
         )
         found = Incumbent(INFINITE_KEY)
         for _ in best_first(space, found, Progress(), self.deadline):
@@ -234,13 +234,13 @@ class _Call:
     def _least(self) -> int:
         """A first bound, before there is any of the robots: what the human has to do himself."""
         window = self.keys.epoch_weight if self._window_of_nothing() else 0
-        return self.tables.bound(self.tables.encoding.init) + window
+        return self.context.bound(self.context.packed.init) + window
 
     def _improve_alone(self) -> None:
         """A given plan may not be optimal: what the human gains by himself (SPEC 1)."""
         if not self.given or self.plan is None:
             return
-        optimum = self.tables.alone.key(self.tables.encoding.init)
+        optimum = self.context.alone.key(self.context.packed.init)
         self.improvable = self.task.cost_of(self.plan) > self.keys.cost(optimum)
         if self.improvable:
             known = self.best.key
@@ -256,16 +256,16 @@ class _Call:
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
             return window_space(
-                self.tables, self.plan, self.epochs, self._most_cost(), self.best.key, idle=idle
+                self.context, self.plan, self.epochs, self._most_cost(), self.best.key, idle=idle
             )
-        return Free(
-            initial=self.tables.encoding.init,
+        return Unrestricted(
+            initial=self.context.packed.init,
             horizon=self.epochs,
             most_cost=self._most_cost(),
-            goals=self.tables.goals,
+            goals=self.context.goals,
             keys=self.keys,
-            successors=self.tables.successors(idle=idle),
-            bounds=free_bounds(self.tables, self.epochs, self.best.key, idle=idle),
+            successors=self.context.successors(idle=idle),
+            bounds=free_bounds(self.context, self.epochs, self.best.key, idle=idle),
         )
 
     def _most_cost(self) -> int | None:
@@ -341,5 +341,5 @@ class _Call:
         if self.epochs is None:
             return schedule(self.task, path_sets(answer.node))
         steps = path_steps(answer.node) + plan_steps(answer.tail, answer.end)
-        walks = self.tables.walks(self.plan or ()) if answer.node.idle else None
+        walks = self.context.walks(self.plan or ()) if answer.node.idle else None
         return steps if walks is None else tuple(sorted((*steps, *walks.steps(answer.node))))

@@ -4,8 +4,8 @@ from math import prod
 
 from search.heuristics.achievers import shared_fields
 from search.human.pattern_database import own_projection, private_fields
-from search.packed.packed_task import Encoding, encoding
-from search.robots.transition_graphs import AllActs
+from search.packed.packed_task import PackedTask, pack
+from search.robots.transition_graphs import TransitionGraphs
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
@@ -28,14 +28,14 @@ def prepare(task: Task, *, afresh: bool = False, deadline: Deadline | None = Non
     if afresh:
         task.forget_derived()
     deadline = deadline or Deadline()
-    packed = encoding(task, deadline)
-    acts = packed.derived(AllActs, deadline)
+    packed = pack(task, deadline)
+    acts = packed.derived(TransitionGraphs, deadline)
     for field in shared_fields(packed, deadline):
         acts.on(field)
     if _most_states(packed) <= len(task.actions):
         packed.derived(own_projection, deadline)
 
 
-def _most_states(packed: Encoding) -> int:
+def _most_states(packed: PackedTask) -> int:
     """At least the number of the human's private states."""
     return prod(len(packed.values(field)) for field in private_fields(packed))

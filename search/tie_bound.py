@@ -8,15 +8,15 @@ what each plan allows.  A window of n epochs is answered only if it saves at lea
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
-from search.context import Tables
+from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
-from search.engine.dominance import Labels
+from search.engine.dominance import ParetoFront
 from search.heuristics.first_interaction import Bounds, no_bound
 from search.human.individual_planner import PlanGraph
-from search.human.pattern_database import Projection
-from search.packed.cost_vector import Keys
-from search.packed.operators import Op, applicable
-from search.packed.successor_generator import Option
+from search.human.pattern_database import PatternDatabase
+from search.packed.cost_vector import CostLayout
+from search.packed.operators import Operator, applicable
+from search.packed.successor_generator import JointAction
 from search.planner import solve
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.windowed import Unscheduled, Windowed
@@ -60,36 +60,40 @@ def _by_windows(
     if options.window_weight:
         most = min(most, int(task.cost_of(plan) / options.window_weight) + 1)
     free = options.but(window_weight=0, max_window=most, max_cost=None)
-    tables = Tables(task, free, deadline)
-    steps = [tables.followed(tuple(sorted(layer))) for layer in graph.layers()]
+    context = SearchContext(task, free, deadline)
+    steps = [context.followed(tuple(sorted(layer))) for layer in graph.layers()]
     space = Windowed(
-        initial=tables.encoding.init,
+        initial=context.packed.init,
         idle=(),
         horizon=horizon,
         max_window=most,
         most_cost=None,
-        keys=tables.keys,
-        successors=tables.successors(),
-        bounds=Bounds(tables.bound, tables.steps, no_bound, tables.touches),
-        prefix=_AnyOptimal(steps, tables.bound, tables.keys, horizon),
-        suffix=suffix_rule(tables, plan),
-        labels=Labels(no_worse(tables.keys, free, None)),
+        keys=context.keys,
+        successors=context.successors(),
+        bounds=Bounds(context.bound, context.steps, no_bound, context.interactions),
+        prefix=_AnyOptimal(steps, context.bound, context.keys, horizon),
+        suffix=suffix_rule(context, plan),
+        labels=ParetoFront(no_worse(context.keys, free, None)),
     )
-    best = Incumbent(sum(option.weight for _, option in tables.followed(plan)))
+    best = Incumbent(sum(option.weight for _, option in context.followed(plan)))
     for _ in best_first(space, best, Progress(), deadline):
         pass
-    return tables.keys.cost(best.key)
+    return context.keys.cost(best.key)
 
 
 class _AnyOptimal(Unscheduled):
     """Rule 1 for all optimal plans at once; see :class:`search.spaces.windowed.Prefix`."""
 
     def __init__(
-        self, steps: Sequence[Sequence[tuple[Op, Option]]], bound: Projection, keys: Keys, horizon: int
+        self,
+        steps: Sequence[Sequence[tuple[Operator, JointAction]]],
+        bound: PatternDatabase,
+        keys: CostLayout,
+        horizon: int,
     ) -> None:
         super().__init__(len(steps), bound, keys, horizon)
         self._steps = steps
 
-    def options(self, epoch: int, state: int) -> Iterable[Option]:
+    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """What some optimal plan does in the epoch, where it is applicable."""
         return [option for op, option in self._steps[epoch - 1] if applicable(op, state)]

@@ -1,6 +1,6 @@
 """The human's key from a state, asked within limits: what is not below a limit is not out of reach."""
 
-from search.context import Tables
+from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
@@ -20,11 +20,11 @@ def _door() -> Task:
 
 def test_what_is_beyond_a_limit_is_found_under_a_higher_one() -> None:
     task = _door()
-    tables = Tables(task, Options(), Deadline())
-    alone, keys = tables.alone, tables.keys
-    encoding = tables.encoding
-    start = encoding.init
-    op = next(op for op in encoding.own if task.actions[op.action].name == "in h")
+    context = SearchContext(task, Options(), Deadline())
+    alone, keys = context.alone, context.keys
+    packed = context.packed
+    start = packed.init
+    op = next(op for op in packed.own if task.actions[op.action].name == "in h")
     inside = start & op.keep | op.put
     assert keys.cost(alone.key(inside)) == 5
     low = keys.of_cost(task.actions[op.action].cost * 4)

@@ -5,7 +5,7 @@ from heapq import heappop, heappush
 import pytest
 from hypothesis import given
 
-from search.context import Tables
+from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_bounds
 from serendipity.model import Options, Task
@@ -29,9 +29,9 @@ def relays() -> list[Task]:
 class Graph:
     """States that one action after another leads to, and the exact keys to and from them."""
 
-    def __init__(self, tables: Tables) -> None:
-        successors = tables.successors()
-        first = tables.encoding.init
+    def __init__(self, context: SearchContext) -> None:
+        successors = context.successors()
+        first = context.packed.init
         self.edges: dict[int, list[tuple[int, int, bool]]] = {}
         pending, seen = [first], {first}
         while pending:
@@ -40,19 +40,21 @@ class Graph:
             for option in (*successors.human(state), *successors.joint(state), *successors.robots(state)):
                 if option.actions:
                     after = state & option.keep | option.put
-                    his = bool(option.agents & tables.encoding.human_bit)
-                    touch = his and tables.touches.is_touch(option.actions[0])
-                    self.edges[state].append((option.weight, after, touch))
+                    his = bool(option.agents & context.packed.human_bit)
+                    interaction = his and context.interactions.is_interaction(option.actions[0])
+                    self.edges[state].append((option.weight, after, interaction))
                     if after not in seen:
                         seen.add(after)
                         pending.append(after)
-        moves = {at: [(w, to) for w, to, touch in out if not touch] for at, out in self.edges.items()}
+        moves = {
+            at: [(w, to) for w, to, interaction in out if not interaction] for at, out in self.edges.items()
+        }
         self.spent = _distances({first}, moves)
         before: dict[int, list[tuple[int, int]]] = {at: [] for at in self.edges}
         for at, out in self.edges.items():
             for weight, to, _ in out:
                 before[to].append((weight, at))
-        goals = {at for at in self.edges if all(goal.holds(at) for goal in tables.goals)}
+        goals = {at for at in self.edges if all(goal.holds(at) for goal in context.goals)}
         self.rest = _distances(goals, before)
 
 
@@ -69,11 +71,11 @@ def _distances(sources: set[int], edges: dict[int, list[tuple[int, int]]]) -> di
 
 def assert_admissible(task: Task, options: Options, over: int | None) -> int:
     """How many states the bound tells something about."""
-    tables = Tables(task, options, Deadline())
-    graph = Graph(tables)
-    best = graph.rest.get(tables.encoding.init, INFINITE_KEY)
-    limit = INFINITE_KEY if over is None else best + tables.keys.of_action(tables.encoding.costs[-1]) * over
-    bounds = free_bounds(tables, None, limit, idle=False)
+    context = SearchContext(task, options, Deadline())
+    graph = Graph(context)
+    best = graph.rest.get(context.packed.init, INFINITE_KEY)
+    limit = INFINITE_KEY if over is None else best + context.keys.of_action(context.packed.costs[-1]) * over
+    bounds = free_bounds(context, None, limit, idle=False)
     told = 0
     for state, spent in graph.spent.items():
         rest = graph.rest.get(state, INFINITE_KEY)
@@ -102,13 +104,13 @@ def test_bound_holds_on_random_tasks(discount: str) -> None:
 
 def test_a_robot_that_holds_nothing_does_not_make_help_free() -> None:
     task = relays()[0]
-    tables = Tables(task, _DISCOUNTED, Deadline())
+    context = SearchContext(task, _DISCOUNTED, Deadline())
     ids = {fact: i for i, fact in enumerate(task.facts)}
     left, holds = {ids["at k a"], ids["at rob b"]}, {ids["has rob k"], ids["has_medkit rob"], ids["at rob a"]}
-    state = tables.encoding.pack(task.init - left | holds)
-    bounds = free_bounds(tables, None, INFINITE_KEY, idle=False)
+    state = context.packed.pack(task.init - left | holds)
+    bounds = free_bounds(context, None, INFINITE_KEY, idle=False)
     # From a, where rob has got the kit, to the human in e.
-    walk = 4 * tables.weights.robots[0]
+    walk = 4 * context.weights.robots[0]
     assert bounds.untouched(0, state, 0) == bounds.private(state) + walk
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 import serendipity
-from search.packed.packed_task import Encoding
+from search.packed.packed_task import PackedTask
 from serendipity import pddl
 
 
@@ -19,13 +19,13 @@ def folder(tmp_path):
 
 def test_a_large_task_is_packed_when_it_is_loaded(folder, monkeypatch):
     task = serendipity.load(folder)
-    monkeypatch.setattr(Encoding, "__init__", _no_packing)
+    monkeypatch.setattr(PackedTask, "__init__", _no_packing)
     assert serendipity.plan(task, discount=0.6).status == "optimal"
 
 
 def test_what_is_only_read_is_packed_by_the_first_call(folder, monkeypatch):
     task = pddl.load(folder)
-    monkeypatch.setattr(Encoding, "__init__", _no_packing)
+    monkeypatch.setattr(PackedTask, "__init__", _no_packing)
     with pytest.raises(AssertionError, match="packed in a planning call"):
         serendipity.plan(task, discount=0.6)
 

@@ -5,9 +5,9 @@ from itertools import product
 import pytest
 
 import serendipity
-from search.context import Tables
-from search.packed.packed_task import encoding
-from search.robots.decoupled import Walks
+from search.context import SearchContext
+from search.packed.packed_task import pack
+from search.robots.decoupled import Decoupled
 from serendipity.model import Window
 from serendipity.model.deadline import Deadline
 from tests import builders
@@ -37,7 +37,7 @@ def buildings(tmp_path_factory):
 
 def test_answers_are_those_of_a_search_that_walks_step_by_step(buildings, monkeypatch):
     folded = [serendipity.plan(task, **options) for task, options in product(buildings, OPTIONS)]
-    monkeypatch.setattr(Tables, "walks", _step_by_step)
+    monkeypatch.setattr(SearchContext, "walks", _step_by_step)
     stepwise = [serendipity.plan(task, **options) for task, options in product(buildings, OPTIONS)]
     for one, other in zip(folded, stepwise, strict=True):
         assert (one.objective, one.cost, one.window) == (other.objective, other.cost, other.window)
@@ -86,8 +86,8 @@ def test_what_else_a_move_changes_makes_it_a_deed():
     moves = {"go r a b": "at-a -> at-b !at-a", "go r b a": "at-b -> at-a !at-b !open"}
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
-    packed = encoding(task, Deadline())
-    walks = Walks(packed, Deadline())
+    packed = pack(task, Deadline())
+    walks = Decoupled(packed, Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.foldable
     assert walks.distance(0, a, b) == 1
@@ -99,16 +99,16 @@ def test_a_walk_that_asks_for_more_than_a_place_is_a_deed():
     moves = {"go r a b": "at-a lit -> at-b !at-a", "go r b a": "at-b -> at-a !at-b"}
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
-    packed = encoding(task, Deadline())
-    walks = Walks(packed, Deadline())
+    packed = pack(task, Deadline())
+    walks = Decoupled(packed, Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.distance(0, a, b) == -1
     assert walks.distance(0, b, a) == 1
 
 
-def _step_by_step(tables, plan):
-    """In place of ``Tables.walks``: none that can be folded."""
+def _step_by_step(context, plan):
+    """In place of ``SearchContext.walks``: none that can be folded."""
 
 
 def _foldable(task):
-    return Walks(encoding(task, Deadline()), Deadline()).foldable
+    return Decoupled(pack(task, Deadline()), Deadline()).foldable

@@ -20,9 +20,9 @@ class Writer:
     def __init__(self, game: Game, ties: str) -> None:
         self._game = game
         self._ties = ties
-        encoding = game.encoding
+        packed = game.packed
         self._named: dict[tuple[int, int], str] = {}
-        for fact, bits in enumerate(encoding.fact_bits):
+        for fact, bits in enumerate(packed.fact_bits):
             if bits is not None:
                 self._named[bits] = game.task.facts[fact]
 
@@ -113,10 +113,10 @@ class Writer:
         return NOOP_NAME if action == NOOP else self._game.task.actions[action].name
 
     def _delta(self, state: int) -> StateDelta:
-        encoding, init = self._game.encoding, self._game.init
+        packed, init = self._game.packed, self._game.init
         differs = state ^ init
         true, false = [], []
-        for field in encoding.fields:
+        for field in packed.fields:
             if differs & field:
                 now = self._named.get((field, state & field))
                 before = self._named.get((field, init & field))

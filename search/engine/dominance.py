@@ -7,7 +7,7 @@ Label = tuple[int, int, tuple[int, ...]]
 """Epoch, key, and for how long robots have been idle."""
 
 
-class Labels:
+class ParetoFront:
     """Non-dominated labels per state.
 
     Where everybody can wait, an earlier epoch at no higher key dominates, if robots have

@@ -12,8 +12,8 @@ from heapq import heappop, heappush
 
 from search.human.pattern_database import human_projection
 from search.packed.cost_vector import INFINITE_KEY, Weights
-from search.packed.operators import OpIndex, forms_of
-from search.packed.packed_task import Encoding
+from search.packed.operators import OperatorIndex, forms_of
+from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Lookup
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
@@ -25,7 +25,7 @@ _At = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Explanation:
+class Likelihood:
     """What the observations cost a human who wants one goal.
 
     Attributes:
@@ -41,7 +41,7 @@ class Explanation:
 
 def explanations(
     task: Task, goals: Sequence[Condition], observed: Sequence[str], deadline: Deadline | None = None
-) -> list[Explanation]:
+) -> list[Likelihood]:
     """One explanation for each goal.
 
     Args:
@@ -61,11 +61,11 @@ class _Search:
     def __init__(self, task: Task, observed: tuple[str, ...], deadline: Deadline) -> None:
         seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
         asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
-        packed = Encoding(task, frozenset(asked), deadline)
+        packed = PackedTask(task, frozenset(asked), deadline)
         weights = Weights(packed, Options(), None)
         own = sorted({op.action for op in packed.own} | seen)
         forms = forms_of((packed.op(i) for i in own), packed.all_ones, deadline)
-        self._lookup = Lookup(OpIndex(forms, packed.fields, deadline), weights.alone)
+        self._lookup = Lookup(OperatorIndex(forms, packed.fields, deadline), weights.alone)
         self._keys = weights.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal
@@ -74,11 +74,11 @@ class _Search:
         self._deadline = deadline
         self._start: _At = (packed.init, 0)
 
-    def explanation(self) -> Explanation:
+    def explanation(self) -> Likelihood:
         """Both costs, and the canonical plan that embeds the observations."""
         embedding, plan = self._best(embed=True)
         other, _ = self._best(embed=False)
-        return Explanation(
+        return Likelihood(
             None if plan is None else self._keys.cost(embedding),
             None if other == INFINITE_KEY else self._keys.cost(other),
             plan,

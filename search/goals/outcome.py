@@ -24,7 +24,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, slots=True)
-class Served:
+class ServedGoal:
     """What happens if one candidate is the human's goal.
 
     Attributes:
@@ -60,7 +60,7 @@ class Expected:
     status: str
     horizon: int
     robots: tuple[Step, ...]
-    served: tuple[Served, ...]
+    served: tuple[ServedGoal, ...]
     cost: Fraction
     baseline: Fraction
     saving_alone: Fraction

@@ -19,11 +19,11 @@ from itertools import count
 from math import lcm
 
 from search.engine.outcome import Outcome, path_steps, plan_steps
-from search.goals.outcome import Candidate, Expected, Served
-from search.goals.tables import SharedTables, shared_packing, task_for, timeline
+from search.goals.context import SharedContext, shared_packing, task_for, timeline
+from search.goals.outcome import Candidate, Expected, ServedGoal
 from search.goals.timeline import Ended, Situation
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.successor_generator import NOTHING, Option, Successors, as_option, together
+from search.packed.successor_generator import NOTHING, JointAction, Successors, as_option, together
 from search.planner import solve
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS
@@ -64,7 +64,7 @@ class _Node:
 
     epoch: int
     situations: tuple[Situation, ...]
-    robots: Option
+    robots: JointAction
     spent: int
     """Key of the robots' own actions."""
     parent: "_Node | None"
@@ -104,19 +104,19 @@ class _Search:
     def prepare(self) -> None:
         """Tables, incumbents and floors: what each candidate alone would allow."""
         packed = shared_packing(self._task, self._options, self._candidates, self._deadline)
-        tables = [
-            SharedTables(packed, task_for(self._task, candidate), self._options, self._deadline)
+        context = [
+            SharedContext(packed, task_for(self._task, candidate), self._options, self._deadline)
             for candidate in self._candidates
         ]
-        self._keys = tables[0].keys
-        self._team = tables[0].weights.team
+        self._keys = context[0].keys
+        self._team = context[0].weights.team
         self._packed = packed
-        self._acting = tables[0].successors()
+        self._acting = context[0].successors()
         self._timelines = [
             timeline(own, candidate, self._horizon)
-            for own, candidate in zip(tables, self._candidates, strict=True)
+            for own, candidate in zip(context, self._candidates, strict=True)
         ]
-        self._offer({}, tables[0].successors(idle=True))
+        self._offer({}, context[0].successors(idle=True))
         self._idle = self._best
         self._offer({}, self._acting)
         for i, candidate in enumerate(self._candidates):
@@ -147,16 +147,16 @@ class _Search:
     def _scaled(self, cost: Fraction) -> int:
         return int(cost * self._keys.scale)
 
-    def _own_actions(self, outcome: Outcome) -> dict[int, Option]:
+    def _own_actions(self, outcome: Outcome) -> dict[int, JointAction]:
         """What robots do by themselves in an answer, by epoch."""
-        found: dict[int, Option] = {}
+        found: dict[int, JointAction] = {}
         for step in outcome.steps or ():
             if self._task.human not in self._task.actions[step.action].participants:
                 op = self._packed.op(step.action)
                 found[step.epoch] = together(found.get(step.epoch, NOTHING), as_option(op, self._team(op)))
         return found
 
-    def _offer(self, robots: dict[int, Option], acting: Successors) -> None:
+    def _offer(self, robots: dict[int, JointAction], acting: Successors) -> None:
         """Play a robots' plan against every candidate; keep it if it is the best so far."""
         node: _Node | None = self._root()
         for epoch in range(1, self._horizon + 1):
@@ -196,7 +196,7 @@ class _Search:
     def _root(self) -> _Node:
         return _Node(0, tuple(line.first() for line in self._timelines), NOTHING, 0, None)
 
-    def _choices(self, node: _Node) -> Iterator[Option]:
+    def _choices(self, node: _Node) -> Iterator[JointAction]:
         """Robots' action sets that are possible on some label of the candidate with the fewest."""
         if node.epoch == self._horizon:
             return
@@ -204,7 +204,7 @@ class _Search:
         states = {label.state for label in fewest.inside.values()}
         if fewest.follows is not None:
             states.add(fewest.follows.state)
-        offered: dict[tuple[int, ...], Option] = {
+        offered: dict[tuple[int, ...], JointAction] = {
             (): NOTHING
         }  # also where all that is left is the end of a window
         for state in sorted(states):
@@ -212,7 +212,7 @@ class _Search:
                 offered.setdefault(option.actions, option)
         yield from offered.values()
 
-    def _child(self, node: _Node, robots: Option, acting: Successors) -> _Node | None:
+    def _child(self, node: _Node, robots: JointAction, acting: Successors) -> _Node | None:
         after = []
         self._deadline.tick()
         for i, line in enumerate(self._timelines):
@@ -287,7 +287,7 @@ class _Search:
             bound = objective if status == "optimal" else self._unscaled(self._bound[0])
         else:
             served = tuple(
-                Served(plan_steps(c.plan), None, cost)
+                ServedGoal(plan_steps(c.plan), None, cost)
                 for c, (_, cost) in zip(self._candidates, plans, strict=True)
             )
             cost = objective = bound = baseline
@@ -314,9 +314,11 @@ class _Search:
     def _unscaled(self, value: int) -> Fraction:
         return Fraction(value, self._scale * self._keys.scale)
 
-    def _served(self, end: Ended) -> Served:
+    def _served(self, end: Ended) -> ServedGoal:
         window = Window(end.node.start, end.end) if end.end else None
-        return Served(path_steps(end.node) + plan_steps(end.tail, end.end), window, self._keys.cost(end.key))
+        return ServedGoal(
+            path_steps(end.node) + plan_steps(end.tail, end.end), window, self._keys.cost(end.key)
+        )
 
 
 def _is_new(node: _Node, seen: dict[object, int]) -> bool:

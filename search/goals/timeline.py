@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.engine.best_first import Node
-from search.human.pattern_database import Projection
+from search.human.pattern_database import PatternDatabase
 from search.human.suffix_rules import Suffix
-from search.packed.cost_vector import INFINITE_KEY, Keys
-from search.packed.operators import Op, applicable
-from search.packed.packed_task import Encoding, Goal
-from search.packed.successor_generator import NOTHING, Option, Successors
+from search.packed.cost_vector import INFINITE_KEY, CostLayout
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.successor_generator import NOTHING, JointAction, Successors
 from search.spaces.windowed import PREFIX, WINDOW
 from serendipity.model.deadline import Deadline
 
@@ -50,7 +50,7 @@ class Situation:
 
 
 @dataclass(frozen=True, slots=True)
-class Timeline:
+class GoalTimeline:
     """Rules 1-3 of SPEC 3.1 for one candidate.
 
     Attributes:
@@ -67,12 +67,12 @@ class Timeline:
         deadline: asked for time.
     """
 
-    encoding: Encoding
-    goal: Goal
-    steps: list[tuple[Op, Option]]
+    packed: PackedTask
+    goal: PackedGoal
+    steps: list[tuple[Operator, JointAction]]
     suffix: Suffix
-    private: Projection
-    keys: Keys
+    private: PatternDatabase
+    keys: CostLayout
     horizon: int
     max_window: int
     per_start: bool
@@ -81,11 +81,11 @@ class Timeline:
 
     def first(self) -> Situation:
         """Before the first epoch."""
-        root = Node(0, 0, self.encoding.init, PREFIX, 0, None, ())
+        root = Node(0, 0, self.packed.init, PREFIX, 0, None, ())
         return Situation(root, {}, None, self._bound(root, {}, None))
 
     def after(
-        self, now: Situation, epoch: int, robots: Option, acting: Successors, limit: int
+        self, now: Situation, epoch: int, robots: JointAction, acting: Successors, limit: int
     ) -> Situation | None:
         """After ``epoch``, in which the robots do exactly ``robots``, but for joint actions with him.
 
@@ -129,7 +129,7 @@ class Timeline:
     def _untouched(self) -> int:
         return self.keys.epoch_weight + self.keys.of_start(max(1, len(self.steps)), self.horizon)
 
-    def _follow(self, node: Node | None, epoch: int, robots: Option) -> Node | None:
+    def _follow(self, node: Node | None, epoch: int, robots: JointAction) -> Node | None:
         """Rule 1; beyond the end of his plan he waits."""
         if node is None:
             return None
@@ -149,7 +149,9 @@ class Timeline:
             nodes.append(at._replace(key=key, phase=WINDOW, start=start))
         return nodes
 
-    def _play(self, node: Node, epoch: int, robots: Option, acting: Successors, limit: int) -> list[Node]:
+    def _play(
+        self, node: Node, epoch: int, robots: JointAction, acting: Successors, limit: int
+    ) -> list[Node]:
         """Rule 2: he is free, and robots that are idle in their own plan can join him."""
         found = []
         for part in (NOTHING, *acting.human(node.state), *acting.joint(node.state)):
@@ -160,20 +162,20 @@ class Timeline:
                     found.append(child._replace(key=key))
         return found
 
-    def _together(self, node: Node, part: Option, robots: Option) -> Node | None:
+    def _together(self, node: Node, part: JointAction, robots: JointAction) -> Node | None:
         """The epoch after ``node`` with his part and theirs, if both are applicable together."""
         if part.agents & robots.agents or not self._possible(robots, node.state):
             return None
         for mine in part.actions:
-            if not all(self.encoding.compatible(mine, other, self.strict) for other in robots.actions):
+            if not all(self.packed.compatible(mine, other, self.strict) for other in robots.actions):
                 return None
         state = node.state & part.keep & robots.keep | part.put | robots.put
         key = node.key + part.weight + robots.weight
         actions = part.actions + robots.actions
         return Node(key, node.epoch + 1, state, node.phase, node.start, node, actions)
 
-    def _possible(self, robots: Option, state: int) -> bool:
-        return all(applicable(self.encoding.op(i), state) for i in robots.actions)
+    def _possible(self, robots: JointAction, state: int) -> bool:
+        return all(applicable(self.packed.op(i), state) for i in robots.actions)
 
     def _close(self, node: Node, best: Ended | None, limit: int) -> Ended | None:
         """Rule 3: the window ends after the node."""

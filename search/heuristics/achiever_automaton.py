@@ -18,9 +18,9 @@ from typing import NamedTuple
 
 from search.heuristics.interactions import Need
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Op, forms_of
-from search.packed.packed_task import Encoding
-from search.robots.transition_graphs import AllActs, Places, by_value, with_anything
+from search.packed.operators import Operator, forms_of
+from search.packed.packed_task import PackedTask
+from search.robots.transition_graphs import PositionVariables, TransitionGraphs, by_value, with_anything
 from serendipity.model.deadline import Deadline
 
 Spot = tuple[int, int, int, int]
@@ -38,7 +38,7 @@ Edge = tuple[int, Spot]
 """Weight, and where it leads."""
 
 
-class Provision:
+class AchieverAutomaton:
     """Distances in the automaton of one outside field.
 
     Args:
@@ -56,22 +56,22 @@ class Provision:
 
     def __init__(
         self,
-        encoding: Encoding,
+        packed: PackedTask,
         field: int,
         needs: Sequence[tuple[int, Need]],
         weights: Sequence[int],
-        flips: Iterable[Op],
+        flips: Iterable[Operator],
         deadline: Deadline,
     ) -> None:
-        self._places = encoding.derived(Places, deadline)
+        self._places = packed.derived(PositionVariables, deadline)
         self._field = field
         self._weights = weights
         self._deadline = deadline
-        self._initial = encoding.init
-        self._encoding = encoding
-        self._acts = encoding.derived(AllActs, deadline).on(field)
+        self._initial = packed.init
+        self._packed = packed
+        self._acts = packed.derived(TransitionGraphs, deadline).on(field)
         changing = (op for op in flips if field & ~op.keep)
-        self._flips = by_value(field, forms_of(changing, encoding.all_ones, deadline))
+        self._flips = by_value(field, forms_of(changing, packed.all_ones, deadline))
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
@@ -177,7 +177,7 @@ class Provision:
             edges.append((0, (value, team, 0, 0)))
         return edges
 
-    def _after(self, op: Op, robot: int, field: int, place: int) -> list[int]:
+    def _after(self, op: Operator, robot: int, field: int, place: int) -> list[int]:
         """Where a robot can be after an op: known, set by it, asked for by it, or anywhere."""
         if field & ~op.keep:
             return [op.put & field]
@@ -185,7 +185,7 @@ class Provision:
             return [place]
         if op.need_mask & field:
             return [op.need & field]
-        return self._encoding.values(field)
+        return self._packed.values(field)
 
     def _index(self, i: int, need: Need) -> None:
         """By value and place, where a need is provided."""
@@ -223,7 +223,7 @@ class Provision:
             self._accepted.setdefault(i, []).append(at)
             self.cost.setdefault(i, cost)
 
-    def distances(self, need: int, slack: int) -> "Distances":
+    def distances(self, need: int, slack: int) -> "AchieverCosts":
         """Backward from a need, over what :meth:`explore` has seen.
 
         Args:
@@ -256,7 +256,7 @@ class Provision:
                             level.append(before)
                         else:
                             queue.push(cost + weight, before)
-        return Distances(self, self._field, self._places.field, found, elsewhere)
+        return AchieverCosts(self, self._field, self._places.field, found, elsewhere)
 
     def teams(self, value: int) -> Teams:
         """The teams that may have been the last to act on the field, by its value.
@@ -295,7 +295,7 @@ class Provision:
 
 
 class _Robot(NamedTuple):
-    """A robot's part of :class:`Distances`: its bit, its place, the fields it depends on, what is known."""
+    """A robot's part of :class:`AchieverCosts`: bit, place, fields it depends on, what is known."""
 
     bit: int
     place: int
@@ -303,10 +303,10 @@ class _Robot(NamedTuple):
     known: dict[int, tuple[tuple[int, ...], int]]
 
 
-class Distances:
+class AchieverCosts:
     """Least robots' weight from a packed state to provide one need.
 
-    What :meth:`Provision.explore` has not reached is too dear for a state in which robots
+    What :meth:`AchieverAutomaton.explore` has not reached is too dear for a state in which robots
     have paid for getting there.  Where it stopped walking, since all that can happen to the
     field is within reach, the least of what it knows stands for the rest.
 
@@ -320,7 +320,7 @@ class Distances:
 
     def __init__(
         self,
-        provision: Provision,
+        provision: AchieverAutomaton,
         field: int,
         places: dict[int, int],
         found: dict[int, int],

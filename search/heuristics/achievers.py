@@ -4,14 +4,14 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 
-from search.heuristics.achiever_automaton import Distances, Provision
-from search.heuristics.interactions import Touches
+from search.heuristics.achiever_automaton import AchieverAutomaton, AchieverCosts
+from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import NEVER
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Op
-from search.packed.packed_task import Encoding
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Idle
-from search.robots.transition_graphs import Places
+from search.robots.transition_graphs import PositionVariables
 from serendipity.model.deadline import Deadline
 
 
@@ -28,7 +28,13 @@ class Provided:
     """
 
     def __init__(
-        self, need: int, by_cost: Provision, by_step: Provision | None, unit: int, slack: int, latest: int
+        self,
+        need: int,
+        by_cost: AchieverAutomaton,
+        by_step: AchieverAutomaton | None,
+        unit: int,
+        slack: int,
+        latest: int,
     ) -> None:
         self._need = need
         self._slack = slack
@@ -38,13 +44,13 @@ class Provided:
         self._unit = unit
 
     @cached_property
-    def cost(self) -> Distances:
+    def cost(self) -> AchieverCosts:
         """Least key increment from a packed state."""
         in_time = self._slack if self._by_step is not None else (self._latest + 1) * self._unit
         return self._by_cost.distances(self._need, min(self._slack, in_time))
 
     @cached_property
-    def _steps(self) -> Distances:
+    def _steps(self) -> AchieverCosts:
         return self.cost if self._by_step is None else self._by_step.distances(self._need, self._latest + 1)
 
     def epochs(self, state: int, idle: Idle) -> int:
@@ -62,7 +68,7 @@ class Provided:
         return tuple(NEVER if steps >= INFINITE_KEY else steps // self._unit for steps in each)
 
 
-class Providers:
+class Achievers:
     """The robots' side.
 
     Args:
@@ -78,29 +84,29 @@ class Providers:
 
     def __init__(
         self,
-        encoding: Encoding,
-        touches: Touches,
+        packed: PackedTask,
+        interactions: Interactions,
         weights: Sequence[int],
-        followed: Sequence[Op],
+        followed: Sequence[Operator],
         deadline: Deadline,
     ) -> None:
-        self._encoding = encoding
-        self._touches = touches
+        self._packed = packed
+        self._interactions = interactions
         self._weights = weights
         self._followed = followed
         self._deadline = deadline
         self._changes: dict[int, int] = {}
         self._judges: dict[int, int] = {}
         for epoch, op in enumerate(followed, start=1):
-            for field in encoding.fields:
+            for field in packed.fields:
                 if field & ~op.keep:
                     self._changes.setdefault(field, epoch)
-        self._shared = shared_fields(encoding, deadline)
-        used = {weights[form.cost] for form in encoding.other_forms}
+        self._shared = shared_fields(packed, deadline)
+        used = {weights[form.cost] for form in packed.other_forms}
         self._uniform = len(used) <= 1
         self._unit = max(used, default=1)
-        self._by_cost: dict[tuple[int, bool], Provision] = {}
-        self._by_step: dict[tuple[int, bool], Provision] = {}
+        self._by_cost: dict[tuple[int, bool], AchieverAutomaton] = {}
+        self._by_step: dict[tuple[int, bool], AchieverAutomaton] = {}
 
     def at(self, need: int, epoch: int) -> int:
         """The id that a need goes by after ``epoch`` epochs of ``pi_H``."""
@@ -159,7 +165,7 @@ class Providers:
 
     def _explore(
         self,
-        provisions: dict[tuple[int, bool], Provision],
+        provisions: dict[tuple[int, bool], AchieverAutomaton],
         needs: Sequence[int],
         weights: Sequence[int],
         pays: Callable[[int], bool],
@@ -169,10 +175,10 @@ class Providers:
             groups.setdefault(self._group(need), []).append(need)
         costs: dict[int, int] = {}
         for (field, late), members in groups.items():
-            listed = [(i, self._touches.needs[self.touched(i)]) for i in members]
+            listed = [(i, self._interactions.needs[self.touched(i)]) for i in members]
             flips = self._followed if late else ()
             self._deadline.check()
-            provision = Provision(self._encoding, field, listed, weights, flips, self._deadline)
+            provision = AchieverAutomaton(self._packed, field, listed, weights, flips, self._deadline)
             provision.explore(pays)
             provisions[field, late] = provision
             costs.update(provision.cost)
@@ -188,13 +194,13 @@ class Providers:
         field = self._judges.get(need)
         if field is None:
             self._deadline.tick()
-            mask = self._touches.needs[need].mask
+            mask = self._interactions.needs[need].mask
             field = self._judges[need] = next((f for f in self._shared if mask & f), 0)
         return field
 
 
-def shared_fields(encoding: Encoding, deadline: Deadline) -> list[int]:
+def shared_fields(packed: PackedTask, deadline: Deadline) -> list[int]:
     """Outside fields that are no robot's place, the largest first."""
-    places = set(encoding.derived(Places, deadline).field.values())
-    outside = [f for f in encoding.fields if f & encoding.outside and f not in places]
-    return sorted(outside, key=lambda f: (-len(encoding.values(f)), f))
+    places = set(packed.derived(PositionVariables, deadline).field.values())
+    outside = [f for f in packed.fields if f & packed.outside and f not in places]
+    return sorted(outside, key=lambda f: (-len(packed.values(f)), f))

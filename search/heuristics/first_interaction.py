@@ -15,9 +15,9 @@ from operator import itemgetter
 from typing import NamedTuple, Protocol
 
 from search.heuristics.achievers import Provided
-from search.heuristics.interactions import Touches
-from search.heuristics.private_distances import NEVER, Ways
-from search.human.pattern_database import Projection
+from search.heuristics.interactions import Interactions
+from search.heuristics.private_distances import NEVER, PrivateDistances
+from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.successor_generator import Idle
 
@@ -65,7 +65,7 @@ def survivors(costs: dict[int, int], limit: int, total: Callable[[int, int], int
     return paying if len(paying) <= _MOST_TOUCHES else None
 
 
-class Helped:
+class FirstInteraction:
     """The bound at any node before the first touch, over the surviving needs.
 
     Args:
@@ -77,7 +77,11 @@ class Helped:
     """
 
     def __init__(
-        self, bound: Projection, ways: Ways, needs: Iterable[tuple[int, Provided, int]], horizon: int
+        self,
+        bound: PatternDatabase,
+        ways: PrivateDistances,
+        needs: Iterable[tuple[int, Provided, int]],
+        horizon: int,
     ) -> None:
         self._mask = bound.mask
         self._outside = ways.outside
@@ -147,7 +151,9 @@ class _Promise:
         latest: the last epoch by which they must have provided it.
     """
 
-    def __init__(self, ways: Ways, need: int, provided: Provided, total: int, horizon: int) -> None:
+    def __init__(
+        self, ways: PrivateDistances, need: int, provided: Provided, total: int, horizon: int
+    ) -> None:
         self._ways = ways
         self._need = need
         self.provided = provided
@@ -179,12 +185,14 @@ class Bounds:
         touches: tells which actions are touches.
     """
 
-    def __init__(self, private: Projection, steps: Projection, untouched: Timed, touches: Touches) -> None:
+    def __init__(
+        self, private: PatternDatabase, steps: PatternDatabase, untouched: Timed, interactions: Interactions
+    ) -> None:
         self.private = private
         self.steps = steps
         self.untouched = untouched
-        self._is_touch = touches.is_touch
+        self._is_touch = interactions.is_interaction
 
-    def touches(self, actions: Sequence[int]) -> bool:
+    def interactions(self, actions: Sequence[int]) -> bool:
         """Whether the human's part of an epoch (at most one action) is a touch."""
         return bool(actions) and self._is_touch(actions[0])

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from search.human.pattern_database import human_graph
-from search.packed.operators import Op, OpIndex
-from search.packed.packed_task import Encoding
+from search.packed.operators import Operator, OperatorIndex
+from search.packed.packed_task import PackedTask
 from serendipity.model.deadline import Deadline
 
 
@@ -32,11 +32,11 @@ class Seen(NamedTuple):
     put: int
     cost: int
     """Index of its cost."""
-    touch: int
+    interaction: int
     """Id of its need; -1 if it is no touch."""
 
 
-class Touches:
+class Interactions:
     """The human's ops, split at what they mention; kept with the packed task.
 
     Attributes:
@@ -45,14 +45,14 @@ class Touches:
         needs: the needs met so far; a need's id is its index.
     """
 
-    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
-        self.mask = encoding.derived(human_graph, deadline).mask
+    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
+        self.mask = packed.derived(human_graph, deadline).mask
         self.needs: list[Need] = []
         self._ids: dict[tuple[int, int], int] = {}
         self._kinds: dict[tuple[int, int, int, object], tuple[int, int, bool]] = {}
-        self._encoding = encoding
-        self.outside = encoding.outside
-        self._indices = [encoding.own_index, encoding.joint_index]
+        self._packed = packed
+        self.outside = packed.outside
+        self._indices = [packed.own_index, packed.joint_index]
         self._seen: list[dict[int, list[Seen]]] = [{}, {}]
 
     def seen(self, state: int) -> list[Seen]:
@@ -69,20 +69,20 @@ class Touches:
     def of(self, need: int) -> Iterator[Seen]:
         """All touches of a need."""
         mask, value = self.needs[need]
-        for form in (*self._encoding.own_forms, *self._encoding.joint_forms):
-            if form.need_mask & self.outside == mask and self._encoding.is_touch(form):
+        for form in (*self._packed.own_forms, *self._packed.joint_forms):
+            if form.need_mask & self.outside == mask and self._packed.is_interaction(form):
                 for op in form.ops:
                     if op.need & self.outside == value:
                         yield self._project(op)
 
-    def is_touch(self, action: int) -> bool:
+    def is_interaction(self, action: int) -> bool:
         """Whether an action of the human's is a touch."""
-        return self._involves_others(self._encoding.op(action))
+        return self._involves_others(self._packed.op(action))
 
-    def _involves_others(self, op: Op) -> bool:
-        return self._encoding.involves_others(op.agents, self._encoding.mentioned(op))
+    def _involves_others(self, op: Operator) -> bool:
+        return self._packed.involves_others(op.agents, self._packed.mentioned(op))
 
-    def _look(self, index: OpIndex, value: int) -> list[Seen]:
+    def _look(self, index: OperatorIndex, value: int) -> list[Seen]:
         """The ops under a value of an index; under every value, if the field is not his own."""
         hidden = index.field & ~self.mask
         ops = (
@@ -90,15 +90,15 @@ class Touches:
         )
         return [self._project(op) for op in (*ops, *index.always)]
 
-    def _project(self, op: Op) -> Seen:
+    def _project(self, op: Operator) -> Seen:
         form = op.need_mask, op.keep, op.agents, op.forbidden
         kind = self._kinds.get(form)
         if kind is None:
-            touch = self._involves_others(op)
-            kind = self._kinds[form] = op.need_mask & self.mask, op.need_mask & self.outside, touch
-        need_mask, asked, touch = kind
+            interaction = self._involves_others(op)
+            kind = self._kinds[form] = op.need_mask & self.mask, op.need_mask & self.outside, interaction
+        need_mask, asked, interaction = kind
         mask, number = self.mask, -1
-        if touch:
+        if interaction:
             need = asked, op.need & self.outside
             known = self._ids.get(need)
             if known is None:

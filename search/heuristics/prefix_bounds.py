@@ -1,4 +1,4 @@
-"""The bound while the human follows ``pi_H``, by when the window opens (see :mod:`search.heuristics.first_interaction`)."""
+"""The bound while the human follows ``pi_H``, by when the window opens (see :mod:`.first_interaction`)."""
 
 from collections.abc import Sequence
 from itertools import accumulate
@@ -9,7 +9,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.successor_generator import Idle
 
 
-class Openings:
+class PrefixBounds:
     """The human's totals while he follows ``pi_H``, by need and by the epoch before the window.
 
     Args:
@@ -90,7 +90,7 @@ class Offer(NamedTuple):
         return max(0, min(epochs - rest for epochs, rest in zip(self.epochs, idle, strict=False)))
 
 
-class HelpedOnTheWay:
+class FirstInteractionOnTheWay:
     """The bound while the human follows ``pi_H``; a window has still to open.
 
     Args:
@@ -102,7 +102,7 @@ class HelpedOnTheWay:
 
     def __init__(
         self,
-        openings: Openings,
+        openings: PrefixBounds,
         spent: Sequence[int],
         needs: dict[int, Provided | None],
         outside: int,

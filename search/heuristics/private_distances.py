@@ -3,11 +3,11 @@
 from collections.abc import Iterable, Iterator, Sequence
 from heapq import heapify, heappop, heappush
 
-from search.heuristics.interactions import Seen, Touches
+from search.heuristics.interactions import Interactions, Seen
 from search.human.dijkstra import backward
-from search.human.pattern_database import Projection, human_graph, own_projection
+from search.human.pattern_database import PatternDatabase, human_graph, own_projection
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
-from search.packed.packed_task import Encoding
+from search.packed.packed_task import PackedTask
 from serendipity.model.deadline import Deadline
 
 NEVER = 1 << 40
@@ -36,7 +36,7 @@ class Corridor:
         """Record a move."""
         self._before.setdefault(after, []).append((weight, at))
 
-    def touch(self, at: int, spent: int, need: int, rest: int) -> None:
+    def interaction(self, at: int, spent: int, need: int, rest: int) -> None:
         """Record a touch and what it costs to the goal, it included."""
         self._entries.setdefault(need, []).append((rest, at))
         if spent + rest < self.totals.get(need, INFINITE_KEY):
@@ -47,7 +47,7 @@ class Corridor:
         return backward(self._entries.get(need, ()), [self._before], self._deadline)
 
 
-class Ways:
+class PrivateDistances:
     """Distances by moves alone, up to a first touch.
 
     Args:
@@ -66,16 +66,16 @@ class Ways:
 
     def __init__(
         self,
-        encoding: Encoding,
-        touches: Touches,
-        bound: Projection,
-        steps: Projection,
+        packed: PackedTask,
+        interactions: Interactions,
+        bound: PatternDatabase,
+        steps: PatternDatabase,
         weights: Weights,
         deadline: Deadline,
     ) -> None:
-        self.outside = touches.outside
-        self._encoding = encoding
-        self._touches = touches
+        self.outside = interactions.outside
+        self._packed = packed
+        self._interactions = interactions
         self._bound = bound
         self._steps = steps
         self._weights = weights
@@ -91,7 +91,7 @@ class Ways:
         """
         found = Corridor(self._deadline)
         bound, weights = self._bound.distances, self._weights.human
-        queue = [(spent, state & self._touches.mask) for spent, state in sources]
+        queue = [(spent, state & self._interactions.mask) for spent, state in sources]
         heapify(queue)
         seen: set[int] = set()
         while queue:
@@ -105,20 +105,20 @@ class Ways:
                 continue
             if rest == 0:
                 found.without = min(found.without, spent)
-            for op in self._touches.seen(at):
+            for op in self._interactions.seen(at):
                 after = at & op.keep | op.put
                 weight = weights[op.cost]
-                if op.touch < 0:
+                if op.interaction < 0:
                     found.move(at, weight, after)
                     if after not in seen:
                         heappush(queue, (spent + weight, after))
                     continue
                 rest = weight + bound.get(after, INFINITE_KEY)
                 if spent + rest < limit:
-                    found.touch(at, spent, op.touch, rest)
+                    found.interaction(at, spent, op.interaction, rest)
                     steps = self._steps(after)
-                    if steps < self.steps_after.get(op.touch, NEVER):
-                        self.steps_after[op.touch] = steps
+                    if steps < self.steps_after.get(op.interaction, NEVER):
+                        self.steps_after[op.interaction] = steps
         return found
 
     def to_goal(self) -> dict[int, int]:
@@ -129,19 +129,19 @@ class Ways:
         """Least key to the goal with a first touch of a need, by projected state."""
         return self._weights.of_own(self._own().through(need, self._deadline))
 
-    def _own(self) -> "OwnWays":
-        return self._encoding.derived(OwnWays, self._touches, self._deadline)
+    def _own(self) -> "OwnPrivateDistances":
+        return self._packed.derived(OwnPrivateDistances, self._interactions, self._deadline)
 
 
-class OwnWays:
-    """His ways backward, in the unit of :func:`search.packed.cost_vector.own_weights`; kept with the packed task."""
+class OwnPrivateDistances:
+    """His ways backward, in the unit of :func:`.own_weights`; kept with the packed task."""
 
-    def __init__(self, encoding: Encoding, touches: Touches, deadline: Deadline) -> None:
-        self._weights = own_weights(encoding)
-        self._touches = touches
-        self._distances = encoding.derived(own_projection, deadline).distances
-        self._moves = encoding.derived(human_graph, deadline).moves
-        self._field = encoding.own_index.field & touches.mask
+    def __init__(self, packed: PackedTask, interactions: Interactions, deadline: Deadline) -> None:
+        self._weights = own_weights(packed)
+        self._interactions = interactions
+        self._distances = packed.derived(own_projection, deadline).distances
+        self._moves = packed.derived(human_graph, deadline).moves
+        self._field = packed.own_index.field & interactions.mask
         self._by_value: dict[int, list[int]] = {}
         for at in self._distances:
             self._by_value.setdefault(at & self._field, []).append(at)
@@ -166,7 +166,7 @@ class OwnWays:
 
     def _entries(self, need: int) -> Iterator[tuple[int, int]]:
         """What a touch of a need costs to the goal, it included, and where it is possible."""
-        for op in self._touches.of(need):
+        for op in self._interactions.of(need):
             weight = self._weights[op.cost]
             for at in self._where(op):
                 rest = self._distances.get(at & op.keep | op.put)

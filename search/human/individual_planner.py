@@ -8,10 +8,10 @@ search per projection, and a search also fills in the states along its result.
 from collections.abc import Callable, Iterator
 from heapq import heappop, heappush
 
-from search.human.pattern_database import Projection, own_projection
+from search.human.pattern_database import PatternDatabase, own_projection
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
-from search.packed.operators import Op
-from search.packed.packed_task import Encoding, Goal
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup
 from serendipity.model.deadline import Deadline
 
@@ -96,7 +96,7 @@ class Memory:
         self.plans: tuple[int, PlanGraph | None] | None = None
 
 
-class Alone:
+class IndividualPlanner:
     """The human's optimal key to a goal with every robot idle.
 
     Args:
@@ -110,19 +110,19 @@ class Alone:
 
     def __init__(
         self,
-        encoding: Encoding,
-        goal: Goal,
-        weight: Callable[[Op], int],
-        bound: Projection,
+        packed: PackedTask,
+        goal: PackedGoal,
+        weight: Callable[[Operator], int],
+        bound: PatternDatabase,
         deadline: Deadline,
         memory: Memory | None = None,
     ) -> None:
-        self._actions = encoding.task.actions
+        self._actions = packed.task.actions
         self._goal = goal
         self._bound = bound
         self._deadline = deadline
-        self._mask = goal.mask | bound.mask | encoding.own_mask
-        self._memory = memory or Memory(Lookup(encoding.own_index, weight))
+        self._mask = goal.mask | bound.mask | packed.own_mask
+        self._memory = memory or Memory(Lookup(packed.own_index, weight))
         self._lookup = self._memory.lookup
         self._known = self._memory.known
         self._at_least = self._memory.at_least
@@ -239,8 +239,8 @@ class Alone:
         return [step for step, name, last in zip(steps, names, ["", *names], strict=False) if name != last]
 
 
-class Priced:
-    """:class:`Alone` to ``G_H``, in the keys of a call; what it finds is kept with the packed task.
+class PricedPlanner:
+    """:class:`IndividualPlanner` to ``G_H``, in the keys of a call; the packed task keeps what it finds.
 
     Args:
         encoding: the packed task.
@@ -248,15 +248,15 @@ class Priced:
         deadline: asked for time.
     """
 
-    def __init__(self, encoding: Encoding, weights: Weights, deadline: Deadline) -> None:
-        own = own_weights(encoding)
-        bound = encoding.derived(own_projection, deadline)
-        memory = encoding.derived(_memory)
-        self._alone = Alone(encoding, encoding.goal, lambda op: own[op.cost], bound, deadline, memory)
+    def __init__(self, packed: PackedTask, weights: Weights, deadline: Deadline) -> None:
+        own = own_weights(packed)
+        bound = packed.derived(own_projection, deadline)
+        memory = packed.derived(_memory)
+        self._alone = IndividualPlanner(packed, packed.goal, lambda op: own[op.cost], bound, deadline, memory)
         self._weights = weights
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """See :meth:`Alone.key`."""
+        """See :meth:`IndividualPlanner.key`."""
         if limit >= INFINITE_KEY:
             found = self._alone.key(state)
         else:
@@ -264,16 +264,16 @@ class Priced:
         return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
 
     def plans(self, state: int) -> PlanGraph | None:
-        """See :meth:`Alone.plans`."""
+        """See :meth:`IndividualPlanner.plans`."""
         return self._alone.plans(state)
 
 
-def _memory(encoding: Encoding) -> Memory:
-    own = own_weights(encoding)
-    return Memory(Lookup(encoding.own_index, lambda op: own[op.cost]))
+def _memory(packed: PackedTask) -> Memory:
+    own = own_weights(packed)
+    return Memory(Lookup(packed.own_index, lambda op: own[op.cost]))
 
 
-def canonical(alone: Alone | Priced, state: int) -> tuple[int, ...]:
+def canonical(alone: IndividualPlanner | PricedPlanner, state: int) -> tuple[int, ...]:
     """The canonical optimal plan (SPEC 1) from a packed state that has one."""
     graph = alone.plans(state)
     assert graph is not None, "asked for plans where there are none"

@@ -14,17 +14,17 @@ from dataclasses import dataclass
 
 from search.human.dijkstra import backward
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_weights
-from search.packed.operators import Form, set_by
-from search.packed.packed_task import Encoding, Goal
+from search.packed.operators import Signature, set_by
+from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.deadline import Deadline
 
 _MAX_STATES = 50_000
 
 Predecessors = dict[int, list[tuple[int, int]]]
-"""Per projected state the cheapest ways to it: weight (:func:`search.packed.cost_vector.own_weights`), state before it."""
+"""Per projected state the cheapest ways to it: weight (:func:`.own_weights`), state before it."""
 
 
-class Projection:
+class PatternDatabase:
     """Distances to the goal in a projection.
 
     Attributes:
@@ -56,10 +56,10 @@ class Projected:
 
     mask: int
     moves: Predecessors
-    touches: Predecessors
+    interactions: Predecessors
 
 
-def human_projection(encoding: Encoding, weights: Weights, deadline: Deadline) -> Projection:
+def human_projection(packed: PackedTask, weights: Weights, deadline: Deadline) -> PatternDatabase:
     """Key increments to his goal in his private variables, or in as many as stay tractable.
 
     Args:
@@ -67,56 +67,56 @@ def human_projection(encoding: Encoding, weights: Weights, deadline: Deadline) -
         weights: key increments of the call.
         deadline: asked for time while the table is built.
     """
-    own = encoding.derived(own_projection, deadline)
-    return Projection(own.mask, weights.of_own(own.distances))
+    own = packed.derived(own_projection, deadline)
+    return PatternDatabase(own.mask, weights.of_own(own.distances))
 
 
-def own_projection(encoding: Encoding, deadline: Deadline) -> Projection:
+def own_projection(packed: PackedTask, deadline: Deadline) -> PatternDatabase:
     """The same in the unit of :func:`search.packed.cost_vector.own_weights`."""
-    graph = encoding.derived(human_graph, deadline)
-    goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
-    return Projection(graph.mask, backward(goals, (graph.moves, graph.touches), deadline))
+    graph = packed.derived(human_graph, deadline)
+    goals = [(0, state) for state in _satisfying(graph, packed.goal)]
+    return PatternDatabase(graph.mask, backward(goals, (graph.moves, graph.interactions), deadline))
 
 
-def human_steps(encoding: Encoding, deadline: Deadline) -> Projection:
+def human_steps(packed: PackedTask, deadline: Deadline) -> PatternDatabase:
     """The least number of his actions to his goal, in the same variables."""
-    if len(encoding.costs) == 1:  # every action costs the same, so the cheapest way is the shortest
-        own = encoding.derived(own_projection, deadline)
-        return Projection(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
-    graph = encoding.derived(human_graph, deadline)
-    goals = [(0, state) for state in _satisfying(graph, encoding.goal)]
+    if len(packed.costs) == 1:  # every action costs the same, so the cheapest way is the shortest
+        own = packed.derived(own_projection, deadline)
+        return PatternDatabase(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
+    graph = packed.derived(human_graph, deadline)
+    goals = [(0, state) for state in _satisfying(graph, packed.goal)]
     counted = [
         {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}
-        for kind in (graph.moves, graph.touches)
+        for kind in (graph.moves, graph.interactions)
     ]
-    return Projection(graph.mask, backward(goals, counted, deadline))
+    return PatternDatabase(graph.mask, backward(goals, counted, deadline))
 
 
-def private_fields(encoding: Encoding) -> list[int]:
+def private_fields(packed: PackedTask) -> list[int]:
     """The fields that only he changes, alone or with others."""
-    changed = set_by((*encoding.own_forms, *encoding.joint_forms))
-    return [field for field in encoding.fields if field & changed and not field & encoding.outside]
+    changed = set_by((*packed.own_forms, *packed.joint_forms))
+    return [field for field in packed.fields if field & changed and not field & packed.outside]
 
 
-def human_graph(encoding: Encoding, deadline: Deadline) -> Projected:
+def human_graph(packed: PackedTask, deadline: Deadline) -> Projected:
     """His graph over all his private fields, or over as many as stay tractable."""
-    private = private_fields(encoding)
-    goal_first = sorted(private, key=lambda field: (not field & encoding.goal.mask, field))
-    weights = own_weights(encoding)
+    private = private_fields(packed)
+    goal_first = sorted(private, key=lambda field: (not field & packed.goal.mask, field))
+    weights = own_weights(packed)
     # The cheapest last, so that it stays where forms look alike.
-    dearest_first = sorted((*encoding.own_forms, *encoding.joint_forms), key=lambda form: -form.cost)
-    weighed = [(form, weights[form.cost], encoding.is_touch(form)) for form in dearest_first]
+    dearest_first = sorted((*packed.own_forms, *packed.joint_forms), key=lambda form: -form.cost)
+    weighed = [(form, weights[form.cost], packed.is_interaction(form)) for form in dearest_first]
     for count in range(len(private), 0, -1):
         fields = goal_first[:count]
         mask = sum(fields)
         steps = _Steps(fields, weighed, deadline)
-        graph = _explore(mask, encoding.init & mask, steps, deadline)
+        graph = _explore(mask, packed.init & mask, steps, deadline)
         if graph is not None:
             return graph
     return Projected(0, {0: []}, {0: []})
 
 
-def _satisfying(graph: Projected, goal: Goal) -> list[int]:
+def _satisfying(graph: Projected, goal: PackedGoal) -> list[int]:
     """The projected states of which some state may satisfy the goal."""
     if goal.need < 0:
         return []
@@ -129,14 +129,14 @@ def _satisfying(graph: Projected, goal: Goal) -> list[int]:
 def _explore(mask: int, start: int, steps: "_Steps", deadline: Deadline) -> Projected | None:
     """What leads from ``start`` to each projected state; None if they are too many."""
     moves: Predecessors = {start: []}
-    touches: Predecessors = {start: []}
+    interactions: Predecessors = {start: []}
     index, by_value, always = steps.index, steps.by_value, steps.always
     pending = [start]
     while pending:
         state = pending.pop()
         deadline.tick()
         for entries in (by_value.get(state & index, ()), always):
-            for need_mask, need, keep, put, forbidden, weight, touch in entries:
+            for need_mask, need, keep, put, forbidden, weight, interaction in entries:
                 if state & need_mask != need:
                     continue
                 after = state & keep | put
@@ -145,10 +145,10 @@ def _explore(mask: int, start: int, steps: "_Steps", deadline: Deadline) -> Proj
                 if after not in moves:
                     if len(moves) >= _MAX_STATES:
                         return None
-                    moves[after], touches[after] = [], []
+                    moves[after], interactions[after] = [], []
                     pending.append(after)
-                (touches if touch else moves)[after].append((weight, state))
-    return Projected(mask, moves, touches)
+                (interactions if interaction else moves)[after].append((weight, state))
+    return Projected(mask, moves, interactions)
 
 
 Transition = tuple[int, int, int, int, tuple[tuple[int, int], ...], int, bool]
@@ -169,30 +169,30 @@ class _Steps:
     """
 
     def __init__(
-        self, fields: Sequence[int], forms: Iterable[tuple[Form, int, bool]], deadline: Deadline
+        self, fields: Sequence[int], forms: Iterable[tuple[Signature, int, bool]], deadline: Deadline
     ) -> None:
         mask = sum(fields)
         merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
-        for form, weight, touch in forms:
+        for form, weight, interaction in forms:
             deadline.check()
             if form.sets & mask:
-                shape = form.need_mask & mask, mask & ~form.sets, touch
+                shape = form.need_mask & mask, mask & ~form.sets, interaction
                 merged.setdefault(shape, {}).update(_seen(form, mask, weight))
         self.index = max(fields, key=lambda field: sum(len(m) for s, m in merged.items() if s[0] & field))
         self.by_value: dict[int, list[Transition]] = {}
         self.always: list[Transition] = []
-        for (need_mask, keep, touch), values in merged.items():
+        for (need_mask, keep, interaction), values in merged.items():
             indexed = need_mask & self.index
             for (need, put, forbidden), weight in values.items():
                 deadline.tick()
-                entry = (need_mask, need, keep, put, forbidden, weight, touch)
+                entry = (need_mask, need, keep, put, forbidden, weight, interaction)
                 if indexed:
                     self.by_value.setdefault(need & self.index, []).append(entry)
                 else:
                     self.always.append(entry)
 
 
-def _seen(form: Form, mask: int, weight: int) -> dict[tuple[int, int, Literals], int]:
+def _seen(form: Signature, mask: int, weight: int) -> dict[tuple[int, int, Literals], int]:
     """What the ops of a form ask for and set in some fields, with their weight."""
     if not form.forbids & mask:
         return {(op.need & mask, op.put & mask, ()): weight for op in form.ops}

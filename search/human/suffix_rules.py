@@ -2,10 +2,10 @@
 
 from typing import Protocol
 
-from search.human.individual_planner import Alone, Priced, canonical
-from search.packed.cost_vector import INFINITE_KEY, Keys
+from search.human.individual_planner import IndividualPlanner, PricedPlanner, canonical
+from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.operators import applicable
-from search.packed.packed_task import Encoding, Goal
+from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import HumanPlan
 
@@ -41,7 +41,13 @@ class Replan:
         keys: layout of keys.
     """
 
-    def __init__(self, alone: Alone | Priced, both: Alone | None, robot_goal: Goal, keys: Keys) -> None:
+    def __init__(
+        self,
+        alone: IndividualPlanner | PricedPlanner,
+        both: IndividualPlanner | None,
+        robot_goal: PackedGoal,
+        keys: CostLayout,
+    ) -> None:
         self._alone = alone
         self._both = both
         self._robot_goal = robot_goal
@@ -73,13 +79,13 @@ class Subplan:
 
     def __init__(
         self,
-        encoding: Encoding,
+        packed: PackedTask,
         plan: HumanPlan,
         weights: list[int],
-        goals: list[Goal],
+        goals: list[PackedGoal],
         deadline: Deadline,
     ) -> None:
-        self._steps = list(zip((encoding.op(i) for i in plan), weights, strict=True))
+        self._steps = list(zip((packed.op(i) for i in plan), weights, strict=True))
         self._goals = goals
         self._deadline = deadline
         self._known: dict[_Rest, tuple[int, bool]] = {}
@@ -139,16 +145,16 @@ class Preserved:
 
     def __init__(
         self,
-        encoding: Encoding,
+        packed: PackedTask,
         plan: HumanPlan,
         weights: list[int],
-        goals: list[Goal],
+        goals: list[PackedGoal],
         expected: list[list[int]],
     ) -> None:
-        self._encoding = encoding
-        self._ops = [encoding.op(i) for i in plan]
+        self._packed = packed
+        self._ops = [packed.op(i) for i in plan]
         self._goals = goals
-        self._expected = [_Contained(encoding, facts) for facts in expected]
+        self._expected = [_Contained(packed, facts) for facts in expected]
         rest = [0]
         for weight in reversed(weights):
             rest.append(rest[-1] + weight)
@@ -182,10 +188,10 @@ class Preserved:
 class _Contained:
     """Whether a packed state contains a set of facts."""
 
-    def __init__(self, encoding: Encoding, facts: list[int]) -> None:
+    def __init__(self, packed: PackedTask, facts: list[int]) -> None:
         self.mask = self.value = 0
         for fact in facts:
-            bits = encoding.fact_bits[fact]
+            bits = packed.fact_bits[fact]
             assert bits is not None, "the full encoding packs every fact of the human's domain"
             self.mask |= bits[0]
             self.value |= bits[1]

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 
-from search.packed.operators import Op
-from search.packed.packed_task import Encoding
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan
 
@@ -27,7 +27,7 @@ INFINITE_KEY = 1 << 4096
 
 
 @dataclass(frozen=True, slots=True)
-class Keys:
+class CostLayout:
     """Widths of the fields, low to high: announced, actions, start, length, cost, objective.
 
     ``epoch_weight`` is the increment of one more epoch of the window.  ``announced`` holds
@@ -125,7 +125,7 @@ class Weights:
         plan: ``pi_H``, or None to leave communication costs out.
     """
 
-    def __init__(self, packed: Encoding, options: Options, plan: HumanPlan | None) -> None:
+    def __init__(self, packed: PackedTask, options: Options, plan: HumanPlan | None) -> None:
         announces = options.mode == "communication" and plan is not None
         announced = options.communication_weight if announces else Fraction(0)
         known = packed.derived(_scales)
@@ -144,7 +144,7 @@ class Weights:
         # By name: who does what they planned did not change their mind, whichever of its variants it is.
         self._planned = packed.task.names(plan or ()) if announces else frozenset()
 
-    def team(self, op: Op) -> int:
+    def team(self, op: Operator) -> int:
         """Increment of an op inside a composite plan, communication included."""
         if not op.agents & self._human_bit:
             return self.robots[op.cost]
@@ -165,14 +165,14 @@ class Weights:
         """A cost in the unit of :func:`own_weights` from which on no key is below a limit."""
         return limit // self._per_cost + 1 << _ACTIONS_BITS
 
-    def alone(self, op: Op) -> int:
+    def alone(self, op: Operator) -> int:
         """Increment of an op for the human's own preferences; communication ranks last."""
         weight = self.human[op.cost]
         if self.announces and not self._is_planned(op):
             weight += self._announced[op.cost]
         return weight
 
-    def _is_planned(self, op: Op) -> bool:
+    def _is_planned(self, op: Operator) -> bool:
         return self._actions[op.action].name in self._planned
 
 
@@ -185,25 +185,25 @@ class _Scaled:
         per_cost: key increment of one unit of cost.
     """
 
-    keys: Keys
+    keys: CostLayout
     human: list[int]
     robots: list[int]
     announced: list[int]
     per_cost: int
 
 
-def _scales(_: Encoding) -> dict[tuple[Fraction, Fraction, Fraction], _Scaled]:
+def _scales(_: PackedTask) -> dict[tuple[Fraction, Fraction, Fraction], _Scaled]:
     """By discount, window weight and communication weight; filled by calls, kept with the packed task."""
     return {}
 
 
-def _scaled(packed: Encoding, discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
+def _scaled(packed: PackedTask, discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
     costs = packed.costs
     factors = (Fraction(1), 1 - discount, announced)
     scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
     dearest = int(max(costs, default=Fraction(0)) * scale)
     announced_bits = int(dearest * announced).bit_length() + _ACTIONS_BITS if announced else 0
-    layout = Keys(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
+    layout = CostLayout(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
     epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
     keys = replace(layout, epoch_weight=epoch)
     per_cost = scale // _own_scale(packed)
@@ -216,7 +216,7 @@ def _scaled(packed: Encoding, discount: Fraction, window: Fraction, announced: F
     )
 
 
-def own_weights(packed: Encoding) -> list[int]:
+def own_weights(packed: PackedTask) -> list[int]:
     """Undiscounted costs by their index, in a unit that no option changes.
 
     Cost (in the least unit of the task's costs) and number of actions are the two fields of
@@ -231,5 +231,5 @@ def own_actions(cost: int) -> int:
     return cost & _ACTIONS
 
 
-def _own_scale(packed: Encoding) -> int:
+def _own_scale(packed: PackedTask) -> int:
     return lcm(*(cost.denominator for cost in packed.costs))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from serendipity.model.deadline import Deadline
 
 
-class Op(NamedTuple):
+class Operator(NamedTuple):
     """A packed ground action: applicable iff ``s & need_mask == need`` and no ``s & m == v``
     of ``forbidden``; its successor is ``s & keep | put``.
     """
@@ -29,10 +29,10 @@ class Op(NamedTuple):
     agents: int
     """Bit set of its participants."""
     cost: int
-    """Index of its undiscounted cost in ``Encoding.costs``."""
+    """Index of its undiscounted cost in ``PackedTask.costs``."""
 
 
-class Form(NamedTuple):
+class Signature(NamedTuple):
     """Ops that differ in values only.
 
     Attributes:
@@ -49,7 +49,7 @@ class Form(NamedTuple):
     forbids: int
     sets: int
     cost: int
-    ops: list[Op]
+    ops: list[Operator]
 
     @property
     def mentions(self) -> int:
@@ -57,7 +57,7 @@ class Form(NamedTuple):
         return self.need_mask | self.forbids | self.sets
 
 
-def forms_of(ops: Iterable[Op], all_ones: int, deadline: Deadline) -> tuple[Form, ...]:
+def forms_of(ops: Iterable[Operator], all_ones: int, deadline: Deadline) -> tuple[Signature, ...]:
     """Ops by their forms.
 
     Args:
@@ -65,7 +65,7 @@ def forms_of(ops: Iterable[Op], all_ones: int, deadline: Deadline) -> tuple[Form
         all_ones: all fields.
         deadline: asked for time.
     """
-    members: dict[tuple[int, int, int, int, int], list[Op]] = {}
+    members: dict[tuple[int, int, int, int, int], list[Operator]] = {}
     for op in ops:
         deadline.tick()
         need_mask, _, keep, _, forbidden, _, agents, cost = op
@@ -79,12 +79,12 @@ def forms_of(ops: Iterable[Op], all_ones: int, deadline: Deadline) -> tuple[Form
         else:
             known.append(op)
     return tuple(
-        Form(agents, need_mask, forbids, all_ones & ~keep, cost, listed)
+        Signature(agents, need_mask, forbids, all_ones & ~keep, cost, listed)
         for (agents, need_mask, forbids, keep, cost), listed in members.items()
     )
 
 
-def set_by(forms: Iterable[Form]) -> int:
+def set_by(forms: Iterable[Signature]) -> int:
     """The fields that some ops set."""
     fields = 0
     for form in forms:
@@ -105,20 +105,20 @@ def split(mask: int, by_lowest_bit: dict[int, int]) -> Iterator[int]:
         mask &= ~field
 
 
-class OpIndex:
+class OperatorIndex:
     """Ops of one leader by the value of one field: the one that most of them ask for."""
 
     __slots__ = ("always", "by_value", "field")
 
-    def __init__(self, forms: Sequence[Form], fields: Sequence[int], deadline: Deadline) -> None:
+    def __init__(self, forms: Sequence[Signature], fields: Sequence[int], deadline: Deadline) -> None:
         by_lowest_bit = {field & -field: field for field in fields}
         asked: Counter[int] = Counter()
         for form in forms:
             for field in split(form.need_mask, by_lowest_bit):
                 asked[field] += len(form.ops)
         self.field = max(fields, key=lambda field: asked[field], default=0)
-        self.by_value: dict[int, list[Op]] = {}
-        self.always: list[Op] = []
+        self.by_value: dict[int, list[Operator]] = {}
+        self.always: list[Operator] = []
         field = self.field
         for form in forms:
             deadline.check()
@@ -128,11 +128,11 @@ class OpIndex:
             for op in form.ops:
                 self.by_value.setdefault(op.need & field, []).append(op)
 
-    def candidates(self, state: int) -> list[Op]:
+    def candidates(self, state: int) -> list[Operator]:
         """Ops whose condition on the field holds in a packed state."""
         return self.by_value.get(state & self.field, []) + self.always
 
 
-def applicable(op: Op, state: int) -> bool:
+def applicable(op: Operator, state: int) -> bool:
     """Whether an op's precondition holds in a packed state."""
     return state & op.need_mask == op.need and all(state & m != value for m, value in op.forbidden)

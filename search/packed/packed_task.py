@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from search.packed.operators import Form, Op, OpIndex, forms_of, set_by
+from search.packed.operators import Operator, OperatorIndex, Signature, forms_of, set_by
 from search.packed.relevance import relevant_to_goals
 from serendipity.model.actions import Condition, conflicting
 from serendipity.model.collection import no_collection
@@ -27,7 +27,7 @@ P = ParamSpec("P")
 
 
 @dataclass(frozen=True, slots=True)
-class Goal:
+class PackedGoal:
     """A packed condition."""
 
     need_mask: int
@@ -49,7 +49,7 @@ class Goal:
         return not self.forbidden or all(state & mask != value for mask, value in self.forbidden)
 
 
-class Encoding:
+class PackedTask:
     """Packed form of a task.
 
     Args:
@@ -115,12 +115,12 @@ class Encoding:
         self.costs = task.derived(_distinct_costs)
         self._cost_index = {cost: i for i, cost in enumerate(self.costs)}
         self._cost_by_identity: dict[int, int] = {}
-        self._ops: dict[int, Op] = {}
+        self._ops: dict[int, Operator] = {}
         self._compatible: dict[tuple[int, int, bool], bool] = {}
         self._derived: dict[Any, Any] = {}
         self._sort_by_actor(deadline)
 
-    def moved_to(self, task: Task, *, derived: bool) -> "Encoding":
+    def moved_to(self, task: Task, *, derived: bool) -> "PackedTask":
         """The same packing for a task that differs in its initial state only.
 
         Args:
@@ -134,7 +134,7 @@ class Encoding:
             moved._derived = {}
         return moved
 
-    def for_goal(self, task: Task) -> "Encoding":
+    def for_goal(self, task: Task) -> "PackedTask":
         """The same packing for a task that differs in the human's goal, over packed facts, only."""
         other = copy(self)
         other.task = task
@@ -143,9 +143,9 @@ class Encoding:
         return other
 
     def _sort_by_actor(self, deadline: Deadline) -> None:
-        own: list[Op] = []
-        joint: list[Op] = []
-        others: list[Op] = []
+        own: list[Operator] = []
+        joint: list[Operator] = []
+        others: list[Operator] = []
         human = self.human_bit
         for op in map(self.op, self.useful):
             deadline.tick()
@@ -161,12 +161,14 @@ class Encoding:
         self.own_forms = forms_of(own, self.all_ones, deadline)
         self.joint_forms = forms_of(joint, self.all_ones, deadline)
         self.other_forms = forms_of(others, self.all_ones, deadline)
-        led: dict[int, list[Form]] = {}
+        led: dict[int, list[Signature]] = {}
         for form in self.other_forms:
             led.setdefault(form.agents & -form.agents, []).append(form)
-        self.own_index = OpIndex(self.own_forms, self.fields, deadline)
-        self.joint_index = OpIndex(self.joint_forms, self.fields, deadline)
-        self.robot_indices = tuple(OpIndex(forms, self.fields, deadline) for _, forms in sorted(led.items()))
+        self.own_index = OperatorIndex(self.own_forms, self.fields, deadline)
+        self.joint_index = OperatorIndex(self.joint_forms, self.fields, deadline)
+        self.robot_indices = tuple(
+            OperatorIndex(forms, self.fields, deadline) for _, forms in sorted(led.items())
+        )
 
     @cached_property
     def outside(self) -> int:
@@ -181,15 +183,17 @@ class Encoding:
             mask |= form.mentions
         return mask
 
-    def is_touch(self, form: Form) -> bool:
-        """Whether ops of the human mention what others change, or others take part (``search.heuristics.interactions``)."""
+    def is_interaction(self, form: Signature) -> bool:
+        """Whether ops of the human mention what others change, or others take part."""
         return self.involves_others(form.agents, form.mentions)
 
     def involves_others(self, agents: int, fields: int) -> bool:
         """Whether others than the human take part, or change some of the fields."""
         return agents != self.human_bit or bool(fields & self.outside)
 
-    def derived(self, build: "Callable[Concatenate[Encoding, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
+    def derived(
+        self, build: "Callable[Concatenate[PackedTask, P], T]", *args: P.args, **kwargs: P.kwargs
+    ) -> T:
         """``build(self, ...)``, computed once: tables that depend on nothing but the packed task.
 
         What else is given may only say how it is built (a deadline to ask for time, say), not what.
@@ -198,7 +202,7 @@ class Encoding:
             self._derived[build] = build(self, *args, **kwargs)
         return self._derived[build]  # type: ignore[no-any-return]
 
-    def kept(self, build: "Callable[Concatenate[Encoding, P], T]") -> T | None:
+    def kept(self, build: "Callable[Concatenate[PackedTask, P], T]") -> T | None:
         """What :meth:`derived` keeps already; None where nobody has asked for it yet."""
         return self._derived.get(build)
 
@@ -215,11 +219,11 @@ class Encoding:
         """The values that a field can have, in place."""
         return self._values[field]
 
-    def condition(self, condition: Condition) -> Goal:
+    def condition(self, condition: Condition) -> PackedGoal:
         """The packed form of a conjunction of literals over packed facts."""
-        return Goal(*self._literals(condition.positive, condition.negative))
+        return PackedGoal(*self._literals(condition.positive, condition.negative))
 
-    def op(self, action_id: int) -> Op:
+    def op(self, action_id: int) -> Operator:
         """The packed form of an action, made when first asked for."""
         op = self._ops.get(action_id)
         if op is None:
@@ -241,14 +245,14 @@ class Encoding:
             self._compatible[key] = answer
         return answer
 
-    def mentioned(self, op: Op) -> int:
+    def mentioned(self, op: Operator) -> int:
         """The fields that an op asks for or sets."""
         mask = op.need_mask | self.all_ones & ~op.keep
         for field, _ in op.forbidden:
             mask |= field
         return mask
 
-    def changed_by(self, ops: Iterable[Op]) -> int:
+    def changed_by(self, ops: Iterable[Operator]) -> int:
         """The union of the fields that some of ``ops`` set."""
         mask = 0
         for op in ops:
@@ -282,7 +286,7 @@ class Encoding:
         # Two values of one variable: a test that no state passes.
         return need_mask, (-1 if impossible else need), tuple(forbidden)
 
-    def _pack_action(self, action_id: int) -> Op:
+    def _pack_action(self, action_id: int) -> Operator:
         action = self.task.actions[action_id]
         need_mask, need, forbidden = self._literals(action.pre, action.neg)
         clear = put = 0
@@ -299,20 +303,20 @@ class Encoding:
         cost = self._cost_by_identity.get(id(action.cost))
         if cost is None:  # the task keeps its costs alive, so identities don't recur
             cost = self._cost_by_identity[id(action.cost)] = self._cost_index[action.cost]
-        return Op(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
+        return Operator(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
 
 
-def encoding(task: Task, deadline: Deadline) -> Encoding:
+def pack(task: Task, deadline: Deadline) -> PackedTask:
     """The encoding of the facts that matter to the goals, kept with the task."""
-    return task.derived(plain_encoding, deadline)
+    return task.derived(pack_plainly, deadline)
 
 
-def plain_encoding(task: Task, deadline: Deadline) -> Encoding:
+def pack_plainly(task: Task, deadline: Deadline) -> PackedTask:
     """An encoding of the facts that matter to the goals."""
-    return Encoding(task, frozenset(), deadline)
+    return PackedTask(task, frozenset(), deadline)
 
 
-def full_encoding(task: Task, deadline: Deadline) -> Encoding:
+def pack_fully(task: Task, deadline: Deadline) -> PackedTask:
     """The encoding that also holds every fact of the human's own domain (SPEC 3.3)."""
     return task.derived(_with_human_facts, deadline)
 
@@ -326,8 +330,8 @@ def human_facts(task: Task) -> frozenset[int]:
     return frozenset(mentioned)
 
 
-def _with_human_facts(task: Task, deadline: Deadline) -> Encoding:
-    return Encoding(task, human_facts(task), deadline)
+def _with_human_facts(task: Task, deadline: Deadline) -> PackedTask:
+    return PackedTask(task, human_facts(task), deadline)
 
 
 def _distinct_costs(task: Task) -> tuple[Fraction, ...]:

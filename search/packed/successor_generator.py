@@ -8,13 +8,13 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
 from typing import NamedTuple
 
-from search.packed.operators import Op, OpIndex, applicable
-from search.packed.packed_task import Encoding
+from search.packed.operators import Operator, OperatorIndex, applicable
+from search.packed.packed_task import PackedTask
 from serendipity.model.actions import disables
 from serendipity.model.deadline import Deadline
 
 
-class Option(NamedTuple):
+class JointAction(NamedTuple):
     """One agent's applicable action, or several robots' at once, in some state."""
 
     weight: int
@@ -31,7 +31,7 @@ class Option(NamedTuple):
 Idle = tuple[int, ...]
 """Per slot for how long a robot has been idle; empty where walks are not folded."""
 
-NOTHING = Option(0, -1, 0, (), 0)
+NOTHING = JointAction(0, -1, 0, (), 0)
 """Everybody waits."""
 
 
@@ -42,13 +42,13 @@ _MANY = 1023
 class Lookup:
     """Weighted ops of one leader; what a value of the index allows is put together once."""
 
-    def __init__(self, index: OpIndex, weight: Callable[[Op], int]) -> None:
+    def __init__(self, index: OperatorIndex, weight: Callable[[Operator], int]) -> None:
         self._index = index
         self._field = index.field
         self._weight = weight
-        self._weighted: dict[int, list[tuple[Op, Option]]] = {}
+        self._weighted: dict[int, list[tuple[Operator, JointAction]]] = {}
 
-    def options(self, state: int) -> list[Option]:
+    def options(self, state: int) -> list[JointAction]:
         """What is applicable in a packed state, cheapest first."""
         candidates = self._weighted.get(state & self._field)
         if candidates is None:
@@ -59,16 +59,16 @@ class Lookup:
             if state & op.need_mask == op.need and (not op.forbidden or applicable(op, state))
         ]
 
-    def _prepare(self, state: int) -> list[tuple[Op, Option]]:
+    def _prepare(self, state: int) -> list[tuple[Operator, JointAction]]:
         found = [(op, as_option(op, self._weight(op))) for op in self._index.candidates(state)]
         found.sort(key=lambda pair: (pair[1].weight, pair[0].action))
         self._weighted[state & self._field] = found
         return found
 
 
-def as_option(op: Op, weight: int) -> Option:
+def as_option(op: Operator, weight: int) -> JointAction:
     """One op as what an agent may do."""
-    return Option(weight, op.keep, op.put, (op.action,), op.agents)
+    return JointAction(weight, op.keep, op.put, (op.action,), op.agents)
 
 
 class Successors:
@@ -84,30 +84,30 @@ class Successors:
 
     def __init__(
         self,
-        encoding: Encoding,
-        weight: Callable[[Op], int],
+        packed: PackedTask,
+        weight: Callable[[Operator], int],
         deadline: Deadline,
         *,
         strict: bool,
         idle: bool = False,
     ) -> None:
-        self._encoding = encoding
+        self._packed = packed
         self._deadline = deadline
         self._strict = strict
-        self._own = Lookup(encoding.own_index, weight)
-        self._joint = Lookup(encoding.joint_index, weight) if encoding.joint and not idle else None
-        self._led = [] if idle else [Lookup(index, weight) for index in encoding.robot_indices]
-        self._busy: dict[int, list[Option]] = {}
+        self._own = Lookup(packed.own_index, weight)
+        self._joint = Lookup(packed.joint_index, weight) if packed.joint and not idle else None
+        self._led = [] if idle else [Lookup(index, weight) for index in packed.robot_indices]
+        self._busy: dict[int, list[JointAction]] = {}
 
-    def human(self, state: int) -> list[Option]:
+    def human(self, state: int) -> list[JointAction]:
         """What the human can do alone in a packed state, cheapest first (not: wait)."""
         return self._own.options(state)
 
-    def joint(self, state: int) -> list[Option]:
+    def joint(self, state: int) -> list[JointAction]:
         """Joint actions with the human that are applicable."""
         return self._joint.options(state) if self._joint is not None else []
 
-    def robots(self, state: int) -> list[Option]:
+    def robots(self, state: int) -> list[JointAction]:
         """Every applicable set of actions of the robots without the human, cheapest first."""
         found = self._busy.get(state)
         if found is None:
@@ -118,13 +118,13 @@ class Successors:
             self._busy[state] = found
         return found
 
-    def with_robots(self, first: Option, state: int) -> Iterator[Option]:
+    def with_robots(self, first: JointAction, state: int) -> Iterator[JointAction]:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
         return self._combine(first, self.robots(state))
 
     def beside(
-        self, first: Option, state: int, idle: Idle, promising: Callable[[Option], bool]
-    ) -> Iterable[Option]:
+        self, first: JointAction, state: int, idle: Idle, promising: Callable[[JointAction], bool]
+    ) -> Iterable[JointAction]:
         """The same, cheapest first, as far as it is possible and worth looking at.
 
         Args:
@@ -135,7 +135,7 @@ class Successors:
         """
         return self.with_robots(first, state)
 
-    def rested(self, idle: Idle, option: Option, state: int) -> Idle:
+    def rested(self, idle: Idle, option: JointAction, state: int) -> Idle:
         """For how long robots are idle after an epoch.
 
         Args:
@@ -145,7 +145,7 @@ class Successors:
         """
         return ()
 
-    def in_turn(self, state: int) -> Iterator[tuple[Option, Option]]:
+    def in_turn(self, state: int) -> Iterator[tuple[JointAction, JointAction]]:
         """What can happen next where epochs don't count: one action, or a set that needs one epoch.
 
         The human's part comes first, then the whole.
@@ -159,7 +159,7 @@ class Successors:
         if not self._strict:  # which keeps apart what could be in a circle
             yield from self._circles([self._entangled(group, groups) for group in groups])
 
-    def _entangled(self, group: list[Option], groups: list[list[Option]]) -> list[Option]:
+    def _entangled(self, group: list[JointAction], groups: list[list[JointAction]]) -> list[JointAction]:
         """Options that may disable others of the groups, and be disabled by them."""
         asked = changed = 0
         for option in chain.from_iterable(other for other in groups if other is not group):
@@ -167,15 +167,15 @@ class Successors:
             changed |= ~option.keep
         return [o for o in group if ~o.keep & asked and self._asked(o) & changed]
 
-    def _asked(self, option: Option) -> int:
+    def _asked(self, option: JointAction) -> int:
         """The fields that a single action asks for."""
-        op = self._encoding.op(option.actions[0])
+        op = self._packed.op(option.actions[0])
         asked = op.need_mask
         for mask, _ in op.forbidden:
             asked |= mask
         return asked
 
-    def _circles(self, groups: list[list[Option]]) -> Iterator[tuple[Option, Option]]:
+    def _circles(self, groups: list[list[JointAction]]) -> Iterator[tuple[JointAction, JointAction]]:
         """Sets of one option from each of several groups that can't be done in a sequence."""
         sets = [NOTHING]
         for group in groups[1:]:
@@ -190,7 +190,7 @@ class Successors:
 
         It does not where actions disable each other in a circle: then it needs one epoch.
         """
-        left = [self._encoding.task.actions[i] for i in actions]
+        left = [self._packed.task.actions[i] for i in actions]
         while left:
             last = next((a for a in left if not any(b is not a and disables(b, a) for b in left)), None)
             if last is None:
@@ -198,14 +198,14 @@ class Successors:
             left.remove(last)
         return True
 
-    def _extend(self, sets: list[Option], more: list[Option]) -> Iterator[Option]:
+    def _extend(self, sets: list[JointAction], more: list[JointAction]) -> Iterator[JointAction]:
         for chosen in sets:
             self._deadline.tick()
             for option in more:
                 if not chosen.agents & option.agents and self._fits(option, chosen):
                     yield together(chosen, option)
 
-    def _combine(self, first: Option, sets: list[Option]) -> Iterator[Option]:
+    def _combine(self, first: JointAction, sets: list[JointAction]) -> Iterator[JointAction]:
         for number, chosen in enumerate(sets):
             if not number & _MANY:
                 self._deadline.check()
@@ -214,17 +214,17 @@ class Successors:
             elif not chosen.agents & first.agents and self._fits(first, chosen):
                 yield together(first, chosen)
 
-    def _fits(self, single: Option, others: Option) -> bool:
+    def _fits(self, single: JointAction, others: JointAction) -> bool:
         """Whether ``single`` (of at most one action) may share an epoch with ``others``."""
         if not single.actions:
             return True
         mine = single.actions[0]
-        return all(self._encoding.compatible(mine, other, self._strict) for other in others.actions)
+        return all(self._packed.compatible(mine, other, self._strict) for other in others.actions)
 
 
-def together(a: Option, b: Option) -> Option:
+def together(a: JointAction, b: JointAction) -> JointAction:
     """Both in one epoch."""
-    return Option(
+    return JointAction(
         a.weight + b.weight,
         a.keep & b.keep,
         a.put | b.put,
@@ -234,7 +234,7 @@ def together(a: Option, b: Option) -> Option:
     )
 
 
-def in_time(option: Option, idle: Idle) -> bool:
+def in_time(option: JointAction, idle: Idle) -> bool:
     """Whether robots have been idle for long enough to have walked to their deeds."""
     late = [slot for slot, steps in option.due if idle[slot] < steps]  # thrice as fast as a generator
     return not late

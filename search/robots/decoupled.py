@@ -16,15 +16,15 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from search.engine.best_first import Node
-from search.packed.operators import Form, Op
-from search.packed.packed_task import Encoding
-from search.packed.successor_generator import Idle, Option, Successors, in_time, together
-from search.robots.transition_graphs import Places
+from search.packed.operators import Operator, Signature
+from search.packed.packed_task import PackedTask
+from search.packed.successor_generator import Idle, JointAction, Successors, in_time, together
+from search.robots.transition_graphs import PositionVariables
 from serendipity.model.deadline import Deadline
 from serendipity.model.plans import Step
 
 
-class Deed(NamedTuple):
+class CenterAction(NamedTuple):
     """A form of robots' ops that are no walks.
 
     Attributes:
@@ -33,12 +33,12 @@ class Deed(NamedTuple):
         at: the robots that take part: slot, and field of the place where each has to be.
     """
 
-    form: Form
+    form: Signature
     need_mask: int
     at: tuple[tuple[int, int], ...]
 
 
-class Walks:
+class Decoupled:
     """The walks of robots that can be folded; kept with the packed task.
 
     Args:
@@ -53,24 +53,24 @@ class Walks:
         foldable: whether every robot's walks can be folded.
     """
 
-    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
-        self._encoding = encoding
-        places = encoding.derived(Places, deadline)
-        self._bits = [1 << robot for robot in encoding.task.robots]
+    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
+        self._packed = packed
+        places = packed.derived(PositionVariables, deadline)
+        self._bits = [1 << robot for robot in packed.task.robots]
         self.fields = [places.field[bit] for bit in self._bits]
         self.mask = sum(self.fields)
-        self._moves: list[dict[int, list[tuple[int, Op]]]] = [{} for _ in self.fields]
+        self._moves: list[dict[int, list[tuple[int, Operator]]]] = [{} for _ in self.fields]
         self._from: dict[tuple[int, int], dict[int, tuple[int, int, int]]] = {}
-        self.joint = DeedIndex((), encoding)
-        self.led: list[DeedIndex] = []
+        self.joint = CenterActionIndex((), packed)
+        self.led: list[CenterActionIndex] = []
         # What only robots together move is the place of each of them, and of none alone.
         apart = all(self.fields) and len({*self.fields}) == len(self.fields)
         self.foldable = apart and self._fold(deadline)
 
     def _fold(self, deadline: Deadline) -> bool:
-        packed = self._encoding
-        joint: list[Deed] = []
-        led: dict[int, list[Deed]] = {}
+        packed = self._packed
+        joint: list[CenterAction] = []
+        led: dict[int, list[CenterAction]] = {}
         if (packed.goal.mask | packed.robot_goal.mask | packed.own_mask) & self.mask:
             return False
         own_facts = self._place_facts()
@@ -86,20 +86,20 @@ class Walks:
                 joint.append(deed)
             else:
                 led.setdefault(form.agents & -form.agents, []).append(deed)
-        self.joint = DeedIndex(joint, packed)
-        self.led = [DeedIndex(deeds, packed) for _, deeds in sorted(led.items())]
+        self.joint = CenterActionIndex(joint, packed)
+        self.led = [CenterActionIndex(deeds, packed) for _, deeds in sorted(led.items())]
         costs = [{op.cost for moves in way.values() for _, op in moves} for way in self._moves]
         return all(len(cost) <= 1 for cost in costs)
 
     def _place_facts(self) -> list[set[int]]:
         """Per slot the facts of its place."""
         found: list[set[int]] = [set() for _ in self.fields]
-        for fact, bits in enumerate(self._encoding.fact_bits):
+        for fact, bits in enumerate(self._packed.fact_bits):
             if bits is not None and bits[0] & self.mask:
                 found[self.fields.index(bits[0])].add(fact)
         return found
 
-    def _without_walks(self, form: Form, facts: Sequence[set[int]]) -> Form:
+    def _without_walks(self, form: Signature, facts: Sequence[set[int]]) -> Signature:
         """The form without the ops in which a robot does nothing but walk; those are noted."""
         if form.agents not in self._bits:
             return form
@@ -109,14 +109,14 @@ class Walks:
             return form
         rest = []
         for op in form.ops:
-            action = self._encoding.task.actions[op.action]
+            action = self._packed.task.actions[op.action]
             if facts[slot].issuperset((*action.pre, *action.neg, *action.add, *action.delete)):
                 self._moves[slot].setdefault(op.need & place, []).append((op.put & place, op))
             else:
                 rest.append(op)
         return form._replace(ops=rest)
 
-    def _deed(self, form: Form) -> Deed | None:
+    def _deed(self, form: Signature) -> CenterAction | None:
         """None where a place is left open, or is somebody's who takes no part."""
         at = []
         for slot, (bit, place) in enumerate(zip(self._bits, self.fields, strict=True)):
@@ -128,13 +128,13 @@ class Walks:
                 return None
         if form.forbids & self.mask:
             return None
-        return Deed(form, form.need_mask & ~self.mask, tuple(at))
+        return CenterAction(form, form.need_mask & ~self.mask, tuple(at))
 
-    def touched_by(self, ops: Iterable[Op]) -> bool:
+    def touched_by(self, ops: Iterable[Operator]) -> bool:
         """Whether some of the human's ops mention a robot's place."""
-        return any(self._encoding.mentioned(op) & self.mask for op in ops)
+        return any(self._packed.mentioned(op) & self.mask for op in ops)
 
-    def weights(self, weight: Callable[[Op], int]) -> list[int]:
+    def weights(self, weight: Callable[[Operator], int]) -> list[int]:
         """Per slot the key increment of one step of a walk."""
         steps = (next((op for moves in way.values() for _, op in moves), None) for way in self._moves)
         return [0 if op is None else weight(op) for op in steps]
@@ -178,7 +178,7 @@ class Walks:
     def steps(self, node: Node) -> Iterator[Step]:
         """The walks that lead to a node's deeds, each right before its deed."""
         while node.parent is not None:
-            for op in map(self._encoding.op, node.actions):
+            for op in map(self._packed.op, node.actions):
                 for slot, (bit, place) in enumerate(zip(self._bits, self.fields, strict=True)):
                     if op.agents & bit:
                         walk = self.walk(slot, node.parent.state & place, op.need & place)
@@ -186,13 +186,13 @@ class Walks:
             node = node.parent
 
 
-class DeedIndex:
+class CenterActionIndex:
     """Deeds by the value of the largest field that they ask for, places aside."""
 
-    def __init__(self, deeds: Iterable[Deed], encoding: Encoding) -> None:
-        largest_first = sorted(encoding.fields, key=lambda field: -len(encoding.values(field)))
-        self._always: list[tuple[Deed, Op]] = []
-        self._by_field: dict[int, dict[int, list[tuple[Deed, Op]]]] = {}
+    def __init__(self, deeds: Iterable[CenterAction], packed: PackedTask) -> None:
+        largest_first = sorted(packed.fields, key=lambda field: -len(packed.values(field)))
+        self._always: list[tuple[CenterAction, Operator]] = []
+        self._by_field: dict[int, dict[int, list[tuple[CenterAction, Operator]]]] = {}
         for deed in deeds:
             field = next((field for field in largest_first if deed.need_mask & field), 0)
             if not field:
@@ -202,14 +202,14 @@ class DeedIndex:
             for op in deed.form.ops:
                 by_value.setdefault(op.need & field, []).append((deed, op))
 
-    def candidates(self, state: int) -> Iterator[tuple[Deed, Op]]:
+    def candidates(self, state: int) -> Iterator[tuple[CenterAction, Operator]]:
         """Ops that may be possible in a packed state, with their deeds."""
         yield from self._always
         for field, by_value in self._by_field.items():
             yield from by_value.get(state & field, ())
 
 
-class FoldedSuccessors(Successors):
+class DecoupledSuccessors(Successors):
     """Successors whose robots do deeds only; their walks are in the weights.
 
     Args:
@@ -222,27 +222,27 @@ class FoldedSuccessors(Successors):
 
     def __init__(
         self,
-        encoding: Encoding,
-        walks: Walks,
-        weight: Callable[[Op], int],
+        packed: PackedTask,
+        walks: Decoupled,
+        weight: Callable[[Operator], int],
         deadline: Deadline,
         *,
         strict: bool,
     ) -> None:
-        super().__init__(encoding, weight, deadline, strict=strict, idle=True)
+        super().__init__(packed, weight, deadline, strict=strict, idle=True)
         self._walks = walks
         self._weight = weight
         self._step = walks.weights(weight)
-        self._possible: dict[int, tuple[list[Option], list[list[Option]]]] = {}
-        self._latest: tuple[int, Idle, list[list[Option]]] = (-1, (), [])
+        self._possible: dict[int, tuple[list[JointAction], list[list[JointAction]]]] = {}
+        self._latest: tuple[int, Idle, list[list[JointAction]]] = (-1, (), [])
 
-    def joint(self, state: int) -> list[Option]:
+    def joint(self, state: int) -> list[JointAction]:
         """See :class:`Successors`."""
         return self._all(state)[0]
 
     def beside(
-        self, first: Option, state: int, idle: Idle, promising: Callable[[Option], bool]
-    ) -> list[Option]:
+        self, first: JointAction, state: int, idle: Idle, promising: Callable[[JointAction], bool]
+    ) -> list[JointAction]:
         """See :class:`Successors`."""
         found = [first]
         for options in self._in_time(state, idle):
@@ -257,12 +257,12 @@ class FoldedSuccessors(Successors):
         found.sort(key=lambda option: option.weight)
         return found
 
-    def _beside(self, deed: Option, sets: list[Option]) -> list[Option]:
+    def _beside(self, deed: JointAction, sets: list[JointAction]) -> list[JointAction]:
         """The sets that a deed fits."""
         self._deadline.tick()
         return [chosen for chosen in sets if not deed.agents & chosen.agents and self._fits(deed, chosen)]
 
-    def rested(self, idle: Idle, option: Option, state: int) -> Idle:
+    def rested(self, idle: Idle, option: JointAction, state: int) -> Idle:
         """See :class:`Successors`."""
         busy = {slot for slot, _ in option.due}
         walks = self._walks
@@ -271,21 +271,21 @@ class FoldedSuccessors(Successors):
             for slot, epochs in enumerate(idle)
         )
 
-    def _in_time(self, state: int, idle: Idle) -> list[list[Option]]:
+    def _in_time(self, state: int, idle: Idle) -> list[list[JointAction]]:
         """Deeds to which the robots that lead them can have walked by now."""
         if self._latest[:2] != (state, idle):
             ready = [[deed for deed in led if in_time(deed, idle)] for led in self._all(state)[1]]
             self._latest = state, idle, ready
         return self._latest[2]
 
-    def _all(self, state: int) -> tuple[list[Option], list[list[Option]]]:
+    def _all(self, state: int) -> tuple[list[JointAction], list[list[JointAction]]]:
         found = self._possible.get(state)
         if found is None:
             led = [self._options(index, state) for index in self._walks.led]
             found = self._possible[state] = self._options(self._walks.joint, state), led
         return found
 
-    def _options(self, index: DeedIndex, state: int) -> list[Option]:
+    def _options(self, index: CenterActionIndex, state: int) -> list[JointAction]:
         """Deeds that are possible after a walk, cheapest first."""
         self._deadline.check()
         walks, found = self._walks, []
@@ -304,6 +304,6 @@ class FoldedSuccessors(Successors):
                     keep, put = keep & ~field, put | place
                 due.append((slot, steps))
             else:
-                found.append(Option(weight, keep, put, (op.action,), op.agents, tuple(due)))
+                found.append(JointAction(weight, keep, put, (op.action,), op.agents, tuple(due)))
         found.sort(key=lambda option: option.weight)
         return found

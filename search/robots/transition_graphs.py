@@ -7,14 +7,14 @@ from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from typing import TypeVar
 
-from search.packed.operators import Form, Op, set_by, split
-from search.packed.packed_task import Encoding
+from search.packed.operators import Operator, Signature, set_by, split
+from search.packed.packed_task import PackedTask
 from serendipity.model.deadline import Deadline
 
 Item = TypeVar("Item")
 
 
-class Places:
+class PositionVariables:
     """The place field of each robot, and what moves it; kept with the packed task.
 
     Attributes:
@@ -23,23 +23,23 @@ class Places:
         walks: the same with the index of the op's cost.
     """
 
-    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
+    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
         self.field: dict[int, int] = {}
-        self.moves: dict[int, dict[int, list[tuple[int, Op]]]] = {}
-        forms = (*encoding.own_forms, *encoding.joint_forms, *encoding.other_forms)
-        for robot in encoding.task.robots:
+        self.moves: dict[int, dict[int, list[tuple[int, Operator]]]] = {}
+        forms = (*packed.own_forms, *packed.joint_forms, *packed.other_forms)
+        for robot in packed.task.robots:
             bit = 1 << robot
-            mine = [form for form in encoding.other_forms if form.agents & bit]
+            mine = [form for form in packed.other_forms if form.agents & bit]
             foreign = set_by(form for form in forms if not form.agents & bit)
             private = set_by(mine) & ~foreign
             counts = {
                 field: sum(len(form.ops) for form in mine if form.need_mask & field)
-                for field in encoding.fields
+                for field in packed.fields
                 if field & private
             }
             field = max(counts, key=lambda f: counts[f], default=0)
             self.field[bit] = field
-            moves: dict[int, list[tuple[int, Op]]] = {}
+            moves: dict[int, list[tuple[int, Operator]]] = {}
             for form in mine:
                 if not field & form.sets:
                     continue
@@ -52,7 +52,7 @@ class Places:
         self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
 
 
-class Acts:
+class TransitionGraph:
     """Robots' ops as one outside field sees them; kept with the packed task.
 
     Attributes:
@@ -60,10 +60,10 @@ class Acts:
             place, and the index of the cost.  Walks that are possible anywhere stand under -1.
     """
 
-    def __init__(self, field: int, forms: Sequence[Form], places: Places) -> None:
+    def __init__(self, field: int, forms: Sequence[Signature], places: PositionVariables) -> None:
         self._on = by_value(field, forms)
         self._places = places.field
-        self._here: dict[tuple[int, int], dict[int, list[Op]]] = {}
+        self._here: dict[tuple[int, int], dict[int, list[Operator]]] = {}
         self.walks = places.walks
         if any(
             form.agents & bit and form.sets & place for form in forms for bit, place in self._places.items()
@@ -71,7 +71,7 @@ class Acts:
             mentioning = {op.action for form in forms for op in form.ops}
             self.walks = {robot: _walks(moves, mentioning) for robot, moves in places.moves.items()}
 
-    def on(self, value: int) -> list[Op]:
+    def on(self, value: int) -> list[Operator]:
         """What robots can do to a value of the field."""
         return with_anything(self._on, value)
 
@@ -79,7 +79,7 @@ class Acts:
         """Where a robot can walk from a place, with the index of the cost."""
         return with_anything(self.walks[robot], place)
 
-    def by_place(self, value: int, robot: int) -> dict[int, list[Op]]:
+    def by_place(self, value: int, robot: int) -> dict[int, list[Operator]]:
         """What a robot can do to a value of the field, by its place (-1: anywhere)."""
         found = self._here.get((value, robot))
         if found is None:
@@ -91,24 +91,24 @@ class Acts:
         return found
 
 
-class AllActs:
-    """:class:`Acts` by field, made when first asked for; kept with the packed task."""
+class TransitionGraphs:
+    """:class:`TransitionGraph` by field, made when first asked for; kept with the packed task."""
 
-    def __init__(self, encoding: Encoding, deadline: Deadline) -> None:
-        self._encoding = encoding
-        self._places = encoding.derived(Places, deadline)
-        self._mentioning: dict[int, list[Form]] = {}
-        by_lowest_bit = {field & -field: field for field in encoding.fields}
-        for form in encoding.other_forms:
+    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
+        self._packed = packed
+        self._places = packed.derived(PositionVariables, deadline)
+        self._mentioning: dict[int, list[Signature]] = {}
+        by_lowest_bit = {field & -field: field for field in packed.fields}
+        for form in packed.other_forms:
             for field in split(form.mentions, by_lowest_bit):
                 self._mentioning.setdefault(field, []).append(form)
-        self._known: dict[int, Acts] = {}
+        self._known: dict[int, TransitionGraph] = {}
 
-    def on(self, field: int) -> Acts:
+    def on(self, field: int) -> TransitionGraph:
         """What robots' ops are to a field."""
         if field not in self._known:
             forms = self._mentioning.get(field, ())
-            self._known[field] = Acts(field, forms, self._places)
+            self._known[field] = TransitionGraph(field, forms, self._places)
         return self._known[field]
 
 
@@ -119,7 +119,9 @@ def with_anything(by_value: dict[int, list[Item]], value: int) -> list[Item]:
     return known + anything if anything else known
 
 
-def _walks(moves: dict[int, list[tuple[int, Op]]], but: AbstractSet[int]) -> dict[int, list[tuple[int, int]]]:
+def _walks(
+    moves: dict[int, list[tuple[int, Operator]]], but: AbstractSet[int]
+) -> dict[int, list[tuple[int, int]]]:
     """Moves with the index of their cost, some actions left out."""
     return {
         origin: [(there, op.cost) for there, op in ops if op.action not in but]
@@ -127,9 +129,9 @@ def _walks(moves: dict[int, list[tuple[int, Op]]], but: AbstractSet[int]) -> dic
     }
 
 
-def by_value(field: int, forms: Iterable[Form]) -> dict[int, list[Op]]:
+def by_value(field: int, forms: Iterable[Signature]) -> dict[int, list[Operator]]:
     """Ops by the value of a field that they ask for; under -1 where they don't."""
-    found: dict[int, list[Op]] = {}
+    found: dict[int, list[Operator]] = {}
     for form in forms:
         if not form.need_mask & field:
             found.setdefault(-1, []).extend(form.ops)

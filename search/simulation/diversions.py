@@ -1,6 +1,6 @@
 """Joint actions that contribute to no goal, and still change what a human who replans does (SPEC 6)."""
 
-from search.packed.packed_task import Encoding, encoding
+from search.packed.packed_task import PackedTask, pack
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
 
@@ -10,13 +10,13 @@ def diversions(task: Task, deadline: Deadline) -> tuple[int, ...]:
     return task.derived(_find, deadline)
 
 
-def with_diversions(task: Task, deadline: Deadline) -> Encoding:
+def with_diversions(task: Task, deadline: Deadline) -> PackedTask:
     """The task packed with them; kept with it."""
-    return task.derived(_packed, deadline) if diversions(task, deadline) else encoding(task, deadline)
+    return task.derived(_packed, deadline) if diversions(task, deadline) else pack(task, deadline)
 
 
 def _find(task: Task, deadline: Deadline) -> tuple[int, ...]:
-    packed, found = encoding(task, deadline), list[int]()
+    packed, found = pack(task, deadline), list[int]()
     for i, action in enumerate(task.actions):
         deadline.tick()
         if action.joint and not action.cost and task.human in action.participants and not packed.is_useful(i):
@@ -24,5 +24,5 @@ def _find(task: Task, deadline: Deadline) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _packed(task: Task, deadline: Deadline) -> Encoding:
-    return Encoding(task, frozenset(), deadline, diversions(task, deadline))
+def _packed(task: Task, deadline: Deadline) -> PackedTask:
+    return PackedTask(task, frozenset(), deadline, diversions(task, deadline))

@@ -9,7 +9,7 @@ a bit by itself.
 from dataclasses import replace
 from typing import Protocol
 
-from search.packed.packed_task import Encoding
+from search.packed.packed_task import PackedTask
 from search.simulation.diversions import diversions
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
@@ -35,7 +35,7 @@ class Everywhere:
 class Nearby:
     """The local human: he sees what is where he is."""
 
-    def __init__(self, encoding: Encoding, places: Surroundings) -> None:
+    def __init__(self, encoding: PackedTask, places: Surroundings) -> None:
         task = encoding.task
         self._human = task.agents[task.human]
         self._naming = _naming(encoding, places)
@@ -71,7 +71,7 @@ class Nearby:
 class AsTold:
     """The local human of a caller who says himself what is visible."""
 
-    def __init__(self, encoding: Encoding, visible: Visible) -> None:
+    def __init__(self, encoding: PackedTask, visible: Visible) -> None:
         self._encoding = encoding
         self._visible = visible
         self._seen: dict[int, int] = {}
@@ -93,7 +93,7 @@ class AsTold:
         return seen
 
 
-def doubtful_encoding(task: Task, extra: frozenset[int], deadline: Deadline) -> Encoding:
+def doubtful_encoding(task: Task, extra: frozenset[int], deadline: Deadline) -> PackedTask:
     """The task packed for a human who may be wrong, location facts included.
 
     Args:
@@ -106,21 +106,21 @@ def doubtful_encoding(task: Task, extra: frozenset[int], deadline: Deadline) -> 
     return _packed(task, extra.union(surroundings(task, deadline.tick).located), deadline)
 
 
-def complete_encoding(task: Task, deadline: Deadline) -> Encoding:
+def complete_encoding(task: Task, deadline: Deadline) -> PackedTask:
     """The same with every fact packed, for callers who say what is visible; kept with it."""
     return task.derived(_complete, deadline)
 
 
-def _doubtful(task: Task, deadline: Deadline) -> Encoding:
+def _doubtful(task: Task, deadline: Deadline) -> PackedTask:
     return _packed(task, frozenset(surroundings(task, deadline.tick).located), deadline)
 
 
-def _complete(task: Task, deadline: Deadline) -> Encoding:
+def _complete(task: Task, deadline: Deadline) -> PackedTask:
     return _packed(task, frozenset(range(len(task.facts))), deadline)
 
 
-def _packed(task: Task, facts: frozenset[int], deadline: Deadline) -> Encoding:
-    return Encoding(_doubted(task, deadline), facts, deadline, diversions(task, deadline))
+def _packed(task: Task, facts: frozenset[int], deadline: Deadline) -> PackedTask:
+    return PackedTask(_doubted(task, deadline), facts, deadline, diversions(task, deadline))
 
 
 def _doubted(task: Task, deadline: Deadline) -> Task:
@@ -145,7 +145,7 @@ def _doubted(task: Task, deadline: Deadline) -> Task:
     return doubted
 
 
-def _naming(encoding: Encoding, places: Surroundings) -> dict[str, int]:
+def _naming(encoding: PackedTask, places: Surroundings) -> dict[str, int]:
     """Per name the fields of the facts that are about it."""
     naming: dict[str, int] = {}
     for fact, parts in enumerate(places.parts):

@@ -3,11 +3,11 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from search.human.individual_planner import Alone, Priced, canonical
-from search.human.pattern_database import Projection, human_projection
+from search.human.individual_planner import IndividualPlanner, PricedPlanner, canonical
+from search.human.pattern_database import PatternDatabase, human_projection
 from search.packed.cost_vector import INFINITE_KEY, Weights
-from search.packed.operators import Op, applicable
-from search.packed.packed_task import Encoding
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedTask
 from search.simulation.diversions import diversions, with_diversions
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
 from search.simulation.intention import Intention, Intentions
@@ -18,7 +18,7 @@ from serendipity.model.visibility import Visible, surroundings
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Glance:
     """What a look makes of his plan; costs are scaled, None is infinite.
 
     Attributes:
@@ -61,25 +61,25 @@ class Human:
     ) -> None:
         local = human_model == "local"
         told = local and visible is not None
-        plain, self.encoding = _encodings(task, actions, deadline, local=local, told=told)
-        self.weights = Weights(self.encoding, options, None)
+        plain, self.packed = _encodings(task, actions, deadline, local=local, told=told)
+        self.weights = Weights(self.packed, options, None)
         self.keys = self.weights.keys
         bound = human_projection(plain, self.weights, deadline)
-        self.bound = _translated(bound, plain, self.encoding) if local else bound
+        self.bound = _translated(bound, plain, self.packed) if local else bound
         self.alone = (
-            Alone(self.encoding, self.encoding.goal, self.weights.alone, self.bound, deadline)
+            IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, deadline)
             if local
-            else Priced(self.encoding, self.weights, deadline)
+            else PricedPlanner(self.packed, self.weights, deadline)
         )
-        self.intentions = Intentions(self.encoding, self.keys, self.weights.human)
-        self.eyes: Eyes = _eyes(task, self.encoding, visible, deadline) if local else Everywhere()
-        self.concern = self.encoding.own_mask | self.encoding.goal.mask
+        self.intentions = Intentions(self.packed, self.keys, self.weights.human)
+        self.eyes: Eyes = _eyes(task, self.packed, visible, deadline) if local else Everywhere()
+        self.concern = self.packed.own_mask | self.packed.goal.mask
         for i in actions:
             if task.actions[i].participants == (task.human,):
-                self.concern |= _asked_by(self.encoding.op(i))
-        self._looks: dict[tuple[int, int], Look] = {}
+                self.concern |= _asked_by(self.packed.op(i))
+        self._looks: dict[tuple[int, int], Glance] = {}
 
-    def decide(self, belief: int, intention: Intention) -> Look:
+    def decide(self, belief: int, intention: Intention) -> Glance:
         """Step 1: whether he keeps his plan, makes another, or waits."""
         key = (belief & self.concern, intention.number)
         look = self._looks.get(key)
@@ -87,16 +87,16 @@ class Human:
             look = self._looks[key] = self._decide(belief, intention)
         return look
 
-    def _decide(self, belief: int, intention: Intention) -> Look:
-        kept = intention.cost if intention.works(belief, self.encoding.goal) else None
+    def _decide(self, belief: int, intention: Intention) -> Glance:
+        kept = intention.cost if intention.works(belief, self.packed.goal) else None
         limit = INFINITE_KEY if kept is None else self.key_of(kept)
         best = self.alone.key(belief, limit)
         if best >= limit:
-            return Look(intention, kept, kept)
+            return Glance(intention, kept, kept)
         plan = canonical(self.alone, belief)
-        return Look(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
+        return Glance(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
 
-    def accepts(self, joint: Op, belief: int, best: int | None) -> bool:
+    def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
         """Step 2: whether he takes part, ``best`` being his cost alone now."""
         if not applicable(joint, belief):
             return False
@@ -112,7 +112,7 @@ class Human:
         """Whether he has no plan alone from a packed state, as it truly is."""
         return self.alone.key(state) >= INFINITE_KEY
 
-    def learn(self, belief: int, state: int, op: Op) -> int:
+    def learn(self, belief: int, state: int, op: Operator) -> int:
         """The belief after he tried an action in vain: its preconditions as they are."""
         mask = _asked_by(op)
         return belief & ~mask | state & mask
@@ -124,12 +124,12 @@ class Human:
 
 def _encodings(
     task: Task, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
-) -> tuple[Encoding, Encoding]:
+) -> tuple[PackedTask, PackedTask]:
     """The task packed as it is, and as he sees it; both hold what the actions ask for."""
     plain = with_diversions(task, deadline)
     missing = _missing(plain, actions)
     if missing:
-        plain = Encoding(task, missing, deadline, diversions(task, deadline))
+        plain = PackedTask(task, missing, deadline, diversions(task, deadline))
     if not local:
         return plain, plain
     if told:
@@ -137,7 +137,7 @@ def _encodings(
     return plain, doubtful_encoding(task, missing, deadline)
 
 
-def _missing(packed: Encoding, actions: Collection[int]) -> frozenset[int]:
+def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
     """Facts to pack for actions that can't contribute to a goal, but may be done or tried."""
     task = packed.task
     asked = {f for i in actions for f in (*task.actions[i].pre, *task.actions[i].neg)}
@@ -149,7 +149,7 @@ def _missing(packed: Encoding, actions: Collection[int]) -> frozenset[int]:
     return frozenset(missing)
 
 
-def _asked_by(op: Op) -> int:
+def _asked_by(op: Operator) -> int:
     """The fields that an op's precondition looks at."""
     mask = op.need_mask
     for field, _ in op.forbidden:
@@ -157,11 +157,11 @@ def _asked_by(op: Op) -> int:
     return mask
 
 
-def _eyes(task: Task, packed: Encoding, visible: Visible | None, deadline: Deadline) -> Eyes:
+def _eyes(task: Task, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:
     return Nearby(packed, surroundings(task, deadline.tick)) if visible is None else AsTold(packed, visible)
 
 
-def _translated(bound: Projection, plain: Encoding, packed: Encoding) -> Projection:
+def _translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) -> PatternDatabase:
     """A bound on private variables, for states that are packed in another way.
 
     The bound of the other packing itself would also look at single facts of shared
@@ -178,4 +178,4 @@ def _translated(bound: Projection, plain: Encoding, packed: Encoding) -> Project
         sum(values.get(state & field, 0) for field, values in fields.items()): distance
         for state, distance in bound.distances.items()
     }
-    return Projection(mask, distances)
+    return PatternDatabase(mask, distances)

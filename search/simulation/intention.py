@@ -4,10 +4,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from search.packed.cost_vector import Keys
-from search.packed.operators import Op, applicable
-from search.packed.packed_task import Encoding, Goal
-from search.packed.successor_generator import NOTHING, Option
+from search.packed.cost_vector import CostLayout
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.successor_generator import NOTHING, JointAction
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,8 +24,8 @@ class Intention:
     """
 
     number: int
-    op: Op | None
-    option: Option
+    op: Operator | None
+    option: JointAction
     _rest: "Intention | None"
     weight: int
     cost: int
@@ -45,7 +45,7 @@ class Intention:
             at = at.rest
         return tuple(found)
 
-    def works(self, state: int, goal: Goal) -> bool:
+    def works(self, state: int, goal: PackedGoal) -> bool:
         """Whether it leads from a packed state to the goal, with robots idle."""
         at = self
         while at.op is not None:
@@ -59,8 +59,8 @@ class Intention:
 class Intentions:
     """Makes intentions, each sequence once."""
 
-    def __init__(self, encoding: Encoding, keys: Keys, weights: list[int]) -> None:
-        self._encoding = encoding
+    def __init__(self, packed: PackedTask, keys: CostLayout, weights: list[int]) -> None:
+        self._packed = packed
         self._keys = keys
         self._weights = weights
         self._known: dict[tuple[int, ...], Intention] = {(): Intention(0, None, NOTHING, None, 0, 0)}
@@ -77,8 +77,8 @@ class Intentions:
         return found
 
     def _before(self, action: int, rest: Intention) -> Intention:
-        op = self._encoding.op(action)
+        op = self._packed.op(action)
         weight = self._weights[op.cost]
-        option = Option(weight, op.keep, op.put, (op.action,), op.agents)
+        option = JointAction(weight, op.keep, op.put, (op.action,), op.agents)
         cost = rest.cost + self._keys.scaled_cost(weight)
         return Intention(len(self._known), op, option, rest, rest.weight + weight, cost)

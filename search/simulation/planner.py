@@ -10,7 +10,7 @@ from search.packed.successor_generator import Successors, as_option
 from search.planner import optimal_human_plans
 from search.simulation.human import Human
 from search.simulation.space import Reactive
-from search.spaces.fixed_human_plan import Followed
+from search.spaces.fixed_human_plan import FixedHumanPlan
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.options import Options
@@ -145,12 +145,12 @@ class _Call:
 
     def _follow(self) -> None:
         """The plan in which he does ``pi_H`` exactly, robots seeing to ``G_R`` beside him."""
-        packed, weights = self.human.encoding, self.human.weights
+        packed, weights = self.human.packed, self.human.weights
         steps = [(op, as_option(op, weights.team(op))) for op in map(packed.op, self.plan)]
         if not self.task.robot_goal:
             self.baseline.key = sum(option.weight for _, option in steps)
             return
-        space = Followed(
+        space = FixedHumanPlan(
             initial=packed.init,
             horizon=self.epochs,
             steps=steps,
@@ -177,7 +177,7 @@ class _Call:
 
     def _successors(self, *, idle: bool) -> Successors:
         return Successors(
-            self.human.encoding,
+            self.human.packed,
             self.human.weights.team,
             self.deadline,
             strict=self.options.strict,

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.packed.operators import Op, applicable
-from search.simulation.human import Human, Look
+from search.packed.operators import Operator, applicable
+from search.simulation.human import Glance, Human
 from search.simulation.intention import Intention
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, limit_reason
@@ -148,10 +148,10 @@ class _Run:
         self.deadline = deadline
         self.strict = options.strict
         self.human = human
-        self.encoding = human.encoding
+        self.packed = human.packed
         self.planned = planned
         self.settled = False
-        self.state = self.expected = self.encoding.init
+        self.state = self.expected = self.packed.init
 
     def play(self, human_plan: HumanPlan, horizon: int | None) -> Simulated:
         intention = self.human.intentions.of(human_plan)
@@ -174,7 +174,7 @@ class _Run:
         return Simulated(tuple(epochs), self._done(), self._cost(epochs), limit)
 
     def _epoch(self, number: int, intention: Intention) -> tuple[Epoch, Intention]:
-        human, encoding = self.human, self.encoding
+        human, packed = self.human, self.packed
         belief = human.eyes.look(self.expected, self.state)
         saw = self._differences(self.expected, belief)
         look = self._look(belief, intention)
@@ -190,7 +190,7 @@ class _Run:
             self.expected = human.learn(belief, self.state, own)
         else:
             self.expected = belief if did is None else belief & did.keep | did.put
-        self._apply([encoding.op(i) for i in robots] + ([] if did is None else [did]))
+        self._apply([packed.op(i) for i in robots] + ([] if did is None else [did]))
         epoch = Epoch(
             number,
             saw,
@@ -206,19 +206,21 @@ class _Run:
         )
         return epoch, intention.rest if own is not None and not failed else intention
 
-    def _look(self, belief: int, intention: Intention) -> Look:
+    def _look(self, belief: int, intention: Intention) -> Glance:
         """Step 1; while all goes as he expected, the rest of an optimal plan is optimal."""
         if self.settled and not (belief ^ self.expected) & self.human.concern:
-            return Look(intention, intention.cost, intention.cost)
+            return Glance(intention, intention.cost, intention.cost)
         return self.human.decide(belief, intention)
 
-    def _joint(self, offered: Sequence[int], belief: int, look: Look) -> tuple[Op | None, list[Skipped]]:
+    def _joint(
+        self, offered: Sequence[int], belief: int, look: Glance
+    ) -> tuple[Operator | None, list[Skipped]]:
         """The joint action with him that takes place, and those that do not."""
-        taken: Op | None = None
+        taken: Operator | None = None
         skipped = []
         for i in offered:
-            op = self.encoding.op(i)
-            if not op.agents & self.encoding.human_bit:
+            op = self.packed.op(i)
+            if not op.agents & self.packed.human_bit:
                 continue
             if not applicable(op, self.state):
                 skipped.append(Skipped(i, INAPPLICABLE))
@@ -230,17 +232,17 @@ class _Run:
                 skipped.append(Skipped(i, REFUSED))
         return taken, skipped
 
-    def _robots(self, offered: Sequence[int], his: Op | None, skipped: list[Skipped]) -> list[int]:
+    def _robots(self, offered: Sequence[int], his: Operator | None, skipped: list[Skipped]) -> list[int]:
         """What robots do without him; he has priority, and among them the smaller id."""
         done: list[int] = []
         taken = [] if his is None else [his.action]
         for i in offered:
-            op = self.encoding.op(i)
-            if op.agents & self.encoding.human_bit:
+            op = self.packed.op(i)
+            if op.agents & self.packed.human_bit:
                 continue
             if not applicable(op, self.state):
                 skipped.append(Skipped(i, INAPPLICABLE))
-            elif not all(self.encoding.compatible(i, j, self.strict) for j in (*taken, *done)):
+            elif not all(self.packed.compatible(i, j, self.strict) for j in (*taken, *done)):
                 skipped.append(Skipped(i, CONFLICT))
             else:
                 done.append(i)
@@ -249,9 +251,9 @@ class _Run:
     def _variant(self, action: int) -> int:
         """Of ground actions with one name and the same agents, one that is applicable."""
         possible = variants(self.task, action)
-        return next((i for i in possible if applicable(self.encoding.op(i), self.state)), action)
+        return next((i for i in possible if applicable(self.packed.op(i), self.state)), action)
 
-    def _apply(self, ops: Sequence[Op]) -> None:
+    def _apply(self, ops: Sequence[Operator]) -> None:
         keep, put = -1, 0
         for op in ops:
             keep &= op.keep
@@ -259,7 +261,7 @@ class _Run:
         self.state = self.state & keep | put
 
     def _done(self) -> bool:
-        return self.encoding.goal.holds(self.state) and self.encoding.robot_goal.holds(self.state)
+        return self.packed.goal.holds(self.state) and self.packed.robot_goal.holds(self.state)
 
     def _differences(self, expected: int, found: int) -> tuple[tuple[int, bool], ...]:
         different = (expected ^ found) & self.human.concern
@@ -267,7 +269,7 @@ class _Run:
             return ()
         return tuple(
             (fact, found & bits[0] == bits[1])
-            for fact, bits in enumerate(self.encoding.fact_bits)
+            for fact, bits in enumerate(self.packed.fact_bits)
             if bits is not None
             and bits[0] & different
             and (expected & bits[0] == bits[1]) != (found & bits[0] == bits[1])
@@ -278,5 +280,5 @@ class _Run:
 
     def _cost(self, epochs: Iterable[Epoch]) -> Fraction:
         human = self.human
-        keys = sum(human.weights.team(self.encoding.op(i)) for epoch in epochs for i in epoch.executed)
+        keys = sum(human.weights.team(self.packed.op(i)) for epoch in epochs for i in epoch.executed)
         return human.keys.cost(keys)

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from search.engine.best_first import Incumbent, Node
-from search.engine.dominance import Labels
+from search.engine.dominance import ParetoFront
 from search.packed.operators import applicable
-from search.packed.successor_generator import NOTHING, Option, Successors
-from search.simulation.human import Human, Look
+from search.packed.successor_generator import NOTHING, JointAction, Successors
+from search.simulation.human import Glance, Human
 from search.simulation.intention import Intention
 
 
@@ -61,18 +61,18 @@ class Reactive:
         self._most_cost = most_cost
         self._no_block = no_block
         self._sees_all = sees_all
-        packed = human.encoding
+        packed = human.packed
         self._goals = (packed.goal, packed.robot_goal)
         self._offers_idle = sees_all and not packed.task.robot_goal
         self._width = packed.all_ones.bit_length()
-        self._labels = Labels()
+        self._labels = ParetoFront()
         self._minds: list[Mind] = []
         self._numbers: dict[tuple[int, int, bool], int] = {}
         self._intention = human.intentions.of(human_plan)
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, the human with ``pi_H`` in mind."""
-        init = self._human.encoding.init
+        init = self._human.packed.init
         mind = self._number(Mind(self._belief(init), self._intention, False))
         node = Node(0, 0, init, mind << 1, 0, None, ())
         self._labels.add(self._place(node), 0, 0)
@@ -97,22 +97,22 @@ class Reactive:
             self._offer_idle(node, look.intention, best)
         yield from self._act(node, best, belief, look, guarded=self._no_block and not stuck)
 
-    def _look(self, mind: Mind, state: int, *, settled: bool) -> tuple[int, Look]:
+    def _look(self, mind: Mind, state: int, *, settled: bool) -> tuple[int, Glance]:
         """What he believes and decides; while all goes as expected an optimal plan stays so."""
         human, rho = self._human, mind.intention
         belief = state if self._sees_all else human.eyes.look(mind.belief, state)
         surprised = not self._sees_all and (belief ^ mind.belief) & human.concern
         if settled and not surprised:
-            return belief, Look(rho, rho.cost, rho.cost)
+            return belief, Glance(rho, rho.cost, rho.cost)
         return belief, human.decide(belief, rho)
 
     def _act(
-        self, node: Node, best: Incumbent, belief: int, look: Look, *, guarded: bool
+        self, node: Node, best: Incumbent, belief: int, look: Glance, *, guarded: bool
     ) -> Iterator[tuple[int, Node]]:
         human, state = self._human, node.state
         rho = look.intention
         for joint in self._successors.joint(state):
-            op = human.encoding.op(joint.actions[0])
+            op = human.packed.op(joint.actions[0])
             if human.accepts(op, belief, look.best):
                 mind = Mind(self._belief(belief & op.keep | op.put), rho, guarded)
                 yield from self._children(node, best, joint, mind, settled=False)
@@ -127,7 +127,7 @@ class Reactive:
             yield from self._children(node, best, NOTHING, mind, settled=False)
 
     def _children(
-        self, node: Node, best: Incumbent, part: Option, mind: Mind, *, settled: bool
+        self, node: Node, best: Incumbent, part: JointAction, mind: Mind, *, settled: bool
     ) -> Iterator[tuple[int, Node]]:
         """What robots can do beside the human's part."""
         epoch, state, human = node.epoch + 1, node.state, self._human
@@ -165,7 +165,7 @@ class Reactive:
             return
         best.key, best.node, best.end, best.tail = key, node, node.epoch + 1, intention.actions
 
-    def _stuck(self, state: int, look: Look) -> bool:
+    def _stuck(self, state: int, look: Glance) -> bool:
         """Whether he has no plan alone in the true state."""
         if self._sees_all:
             return look.best is None

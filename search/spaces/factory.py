@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Sequence
 
-from search.context import Tables
-from search.engine.dominance import Labels
-from search.heuristics.achievers import Providers
-from search.heuristics.first_interaction import Bounds, Helped, Timed, no_bound, survivors
-from search.heuristics.prefix_bounds import HelpedOnTheWay, Openings
+from search.context import SearchContext
+from search.engine.dominance import ParetoFront
+from search.heuristics.achievers import Achievers
+from search.heuristics.first_interaction import Bounds, FirstInteraction, Timed, no_bound, survivors
+from search.heuristics.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
 from search.heuristics.private_distances import NEVER
 from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
-from search.packed.cost_vector import INFINITE_KEY, Keys
+from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.packed_task import human_facts
 from search.spaces.windowed import AnyOfPlan, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
@@ -17,7 +17,7 @@ from serendipity.model.task import HumanPlan
 
 
 def window_space(
-    tables: Tables, plan: HumanPlan, horizon: int, most_cost: int | None, limit: int, *, idle: bool
+    context: SearchContext, plan: HumanPlan, horizon: int, most_cost: int | None, limit: int, *, idle: bool
 ) -> Windowed:
     """The space of plans with a window.
 
@@ -29,37 +29,37 @@ def window_space(
         limit: key that a plan has to beat.
         idle: robots do nothing.
     """
-    options = tables.options
-    walks = None if idle else tables.walks(plan)
-    successors = tables.successors(idle=idle) if walks is None else tables.folded(walks)
+    options = context.options
+    walks = None if idle else context.walks(plan)
+    successors = context.successors(idle=idle) if walks is None else context.folded(walks)
     prefix: Prefix
     if options.keep_prefix:
         untouched: Timed = no_bound
-        prefix = AnyOfPlan(successors, tables.task, plan, tables.bound, tables.keys, horizon)
+        prefix = AnyOfPlan(successors, context.task, plan, context.bound, context.keys, horizon)
     else:
-        keys = tables.keys
+        keys = context.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
         on_the_way, helped = bounds_along(
-            tables, plan, horizon, limit, opened, tables.weights.robots, idle=idle
+            context, plan, horizon, limit, opened, context.weights.robots, idle=idle
         )
         untouched = helped or no_bound
-        prefix = Timetable(tables.followed(plan), on_the_way)
+        prefix = Timetable(context.followed(plan), on_the_way)
     return Windowed(
-        initial=tables.encoding.init,
+        initial=context.packed.init,
         idle=() if walks is None else (0,) * len(walks.fields),
         horizon=horizon,
         max_window=options.max_window or horizon,
         most_cost=most_cost,
-        keys=tables.keys,
+        keys=context.keys,
         successors=successors,
-        bounds=Bounds(tables.bound, tables.steps, untouched, tables.touches),
+        bounds=Bounds(context.bound, context.steps, untouched, context.interactions),
         prefix=prefix,
-        suffix=suffix_rule(tables, plan),
-        labels=Labels(no_worse(tables.keys, options, most_cost)),
+        suffix=suffix_rule(context, plan),
+        labels=ParetoFront(no_worse(context.keys, options, most_cost)),
     )
 
 
-def no_worse(keys: Keys, options: Options, most_cost: int | None) -> Callable[[int, int], bool] | None:
+def no_worse(keys: CostLayout, options: Options, most_cost: int | None) -> Callable[[int, int], bool] | None:
     """What else the first key must not be worse in, to dominate the second."""
     if most_cost is None and options.max_window is None and options.preservation == "kernel":
         return None
@@ -75,7 +75,7 @@ def no_worse(keys: Keys, options: Options, most_cost: int | None) -> Callable[[i
 
 
 def bounds_along(
-    tables: Tables,
+    context: SearchContext,
     plan: HumanPlan,
     horizon: int,
     limit: int,
@@ -83,7 +83,7 @@ def bounds_along(
     robots: Sequence[int],
     *,
     idle: bool,
-) -> tuple[HelpedOnTheWay, Helped | None]:
+) -> tuple[FirstInteractionOnTheWay, FirstInteraction | None]:
     """Bounds along ``pi_H`` and off it, up to the first touch that is not on the plan.
 
     His private fields follow ``pi_H``, so his part of the first is known in advance.  The
@@ -98,19 +98,19 @@ def bounds_along(
         robots: key increment of a robots' op by the index of its cost.
         idle: robots do nothing.
     """
-    ways, outside = tables.ways, tables.touches.outside
-    steps = tables.followed(plan)
+    ways, outside = context.ways, context.interactions.outside
+    steps = context.followed(plan)
     followed = [op for op, _ in steps]
-    providers = Providers(tables.encoding, tables.touches, robots, followed, tables.deadline)
-    state, cost = tables.encoding.init, 0
+    providers = Achievers(context.packed, context.interactions, robots, followed, context.deadline)
+    state, cost = context.packed.init, 0
     sources, spent = [], []
     for epoch, (op, option) in enumerate(steps):
         sources.append((cost + opened[epoch], state))
         spent.append(cost)
         state = state & op.keep | op.put
         cost += option.weight
-    floor = [base + tables.bound(at) for base, at in sources]
-    openings = Openings(len(plan), _reach(tables, horizon, limit), floor)
+    floor = [base + context.bound(at) for base, at in sources]
+    openings = PrefixBounds(len(plan), _reach(context, horizon, limit), floor)
     corridors = []
     for first, end in providers.phases(len(plan)):
         corridor = ways.explore(sources[first:end], limit)
@@ -120,7 +120,7 @@ def bounds_along(
     least = openings.least
     openings.latest = {i: horizon - 1 - ways.steps_after[providers.touched(i)] for i in least}
     if idle or not least:
-        return HelpedOnTheWay(openings, spent, dict.fromkeys(least), outside), None
+        return FirstInteractionOnTheWay(openings, spent, dict.fromkeys(least), outside), None
 
     def pays(cost: int) -> bool:
         return cost + openings.least_after(providers.epochs(cost)) < limit
@@ -128,11 +128,11 @@ def bounds_along(
     costs = providers.costs(sorted(least), pays)
     paying = survivors(costs, limit, lambda i, cost: openings.rough(i, cost, providers.epochs(cost)))
     if paying is None:
-        return HelpedOnTheWay(openings, spent, dict.fromkeys(least), outside), None
+        return FirstInteractionOnTheWay(openings, spent, dict.fromkeys(least), outside), None
     for first, end, corridor, ids in corridors:
         for i in ids.keys() & paying:
             rest = corridor.through(ids[i])
-            at = [(base, state & tables.touches.mask) for base, state in sources[first:end]]
+            at = [(base, state & context.interactions.mask) for base, state in sources[first:end]]
             openings.refine(i, first, [base + rest.get(place, INFINITE_KEY) for base, place in at])
     paying = [i for i in paying if openings.total(i, costs[i], providers.epochs(costs[i])) < limit]
     slack = {i: limit - least[i] for i in paying}
@@ -141,26 +141,28 @@ def bounds_along(
         (providers.touched(i), provided[i], openings.total(i, costs[i], providers.epochs(costs[i])))
         for i in paying
     ]
-    return HelpedOnTheWay(openings, spent, {**provided}, outside), Helped(
-        tables.bound, ways, off_plan, horizon
+    return FirstInteractionOnTheWay(openings, spent, {**provided}, outside), FirstInteraction(
+        context.bound, ways, off_plan, horizon
     )
 
 
-def _reach(tables: Tables, horizon: int, limit: int) -> int:
+def _reach(context: SearchContext, horizon: int, limit: int) -> int:
     """The most epochs of a window that can still beat ``limit``."""
-    most = min(horizon, tables.options.max_window or horizon)
-    weight = tables.keys.epoch_weight >> tables.keys.objective_shift
-    return min(most, (limit >> tables.keys.objective_shift) // weight) if weight else most
+    most = min(horizon, context.options.max_window or horizon)
+    weight = context.keys.epoch_weight >> context.keys.objective_shift
+    return min(most, (limit >> context.keys.objective_shift) // weight) if weight else most
 
 
-def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) -> Bounds:
+def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle: bool) -> Bounds:
     """Bounds where the human is free from the start."""
     untouched: Timed = no_bound
     last = NEVER if horizon is None else horizon
     if not idle:
-        ways = tables.ways
-        providers = Providers(tables.encoding, tables.touches, tables.weights.robots, (), tables.deadline)
-        least = ways.explore([(0, tables.encoding.init)], limit).totals
+        ways = context.ways
+        providers = Achievers(
+            context.packed, context.interactions, context.weights.robots, (), context.deadline
+        )
+        least = ways.explore([(0, context.packed.init)], limit).totals
 
         def total(need: int, cost: int) -> int:
             in_time = providers.epochs(cost) < last - ways.steps_after[need]
@@ -178,19 +180,19 @@ def free_bounds(tables: Tables, horizon: int | None, limit: int, *, idle: bool) 
             latest = {need: last - 1 - ways.steps_after[need] for need in paying}
             provided = providers.provided(paying, last, slack, latest)
             needs = [(need, provided[need], total(need, costs[need])) for need in paying]
-            untouched = Helped(tables.bound, ways, needs, last)
-    return Bounds(tables.bound, tables.steps, untouched, tables.touches)
+            untouched = FirstInteraction(context.bound, ways, needs, last)
+    return Bounds(context.bound, context.steps, untouched, context.interactions)
 
 
-def suffix_rule(tables: Tables, plan: HumanPlan) -> Suffix:
+def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
     """Rule 3 as the options have it."""
-    options, task, packed = tables.options, tables.task, tables.encoding
-    weights = [option.weight for _, option in tables.followed(plan)]
-    goals = list(tables.goals)
+    options, task, packed = context.options, context.task, context.packed
+    weights = [option.weight for _, option in context.followed(plan)]
+    goals = list(context.goals)
     if options.preservation == "state":
         own = human_facts(task)
         expected = [sorted(own & state) for state in task.replay_alone(plan)]
         return Preserved(packed, plan, weights, goals, expected)
     if options.suffix == "subplan":
-        return Subplan(packed, plan, weights, goals, tables.deadline)
-    return Replan(tables.alone, tables.alone_to_both, packed.robot_goal, tables.keys)
+        return Subplan(packed, plan, weights, goals, context.deadline)
+    return Replan(context.alone, context.alone_to_both, packed.robot_goal, context.keys)

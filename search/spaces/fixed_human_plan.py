@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 
 from search.engine.best_first import Incumbent, Node
-from search.packed.operators import Op, applicable
-from search.packed.packed_task import Goal
-from search.packed.successor_generator import NOTHING, Option, Successors
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedGoal
+from search.packed.successor_generator import NOTHING, JointAction, Successors
 
 
-class Followed:
+class FixedHumanPlan:
     """The search space of plans in which the human does not deviate.
 
     Args:
@@ -24,8 +24,8 @@ class Followed:
         *,
         initial: int,
         horizon: int | None,
-        steps: list[tuple[Op, Option]],
-        goals: tuple[Goal, ...],
+        steps: list[tuple[Operator, JointAction]],
+        goals: tuple[PackedGoal, ...],
         successors: Successors,
     ) -> None:
         self._initial = initial

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
-from search.context import Tables
+from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node
-from search.engine.dominance import Labels
+from search.engine.dominance import ParetoFront
 from search.heuristics.first_interaction import Bounds, Choice, no_bound
-from search.heuristics.prefix_bounds import HelpedOnTheWay
+from search.heuristics.prefix_bounds import FirstInteractionOnTheWay
 from search.human.suffix_rules import Suffix
-from search.packed.operators import Op, applicable
-from search.packed.successor_generator import NOTHING, Option, Successors
+from search.packed.operators import Operator, applicable
+from search.packed.successor_generator import NOTHING, JointAction, Successors
 from search.spaces.factory import bounds_along, suffix_rule
 from search.spaces.windowed import PREFIX, TOUCHED, WINDOW
 from serendipity.model.plans import Window
@@ -30,22 +30,22 @@ class Weighed:
 
     def __init__(
         self,
-        tables: Tables,
+        context: SearchContext,
         plan: HumanPlan,
         horizon: int,
-        weight: Callable[[Op], int],
+        weight: Callable[[Operator], int],
         robots: Sequence[int],
         limit: int,
     ) -> None:
-        self.initial = tables.encoding.init
+        self.initial = context.packed.init
         self.horizon = horizon
-        self.steps = tables.followed(plan)
-        self.successors = Successors(tables.encoding, weight, tables.deadline, strict=tables.options.strict)
-        self.suffix: Suffix = suffix_rule(tables, plan)
+        self.steps = context.followed(plan)
+        self.successors = Successors(context.packed, weight, context.deadline, strict=context.options.strict)
+        self.suffix: Suffix = suffix_rule(context, plan)
         opened = [0] * len(plan)
-        on_the_way, self._helped = bounds_along(tables, plan, horizon, limit, opened, robots, idle=False)
-        self.on_the_way: HelpedOnTheWay = on_the_way
-        self.bounds = Bounds(tables.bound, tables.steps, no_bound, tables.touches)
+        on_the_way, self._helped = bounds_along(context, plan, horizon, limit, opened, robots, idle=False)
+        self.on_the_way: FirstInteractionOnTheWay = on_the_way
+        self.bounds = Bounds(context.bound, context.steps, no_bound, context.interactions)
         self._choices: dict[int, list[Choice]] = {}
 
     def untouched(self, epoch: int, state: int, until: int) -> int:
@@ -75,7 +75,7 @@ class FixedWindow:
         self._opens = window.start - 1
         self._left = weighed.horizon + 1 - window.end
         self._prefix: dict[tuple[int, int], int] = {}
-        self._labels = Labels()
+        self._labels = ParetoFront()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
@@ -103,7 +103,7 @@ class FixedWindow:
             for part in (NOTHING, *successors.human(state), *successors.joint(state)):
                 yield from self._act(node, part, best)
 
-    def _follow(self, node: Node, part: Option, best: Incumbent) -> Iterator[tuple[int, Node]]:
+    def _follow(self, node: Node, part: JointAction, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Robots act while the human takes his step of ``pi_H``."""
         epoch = node.epoch + 1
         phase = PREFIX if epoch < self._opens else WINDOW
@@ -114,7 +114,7 @@ class FixedWindow:
             if bound < best.key and self._remember(epoch, state, key):
                 yield bound, Node(key, epoch, state, phase, 0, node, option.actions)
 
-    def _act(self, node: Node, part: Option, best: Incumbent) -> Iterator[tuple[int, Node]]:
+    def _act(self, node: Node, part: JointAction, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Inside the window, with the human's part of an epoch."""
         epoch, bounds, weighed = node.epoch + 1, self._weighed.bounds, self._weighed
         # Robots don't change the variables that the private bound looks at.
@@ -122,7 +122,7 @@ class FixedWindow:
         rest = bounds.private(at)
         if epoch + bounds.steps(at) > weighed.horizon:
             return
-        touched = node.phase == TOUCHED or bounds.touches(part.actions)
+        touched = node.phase == TOUCHED or bounds.interactions(part.actions)
         phase = TOUCHED if touched else WINDOW
         for option in weighed.successors.with_robots(part, node.state):
             key = node.key + option.weight

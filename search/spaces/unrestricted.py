@@ -3,17 +3,17 @@
 from collections.abc import Iterator
 
 from search.engine.best_first import Incumbent, Node
-from search.engine.dominance import Labels
+from search.engine.dominance import ParetoFront
 from search.heuristics.first_interaction import Bounds
-from search.packed.cost_vector import Keys
-from search.packed.packed_task import Goal
-from search.packed.successor_generator import NOTHING, Option, Successors
+from search.packed.cost_vector import CostLayout
+from search.packed.packed_task import PackedGoal
+from search.packed.successor_generator import NOTHING, JointAction, Successors
 
 UNTOUCHED, TOUCHED = 0, 1
 """Phases: before and after the human's first touch."""
 
 
-class Free:
+class Unrestricted:
     """The search space of composite plans.
 
     Args:
@@ -32,8 +32,8 @@ class Free:
         initial: int,
         horizon: int | None,
         most_cost: int | None,
-        goals: tuple[Goal, ...],
-        keys: Keys,
+        goals: tuple[PackedGoal, ...],
+        keys: CostLayout,
         successors: Successors,
         bounds: Bounds,
     ) -> None:
@@ -44,7 +44,7 @@ class Free:
         self._keys = keys
         self._successors = successors
         self._bounds = bounds
-        self._labels = Labels()
+        self._labels = ParetoFront()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
@@ -71,7 +71,7 @@ class Free:
                 continue
             if self._horizon is not None and epoch + bounds.steps(after) > self._horizon:
                 continue
-            touched = node.phase == TOUCHED or bounds.touches(part.actions)
+            touched = node.phase == TOUCHED or bounds.interactions(part.actions)
             if not touched:
                 bound = max(bound, key + bounds.untouched(epoch, after, key))
                 if bound >= best.key:
@@ -88,7 +88,7 @@ class Free:
         best.key, best.node = node.key, node
         return True
 
-    def _together(self, state: int) -> Iterator[tuple[Option, Option]]:
+    def _together(self, state: int) -> Iterator[tuple[JointAction, JointAction]]:
         """The human's part of each action set, and the whole set."""
         successors = self._successors
         if self._horizon is None:

@@ -9,14 +9,14 @@ from collections.abc import Iterable, Iterator
 from typing import Protocol
 
 from search.engine.best_first import Incumbent, Node
-from search.engine.dominance import Labels
+from search.engine.dominance import ParetoFront
 from search.heuristics.first_interaction import Bounds
-from search.heuristics.prefix_bounds import HelpedOnTheWay
-from search.human.pattern_database import Projection
+from search.heuristics.prefix_bounds import FirstInteractionOnTheWay
+from search.human.pattern_database import PatternDatabase
 from search.human.suffix_rules import Suffix
-from search.packed.cost_vector import Keys
-from search.packed.operators import Op, applicable
-from search.packed.successor_generator import NOTHING, Idle, Option, Successors, in_time
+from search.packed.cost_vector import CostLayout
+from search.packed.operators import Operator, applicable
+from search.packed.successor_generator import NOTHING, Idle, JointAction, Successors, in_time
 from serendipity.model.task import HumanPlan, Task
 
 PREFIX, WINDOW, TOUCHED = 0, 1, 2
@@ -32,7 +32,7 @@ class Prefix(Protocol):
 
     last: int
 
-    def options(self, epoch: int, state: int) -> Iterable[Option]:
+    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """The human's part of ``epoch`` from a packed state."""
 
     def bound(self, epoch: int, state: int, idle: Idle) -> int:
@@ -52,12 +52,12 @@ class Timetable:
         bound: lower bound after ``0 .. |pi_H| - 1`` epochs of the prefix.
     """
 
-    def __init__(self, steps: list[tuple[Op, Option]], bound: HelpedOnTheWay) -> None:
+    def __init__(self, steps: list[tuple[Operator, JointAction]], bound: FirstInteractionOnTheWay) -> None:
         self.last = len(steps)
         self._steps = steps
         self._bound = bound
 
-    def options(self, epoch: int, state: int) -> Iterable[Option]:
+    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """See :class:`Prefix`."""
         op, option = self._steps[epoch - 1]
         return (option,) if applicable(op, state) else ()
@@ -81,7 +81,7 @@ class Unscheduled:
         horizon: number of epochs.
     """
 
-    def __init__(self, last: int, bound: Projection, keys: Keys, horizon: int) -> None:
+    def __init__(self, last: int, bound: PatternDatabase, keys: CostLayout, horizon: int) -> None:
         self.last = last
         self._bound = bound
         self._keys = keys
@@ -104,8 +104,8 @@ class AnyOfPlan(Unscheduled):
         successors: Successors,
         task: Task,
         plan: HumanPlan,
-        bound: Projection,
-        keys: Keys,
+        bound: PatternDatabase,
+        keys: CostLayout,
         horizon: int,
     ) -> None:
         super().__init__(len(plan), bound, keys, horizon)
@@ -113,7 +113,7 @@ class AnyOfPlan(Unscheduled):
         self._actions = task.actions
         self._planned = task.names(plan)
 
-    def options(self, epoch: int, state: int) -> Iterable[Option]:
+    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """See :class:`Prefix`."""
         own = self._successors.human(state)
         return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
@@ -144,12 +144,12 @@ class Windowed:
         horizon: int,
         max_window: int,
         most_cost: int | None,
-        keys: Keys,
+        keys: CostLayout,
         successors: Successors,
         bounds: Bounds,
         prefix: Prefix,
         suffix: Suffix,
-        labels: Labels,
+        labels: ParetoFront,
     ) -> None:
         self._initial = initial
         self._idle = idle
@@ -162,7 +162,7 @@ class Windowed:
         self._prefix = prefix
         self._suffix = suffix
         self._labels = labels
-        self._followed = Labels()
+        self._followed = ParetoFront()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, in the prefix."""
@@ -197,7 +197,7 @@ class Windowed:
         epoch, successors = node.epoch + 1, self._successors
         sooner = _sooner(node.idle)
 
-        def promising(option: Option) -> bool:
+        def promising(option: JointAction) -> bool:
             after = node.state & option.keep | option.put
             return node.key + option.weight + self._prefix.bound(epoch, after, sooner) < best.key
 
@@ -229,9 +229,9 @@ class Windowed:
                 continue
             if base + part.weight + rest >= best.key or epoch + bounds.steps(at) > self._horizon:
                 continue
-            touched = node.phase == TOUCHED or bounds.touches(part.actions)
+            touched = node.phase == TOUCHED or bounds.interactions(part.actions)
 
-            def promising(option: Option, rest: int = rest, touched: bool = touched) -> bool:
+            def promising(option: JointAction, rest: int = rest, touched: bool = touched) -> bool:
                 least = rest
                 if not touched:
                     after = state & option.keep | option.put

@@ -9,7 +9,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
 
-from search.goals import Candidate, Expected, Served, explanations, solve_expected
+from search.goals import Candidate, Expected, ServedGoal, explanations, solve_expected
 from serendipity.goals.candidates import (
     CandidateGoal,
     GoalsGiven,
@@ -184,7 +184,9 @@ def _result(task: Task, options: Options, answer: Expected, asked: list[Candidat
     )
 
 
-def _entry(task: Task, options: Options, name: str, candidate: Candidate, served: Served) -> dict[str, Any]:
+def _entry(
+    task: Task, options: Options, name: str, candidate: Candidate, served: ServedGoal
+) -> dict[str, Any]:
     """What happens if one goal is his, as plain values."""
     window = served.window
     return {

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 
-from search.goals import Explanation, explanations
+from search.goals import Likelihood, explanations
 from serendipity.goals.candidates import (
     CandidateGoal,
     GoalsGiven,
@@ -75,7 +75,7 @@ def posterior(
     task: Task,
     candidates: Sequence[CandidateGoal],
     observed: tuple[str, ...],
-    found: Sequence[Explanation],
+    found: Sequence[Likelihood],
     beta: float,
 ) -> Recognition:
     """Bayes' rule over the candidates; their priors, if none explains the observations."""
@@ -113,7 +113,7 @@ def posterior(
     )
 
 
-def _log_likelihood(explanation: Explanation, beta: float) -> float:
+def _log_likelihood(explanation: Likelihood, beta: float) -> float:
     """``log P(O|G)``: logarithms, because dear detours would be 0 as they are."""
     if explanation.with_observed is None:
         return -math.inf
@@ -123,7 +123,7 @@ def _log_likelihood(explanation: Explanation, beta: float) -> float:
     return -math.log1p(math.exp(-gain)) if gain >= 0 else gain - math.log1p(math.exp(gain))
 
 
-def _likelihood(explanation: Explanation, log: float) -> float | None:
+def _likelihood(explanation: Likelihood, log: float) -> float | None:
     if explanation.with_observed is None and explanation.without_observed is None:
         return None
     return math.exp(log)

@@ -12,7 +12,7 @@ INFINITE: Final = "inf"
 """Horizon without an end (composite mode only)."""
 
 MAX_EPOCH: Final = 1_000_000
-"""The largest epoch that a horizon or a result may name; ``search.packed.cost_vector`` has room for no more."""
+"""The largest epoch that a horizon or a result may name; the search's cost vectors have room for no more."""
 
 MAX_TIES: Final = 1_000_000_000
 """The most that ``max_ties`` may be: nobody waits for so many plans."""

@@ -11,7 +11,7 @@ from search.assistance.distances import closure
 from search.assistance.distances.closure import Arc, Closure
 from search.assistance.distances.perimeter import ball_around
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.packed_task import Goal
+from search.packed.packed_task import PackedGoal
 from serendipity.model import Task
 from serendipity.model.deadline import Deadline
 from tests.assistance.oracle import by_rounds, explore, mean_over_all_policies
@@ -49,15 +49,15 @@ VALUES = [[0, 1, 2, 3], [0, 4], [0, 8], [0, 16, 32]]
 
 
 @st.composite
-def systems(draw: st.DrawFn) -> tuple[list[Arc], Goal]:
+def systems(draw: st.DrawFn) -> tuple[list[Arc], PackedGoal]:
     """Arcs over four fields, some of which change together; no step is free."""
 
-    def condition() -> Goal:
+    def condition() -> PackedGoal:
         chosen = draw(st.lists(st.integers(0, 3), max_size=2, unique=True))
         need = sum(draw(st.sampled_from(VALUES[i])) for i in chosen)
         barred = [i for i in range(4) if i not in chosen and draw(st.integers(0, 5)) == 0]
         forbidden = tuple((FIELDS[i], draw(st.sampled_from(VALUES[i]))) for i in barred)
-        return Goal(sum(FIELDS[i] for i in chosen), need, forbidden)
+        return PackedGoal(sum(FIELDS[i] for i in chosen), need, forbidden)
 
     def arc() -> Arc:
         changed = draw(st.lists(st.integers(0, 3), min_size=1, max_size=2, unique=True))
@@ -71,7 +71,7 @@ def systems(draw: st.DrawFn) -> tuple[list[Arc], Goal]:
 
 @given(system=systems(), start=st.tuples(*map(st.sampled_from, VALUES)).map(sum), limit=st.integers(0, 6))
 def test_ball_knows_the_distance_of_every_state_in_reach(
-    system: tuple[list[Arc], Goal], start: int, limit: int
+    system: tuple[list[Arc], PackedGoal], start: int, limit: int
 ) -> None:
     arcs, goal = system
     known = Closure(arcs, goal, FIELDS, VALUES, 1000, Deadline())

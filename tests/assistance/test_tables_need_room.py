@@ -5,10 +5,10 @@ import pytest
 
 import serendipity
 from search.assistance.distances import closure
-from search.assistance.distances.closure import Arc, Closure, TooManyStatesError
+from search.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
 from search.assistance.distances.layers import Layers
-from search.assistance.distances.perimeter import Places, ball_around
-from search.packed.packed_task import Goal
+from search.assistance.distances.perimeter import PackedPlaces, ball_around
+from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline, LimitReachedError
 from tests.cases import case_5
 
@@ -29,11 +29,11 @@ class Late(Deadline):
         raise LimitReachedError("time-limit")
 
 
-def line(length: int) -> tuple[list[Arc], Goal, int]:
+def line(length: int) -> tuple[list[Arc], PackedGoal, int]:
     """Steps from 0 to ``length - 1``, one after another; the last one is the goal."""
     mask = (1 << length.bit_length()) - 1
-    arcs = [Arc(Goal(mask, at, ()), ~mask, at + 1, 1 << 24 | 1) for at in range(length - 1)]
-    return arcs, Goal(mask, length - 1, ()), mask
+    arcs = [Arc(PackedGoal(mask, at, ()), ~mask, at + 1, 1 << 24 | 1) for at in range(length - 1)]
+    return arcs, PackedGoal(mask, length - 1, ()), mask
 
 
 def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -43,7 +43,7 @@ def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.M
     assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * (1 << 24 | 1)
     monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
     monkeypatch.setattr("search.assistance.distances.perimeter._LARGE", 0)
-    with pytest.raises(TooManyStatesError):
+    with pytest.raises(ClosureTooLargeError):
         Closure(arcs, goal, [mask], values, 1000, Full()).key(0)
     with pytest.raises(LimitReachedError):
         Closure(arcs, goal, [mask], values, 1000, Late()).key(0)
@@ -54,7 +54,7 @@ def test_a_ball_asks_for_all_it_may_touch() -> None:
     values = [list(range(40))]
     assert ball_around(arcs, goal, [mask], values, 0, Deadline()) is not None
     assert ball_around(arcs, goal, [mask], values, 0, Full()) is None
-    assert Places(arcs, [mask], values, 0).item == np.dtype(np.uint32).itemsize
+    assert PackedPlaces(arcs, [mask], values, 0).item == np.dtype(np.uint32).itemsize
 
 
 def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:

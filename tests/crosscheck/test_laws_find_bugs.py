@@ -8,7 +8,7 @@ import pytest
 
 from search.engine import best_first
 from search.packed.cost_vector import INFINITE_KEY, Weights
-from search.packed.packed_task import Encoding
+from search.packed.packed_task import PackedTask
 from search.planner import _Call
 from search.spaces.windowed import Windowed
 from serendipity.crosscheck import JUDGES, compare, random_call
@@ -66,7 +66,7 @@ def interference_of_an_earlier_call(patch: Patch) -> None:
             self._compatible[key] = not conflicting(actions[first], actions[second], strict=strict)
         return bool(self._compatible[key])
 
-    patch.setattr(Encoding, "compatible", compatible)
+    patch.setattr(PackedTask, "compatible", compatible)
 
 
 def an_earlier_state(patch: Patch) -> None:
@@ -77,7 +77,7 @@ def an_earlier_state(patch: Patch) -> None:
         moved.task = task
         return moved
 
-    patch.setattr(Encoding, "moved_to", moved_to)
+    patch.setattr(PackedTask, "moved_to", moved_to)
 
 
 def variants_are_actions(patch: Patch) -> None:

@@ -6,11 +6,11 @@ one table.  Elsewhere a relaxation of it, see :mod:`search.assistance.bounds.rel
 
 from typing import Final
 
-from search.assistance.bounds.relaxed_provision import Provision
-from search.assistance.distances.closure import Arc, Closure, TooManyStatesError
+from search.assistance.bounds.relaxed_provision import RelaxedProvision
+from search.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
 from search.assistance.game.game import INFINITE, Game
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.packed_task import Goal
+from search.packed.packed_task import PackedGoal
 
 MAX_JOINT_STATES: Final = 100_000
 
@@ -20,13 +20,13 @@ class Bound:
 
     def __init__(self, game: Game) -> None:
         self._unit_bits = game.unit_bits
-        self._provision = Provision(game)
+        self._provision = RelaxedProvision(game)
         heaviest = max(map(game.cost, game.supporter_ops), default=0)
         self._shift = heaviest.bit_length() + MAX_JOINT_STATES.bit_length()  # a way has no state twice
         self._joint: Closure | None = _joint_closure(game, self._shift)
         try:
             self._joint.key(game.init)
-        except TooManyStatesError:
+        except ClosureTooLargeError:
             self._joint = None
 
     @property
@@ -40,7 +40,7 @@ class Bound:
             return self._provision(state)
         try:
             key = self._joint.key(state)
-        except TooManyStatesError:  # a distance that is too large to be told
+        except ClosureTooLargeError:  # a distance that is too large to be told
             self._joint = None
             return self._provision(state)
         if key >= INFINITE_KEY:
@@ -56,11 +56,11 @@ class Bound:
 def _joint_closure(game: Game, shift: int) -> Closure:
     """Distances of both together; ``shift`` is the lowest bit of what the prime pays."""
     arcs = []
-    for ops, bit in ((game.encoding.own, shift), (game.supporter_ops, 0)):
+    for ops, bit in ((game.packed.own, shift), (game.supporter_ops, 0)):
         for op in ops:
             game.deadline.tick()
-            condition = Goal(op.need_mask, op.need, op.forbidden)
+            condition = PackedGoal(op.need_mask, op.need, op.forbidden)
             arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << bit))
-    fields = game.encoding.fields
-    values = [game.encoding.values(field) for field in fields]
+    fields = game.packed.fields
+    values = [game.packed.values(field) for field in fields]
     return Closure(arcs, game.goal, fields, values, MAX_JOINT_STATES, game.deadline)

@@ -16,13 +16,13 @@ from heapq import heappop, heappush
 from typing import NamedTuple
 
 from search.assistance.game.game import INFINITE, Game
-from search.packed.operators import Op
+from search.packed.operators import Operator
 
 Pair = tuple[int, int]
 """A field and a value of it."""
 
 
-class Step(NamedTuple):
+class ChargedStep(NamedTuple):
     """One of the prime's actions, projected; ``charges`` are due where their bit is unset."""
 
     need_mask: int
@@ -39,25 +39,25 @@ class Step(NamedTuple):
 class _Context:
     """What is provided now: the steps under it, and what is known of states under it."""
 
-    steps: dict[int, list[Step]]
+    steps: dict[int, list[ChargedStep]]
     per_goal: dict[int, int]
     """Least value of a step that sets a bit of the goal."""
-    known: dict[int, tuple[int, Step | None, int]]
+    known: dict[int, tuple[int, ChargedStep | None, int]]
     """Exact value, first step of a cheapest way, the state after it."""
 
 
-class Provision:
+class RelaxedProvision:
     """The bound; consistent over the moves of both."""
 
     def __init__(self, game: Game) -> None:
         self._game = game
-        encoding = game.encoding
-        by_prime = encoding.changed_by(encoding.own)
-        by_supporter = encoding.changed_by(game.supporter_ops)
+        packed = game.packed
+        by_prime = packed.changed_by(packed.own)
+        by_supporter = packed.changed_by(game.supporter_ops)
         self._private = by_prime & ~by_supporter
         self._provided = by_supporter & ~by_prime
-        self._monotone = _monotone(encoding.own, self._private, encoding.fields)
-        self._field = _busiest(encoding.own, encoding.fields, self._private)
+        self._monotone = _monotone(packed.own, self._private, packed.fields)
+        self._field = _busiest(packed.own, packed.fields, self._private)
         self._setters = self._find_setters()
         self._charged = self._find_charged()
         goal = game.goal
@@ -89,24 +89,24 @@ class Provision:
                     wanted.update(op.action for op in self._setters[pair])
             at = after
 
-    def _find_setters(self) -> dict[Pair, list[Op]]:
-        setters: dict[Pair, list[Op]] = {}
+    def _find_setters(self) -> dict[Pair, list[Operator]]:
+        setters: dict[Pair, list[Operator]] = {}
         for op in self._game.supporter_ops:
             self._game.deadline.tick()
-            for field in self._game.encoding.fields:
+            for field in self._game.packed.fields:
                 if field & self._provided and not field & op.keep:
                     setters.setdefault((field, op.put & field), []).append(op)
         return setters
 
-    def _asked(self, op: Op) -> list[Pair]:
-        fields = self._game.encoding.fields
+    def _asked(self, op: Operator) -> list[Pair]:
+        fields = self._game.packed.fields
         mask = op.need_mask & self._provided
         return [(field, op.need & field) for field in fields if field & mask] if mask else []
 
     def _find_charged(self) -> dict[Pair, tuple[int, int]]:
         """For each condition that is charged its price and the bit that is set with it."""
         together: dict[Pair, int] = {}
-        for op in self._game.encoding.own:
+        for op in self._game.packed.own:
             self._game.deadline.tick()
             for pair in self._asked(op):
                 first_set = op.put & self._monotone
@@ -122,13 +122,13 @@ class Provision:
             charged[pair] = (min(prices), bit)
         return charged
 
-    def _fields_set(self, op: Op) -> list[int]:
-        return [field for field in self._game.encoding.fields if not field & op.keep]
+    def _fields_set(self, op: Operator) -> list[int]:
+        return [field for field in self._game.packed.fields if not field & op.keep]
 
     def _find_countable(self) -> int:
         """Bits of the goal that each cost a step of their own; none if a step can set two."""
         bits = self._goal_need & self._goal_mask & self._monotone
-        if any((op.put & bits).bit_count() > 1 for op in self._game.encoding.own):
+        if any((op.put & bits).bit_count() > 1 for op in self._game.packed.own):
             return 0
         return bits
 
@@ -140,9 +140,9 @@ class Provision:
         return context
 
     def _make_context(self, provided: int) -> _Context:
-        steps: dict[int, list[Step]] = {}
+        steps: dict[int, list[ChargedStep]] = {}
         least: dict[int, Pair] = {}
-        for op in self._game.encoding.own:
+        for op in self._game.packed.own:
             self._game.deadline.tick()
             step = self._step(op, provided)
             if step is None:
@@ -156,7 +156,7 @@ class Provision:
         per_goal = {bit: (cost << self._game.unit_bits) + price for bit, (cost, price) in least.items()}
         return _Context(steps, per_goal, {})
 
-    def _step(self, op: Op, provided: int) -> Step | None:
+    def _step(self, op: Operator, provided: int) -> ChargedStep | None:
         """An op under what is provided; None if it can never be applied."""
         private = self._private
         charges = []
@@ -170,7 +170,7 @@ class Provision:
                 price, bit = self._charged[pair]
                 charges.append((price, bit, pair))
         forbidden = tuple((m, v) for m, v in op.forbidden if m & private)
-        return Step(
+        return ChargedStep(
             op.need_mask & private,
             op.need & private,
             forbidden,
@@ -200,7 +200,7 @@ class Provision:
         if start in known:
             return known[start][0]
         best = {start: 0}
-        parents: dict[int, tuple[int, Step, int]] = {}
+        parents: dict[int, tuple[int, ChargedStep, int]] = {}
         queue = [(self._least(context, start), 0, start)]
         closed: set[int] = set()
         while queue:
@@ -238,8 +238,8 @@ class Provision:
 
     @staticmethod
     def _remember(
-        known: dict[int, tuple[int, Step | None, int]],
-        parents: dict[int, tuple[int, Step, int]],
+        known: dict[int, tuple[int, ChargedStep | None, int]],
+        parents: dict[int, tuple[int, ChargedStep, int]],
         start: int,
         end: int,
     ) -> int:
@@ -252,7 +252,7 @@ class Provision:
             at = before
         return known[start][0]
 
-    def _steps_from(self, context: _Context, at: int) -> Iterable[tuple[int, int, Step]]:
+    def _steps_from(self, context: _Context, at: int) -> Iterable[tuple[int, int, ChargedStep]]:
         for steps in (context.steps.get(at & self._field, ()), context.steps.get(-1, ())):
             for step in steps:
                 if at & step.need_mask != step.need or any(at & m == v for m, v in step.forbidden):
@@ -263,7 +263,7 @@ class Provision:
                     yield (step.cost << self._game.unit_bits) + charge, after, step
 
 
-def _monotone(ops: Iterable[Op], private: int, fields: list[int]) -> int:
+def _monotone(ops: Iterable[Operator], private: int, fields: list[int]) -> int:
     """The private single-bit fields that no action unsets."""
     bits = 0
     for field in fields:
@@ -274,7 +274,7 @@ def _monotone(ops: Iterable[Op], private: int, fields: list[int]) -> int:
     return bits
 
 
-def _busiest(ops: Iterable[Op], fields: list[int], among: int) -> int:
+def _busiest(ops: Iterable[Operator], fields: list[int], among: int) -> int:
     asked = Counter(op.need_mask for op in ops)
     private = [field for field in fields if field & among]
     return max(private, key=lambda field: sum(n for mask, n in asked.items() if mask & field), default=0)

@@ -12,13 +12,13 @@ from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.packed_task import Goal
+from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LimitReachedError
 
 if TYPE_CHECKING:
     from search.assistance.distances.layers import Layers
-    from search.assistance.distances.perimeter import Ball
+    from search.assistance.distances.perimeter import Perimeter
 
 SMALL: Final = 3_000
 """States that are explored one by one before arrays take over."""
@@ -27,14 +27,14 @@ MEDIUM: Final = 200_000
 """States that are all looked at before only those near the goal are."""
 
 
-class TooManyStatesError(Exception):
+class ClosureTooLargeError(Exception):
     """The closure of a state is larger than the limit."""
 
 
 class Arc(NamedTuple):
     """A weighted transition: where it applies, what it keeps and puts, its weight."""
 
-    condition: Goal
+    condition: PackedGoal
     keep: int
     put: int
     weight: int
@@ -64,7 +64,7 @@ class Closure:
     def __init__(
         self,
         arcs: list[Arc],
-        goal: Goal,
+        goal: PackedGoal,
         fields: Sequence[int],
         values: Sequence[Sequence[int]],
         limit: int,
@@ -79,7 +79,7 @@ class Closure:
         self._known: dict[int, int] = {}
         self._by_field = _by_field(self._arcs, fields)
         self._layers: list[Layers] = []
-        self._balls: list[Ball] = []
+        self._balls: list[Perimeter] = []
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
@@ -164,7 +164,7 @@ class Closure:
         if self._settle_in_layers(start, min(MEDIUM, self._limit)) or self._grow_ball(start):
             return
         if self._limit <= MEDIUM or not self._settle_in_layers(start, self._limit):
-            raise TooManyStatesError
+            raise ClosureTooLargeError
 
     def _settle_in_layers(self, start: int, limit: int) -> bool:
         """Whether it could be done: with too many states, or too little memory for them, it can't."""
@@ -173,7 +173,7 @@ class Closure:
 
         try:
             self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._deadline))
-        except (TooManyStatesError, MemoryError):
+        except (ClosureTooLargeError, MemoryError):
             return False
         except LimitReachedError as limit_reached:
             if limit_reached.reason != "memory-limit":

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.packed_task import Goal
+from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class Layers:
     def __init__(
         self,
         arcs: "Sequence[Arc]",
-        goal: Goal,
+        goal: PackedGoal,
         fields: Sequence[int],
         start: int,
         limit: int,
@@ -104,11 +104,11 @@ class Layers:
 
     def _too_many_unless(self, fits: bool) -> None:
         if not fits:
-            from search.assistance.distances.closure import TooManyStatesError
+            from search.assistance.distances.closure import ClosureTooLargeError
 
-            raise TooManyStatesError
+            raise ClosureTooLargeError
 
-    def _test(self, condition: Goal) -> tuple[int, int, list[tuple[int, int]]]:
+    def _test(self, condition: PackedGoal) -> tuple[int, int, list[tuple[int, int]]]:
         pack = self._compressed
         need = pack(condition.need) if condition.need >= 0 else -1
         return pack(condition.need_mask), need, [(pack(m), pack(v)) for m, v in condition.forbidden]

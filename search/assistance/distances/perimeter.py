@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 import numpy as np
 
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.packed_task import Goal
+from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, LimitReachedError
 
@@ -52,7 +52,7 @@ _LARGE: Final = 1 << 20
 """Bytes; what is smaller is noticed in time when it has been allocated."""
 
 
-class _Axis(NamedTuple):
+class _PerimeterAxis(NamedTuple):
     """Some fields: their combinations, the place of each, and where its bits are."""
 
     mask: int
@@ -71,7 +71,7 @@ class _Back(NamedTuple):
     weight: int
 
 
-class Places:
+class PackedPlaces:
     """Where states are in the array.
 
     Args:
@@ -102,7 +102,7 @@ class Places:
         for mask, combinations in parts:
             width = (len(combinations) - 1).bit_length()
             at = {value: i << self.bits for i, value in enumerate(combinations)}
-            axes.append(_Axis(mask, combinations, at, self.bits, width))
+            axes.append(_PerimeterAxis(mask, combinations, at, self.bits, width))
             self.bits += width
         self.axes = axes[::-1]
 
@@ -121,7 +121,7 @@ class Places:
             found |= at
         return found
 
-    def backward(self, condition: Goal, keep: int, put: int) -> Iterator[tuple[int, int, int]]:
+    def backward(self, condition: PackedGoal, keep: int, put: int) -> Iterator[tuple[int, int, int]]:
         """Mask and bits of places that an action leads to, and the offset to where it came from."""
         mask, choices = self._choices(condition, keep, put)
         for chosen in product(*choices):
@@ -137,7 +137,7 @@ class Places:
             total += ways if (arc.condition.mask | ~arc.keep) & top.mask else ways * len(top.values)
         return total
 
-    def _choices(self, condition: Goal, keep: int, put: int) -> tuple[int, list[list[tuple[int, int]]]]:
+    def _choices(self, condition: PackedGoal, keep: int, put: int) -> tuple[int, list[list[tuple[int, int]]]]:
         """Per axis that an action mentions, the pairs of places that it leads between; and their mask."""
         choices = []
         mask = 0
@@ -147,7 +147,7 @@ class Places:
                 mask |= (1 << axis.width) - 1 << axis.shift
         return mask, choices
 
-    def holding(self, condition: Goal) -> Array | None:
+    def holding(self, condition: PackedGoal) -> Array | None:
         """Places of the states in which a condition holds; None where they are too many."""
         choices = [[before for before, _ in _pairs(axis, condition, -1, 0)] for axis in self.axes]
         if prod(map(len, choices)) > _MOST_GOALS:
@@ -177,7 +177,7 @@ class Places:
         return sorted(seen)
 
 
-def _pairs(axis: _Axis, condition: Goal, keep: int, put: int) -> Iterator[tuple[int, int]]:
+def _pairs(axis: _PerimeterAxis, condition: PackedGoal, keep: int, put: int) -> Iterator[tuple[int, int]]:
     """Where on one axis a condition can hold, and where an effect leads from there."""
     mask, need = condition.need_mask & axis.mask, condition.need & axis.mask
     forbidden = [(field, value) for field, value in condition.forbidden if field & axis.mask]
@@ -199,7 +199,7 @@ def _changed_together(arcs: "Sequence[Arc]", fields: Sequence[int]) -> list[int]
     return groups
 
 
-class Ball:
+class Perimeter:
     """Distances to the goal, as far as they were asked for.
 
     Args:
@@ -209,7 +209,7 @@ class Ball:
         deadline: asked for time.
     """
 
-    def __init__(self, places: Places, arcs: "Sequence[Arc]", goals: Array, deadline: Deadline) -> None:
+    def __init__(self, places: PackedPlaces, arcs: "Sequence[Arc]", goals: Array, deadline: Deadline) -> None:
         self._places = places
         self._deadline = deadline
         wide = places.item == _WIDE
@@ -323,19 +323,19 @@ class Ball:
 
 def ball_around(
     arcs: "Sequence[Arc]",
-    goal: Goal,
+    goal: PackedGoal,
     fields: Sequence[int],
     values: Sequence[Sequence[int]],
     start: int,
     deadline: Deadline,
-) -> Ball | None:
+) -> Perimeter | None:
     """A ball that a state can be asked of; None where it would be too large, or a step is free.
 
     Too large is also what memory has no room for, were all of it touched.
     """
     if not fields or not all(arc.weight for arc in arcs):
         return None  # a step that costs nothing at all may go round for ever
-    places = Places(arcs, fields, values, start)
+    places = PackedPlaces(arcs, fields, values, start)
     deadline.check()
     if places.bits > MAX_BITS or places.steps(arcs) > _MOST_STEPS:
         return None
@@ -344,7 +344,7 @@ def ball_around(
     except LimitReachedError:
         return None
     goals = places.holding(goal)
-    return None if goals is None else Ball(places, arcs, goals, deadline)
+    return None if goals is None else Perimeter(places, arcs, goals, deadline)
 
 
 def _distinct(values: Array) -> Array:

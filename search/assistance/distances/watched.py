@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 from operator import itemgetter
 
-from search.packed.operators import Op
+from search.packed.operators import Operator
 from serendipity.model.deadline import Deadline
 
 _RANK = itemgetter(0)
@@ -21,7 +21,7 @@ class Watched:
         deadline: asked for time.
     """
 
-    def __init__(self, ops: Sequence[Op], fields: Sequence[int], deadline: Deadline) -> None:
+    def __init__(self, ops: Sequence[Operator], fields: Sequence[int], deadline: Deadline) -> None:
         by_lowest_bit = {field & -field: field for field in fields}
         asked = []
         count: Counter[tuple[int, int]] = Counter()
@@ -31,8 +31,8 @@ class Watched:
             asked.append(pairs)
             for pair in pairs:
                 count[pair] += 1
-        self._always: list[tuple[int, Op]] = []
-        under: dict[int, dict[int, list[tuple[int, Op]]]] = {}
+        self._always: list[tuple[int, Operator]] = []
+        under: dict[int, dict[int, list[tuple[int, Operator]]]] = {}
         for rank, (op, pairs) in enumerate(zip(ops, asked, strict=True)):
             deadline.tick()
             if pairs:
@@ -42,7 +42,7 @@ class Watched:
                 self._always.append((rank, op))
         self._under = list(under.items())
 
-    def candidates(self, state: int) -> list[Op]:
+    def candidates(self, state: int) -> list[Operator]:
         """Ops that may be applicable in a packed state; all that are, among them."""
         found = self._always[:]
         for field, by_value in self._under:
@@ -53,7 +53,7 @@ class Watched:
         return [op for _, op in found]
 
 
-def _asked(op: Op, by_lowest_bit: dict[int, int]) -> list[tuple[int, int]]:
+def _asked(op: Operator, by_lowest_bit: dict[int, int]) -> list[tuple[int, int]]:
     pairs = []
     left = op.need_mask
     while left:

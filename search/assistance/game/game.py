@@ -13,8 +13,8 @@ from typing import Final, NamedTuple
 from search.assistance.distances.watched import Watched
 from search.assistance.game.own import UNREACHABLE, OwnCosts
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Op, applicable
-from search.packed.packed_task import Encoding, encoding
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedTask, pack
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import UsageError
@@ -57,27 +57,27 @@ class Game:
         self.task = task.with_goal(task.goal, Condition()) if task.robot_goal else task
         self.deadline = deadline
         self._own_deadline = own_deadline or deadline
-        self.encoding: Encoding = encoding(self.task, deadline)
-        self.init = self.encoding.init
-        self.goal = self.encoding.goal
-        self.scale = lcm(1, *(cost.denominator for cost in self.encoding.costs))
-        self._scaled = [int(cost * self.scale) for cost in self.encoding.costs]
+        self.packed: PackedTask = pack(self.task, deadline)
+        self.init = self.packed.init
+        self.goal = self.packed.goal
+        self.scale = lcm(1, *(cost.denominator for cost in self.packed.costs))
+        self._scaled = [int(cost * self.scale) for cost in self.packed.costs]
         self.unit_bits = max(self._scaled, default=0).bit_length() + _RUN_BITS
         robot = 1 << task.robots[0]
-        self.supporter_ops = tuple(op for op in self.encoding.others if op.agents == robot)
-        self._supporter_index = Watched(self.supporter_ops, self.encoding.fields, deadline)
+        self.supporter_ops = tuple(op for op in self.packed.others if op.agents == robot)
+        self._supporter_index = Watched(self.supporter_ops, self.packed.fields, deadline)
         self._prime_moves: dict[int, tuple[Move, ...]] = {}
 
     @cached_property
     def own(self) -> OwnCosts:
         """The prime by himself."""
-        return OwnCosts(self.encoding, self._scaled, self._own_deadline)
+        return OwnCosts(self.packed, self._scaled, self._own_deadline)
 
     def forget_own(self) -> None:
         """Drop what was found about the prime by himself, which may be what fills the memory."""
         self.__dict__.pop("own", None)
 
-    def cost(self, op: Op) -> int:
+    def cost(self, op: Operator) -> int:
         """Scaled cost of an op."""
         return self._scaled[op.cost]
 
@@ -109,7 +109,7 @@ class Game:
         return moves
 
     def _optimal(self, state: int) -> list[Move]:
-        actions = self.encoding.task.actions
+        actions = self.packed.task.actions
         seen: set[tuple[str, int]] = set()
         moves = []
         for op, after in self.own.optimal(state):
@@ -129,5 +129,5 @@ class Game:
 
     def facts(self, state: int) -> frozenset[int]:
         """Ids of the relevant facts that are true in a packed state."""
-        bits: Sequence[tuple[int, int] | None] = self.encoding.fact_bits
+        bits: Sequence[tuple[int, int] | None] = self.packed.fact_bits
         return frozenset(i for i, pair in enumerate(bits) if pair is not None and state & pair[0] == pair[1])

@@ -6,13 +6,13 @@ a table over the rest is filled in where it is asked for.
 
 from typing import Final
 
-from search.assistance.distances.closure import Arc, Closure, TooManyStatesError
+from search.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
 from search.assistance.distances.watched import Watched
-from search.human.individual_planner import Alone
-from search.human.pattern_database import Projection
+from search.human.individual_planner import IndividualPlanner
+from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Op, applicable
-from search.packed.packed_task import Encoding, Goal
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.deadline import Deadline
 
 LENGTH_BITS: Final = 24
@@ -32,15 +32,15 @@ class OwnCosts:
         deadline: asked for time.
     """
 
-    def __init__(self, encoding: Encoding, scaled: list[int], deadline: Deadline) -> None:
-        self._encoding = encoding
+    def __init__(self, packed: PackedTask, scaled: list[int], deadline: Deadline) -> None:
+        self._packed = packed
         self._deadline = deadline
         self._weights = [(cost << LENGTH_BITS) + 1 for cost in scaled]
-        self._changed = encoding.changed_by(encoding.own)
-        self._mask = encoding.own_mask | encoding.goal.mask
-        self._tables: dict[int, Closure | None] = {}
-        self._index = Watched(encoding.own, encoding.fields, deadline)
-        self._single: Alone | None = None
+        self._changed = packed.changed_by(packed.own)
+        self._mask = packed.own_mask | packed.goal.mask
+        self._context: dict[int, Closure | None] = {}
+        self._index = Watched(packed.own, packed.fields, deadline)
+        self._single: IndividualPlanner | None = None
         self._too_large = False
 
     def cost_in(self, key: int) -> int:
@@ -50,20 +50,20 @@ class OwnCosts:
     def key(self, state: int, limit: int = UNREACHABLE) -> int:
         """His optimal key; ``UNREACHABLE`` if he has no plan; at or above ``limit`` any such value."""
         context = state & self._mask & ~self._changed
-        if context in self._tables:
-            table = self._tables[context]
+        if context in self._context:
+            table = self._context[context]
         else:
-            table = self._tables[context] = self._table(context)
+            table = self._context[context] = self._table(context)
         if table is None:
             return UNREACHABLE
         if not self._too_large:
             try:
                 return table.key(state & self._changed, limit)
-            except TooManyStatesError:
+            except ClosureTooLargeError:
                 self._too_large = True
         return self._search(state, limit)
 
-    def optimal(self, state: int) -> list[tuple[Op, int]]:
+    def optimal(self, state: int) -> list[tuple[Operator, int]]:
         """Actions that start an optimal plan, ascending, with their successors."""
         key = self.key(state)
         if key >= UNREACHABLE:
@@ -80,28 +80,30 @@ class OwnCosts:
     def _table(self, context: int) -> Closure | None:
         """The table of a context, still empty; None where the context denies the goal."""
         changed = self._changed
-        goal = _within(self._encoding.goal, changed, context)
+        goal = _within(self._packed.goal, changed, context)
         if goal is None:
             return None
         arcs = []
-        for op in self._encoding.own:
+        for op in self._packed.own:
             self._deadline.tick()
-            condition = _within(Goal(op.need_mask, op.need, op.forbidden), changed, context)
+            condition = _within(PackedGoal(op.need_mask, op.need, op.forbidden), changed, context)
             if condition is not None:
                 arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))
-        fields = [field for field in self._encoding.fields if field & changed]
-        values = [self._encoding.values(field) for field in fields]
+        fields = [field for field in self._packed.fields if field & changed]
+        values = [self._packed.values(field) for field in fields]
         return Closure(arcs, goal, fields, values, MAX_STATES, self._deadline)
 
     def _search(self, state: int, limit: int) -> int:
         if self._single is None:
-            encoding, weights = self._encoding, self._weights
-            blind = Projection(0, {0: 0})
-            self._single = Alone(encoding, encoding.goal, lambda op: weights[op.cost], blind, self._deadline)
+            packed, weights = self._packed, self._weights
+            blind = PatternDatabase(0, {0: 0})
+            self._single = IndividualPlanner(
+                packed, packed.goal, lambda op: weights[op.cost], blind, self._deadline
+            )
         return self._single.key(state, limit)
 
 
-def _within(condition: Goal, changed: int, context: int) -> Goal | None:
+def _within(condition: PackedGoal, changed: int, context: int) -> PackedGoal | None:
     """What a condition asks of the ``changed`` fields; None if the context denies it."""
     rest = condition.need_mask & ~changed
     if condition.need < 0 or context & rest != condition.need & rest:
@@ -112,4 +114,4 @@ def _within(condition: Goal, changed: int, context: int) -> Goal | None:
             forbidden.append((field, value))
         elif context & field == value:
             return None
-    return Goal(condition.need_mask & changed, condition.need & changed, tuple(forbidden))
+    return PackedGoal(condition.need_mask & changed, condition.need & changed, tuple(forbidden))

@@ -12,7 +12,7 @@ Value = Any
 """An ``int`` of the game (robust), or a pair of exact costs (expected); ordered by ``<``."""
 
 
-class Rule(Protocol):
+class ChoiceRule(Protocol):
     """What robust and expected differ in."""
 
     infinite: Value
@@ -36,19 +36,19 @@ class Worst:
     infinite: Value = INFINITE
 
     def lift(self, value: int) -> Value:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         return value
 
     def add(self, value: int, rest: Value) -> Value:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         return min(value + rest, INFINITE)
 
     def combine(self, values: Sequence[Value]) -> Value:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         return max(values)
 
     def costs(self, game: Game, value: Value) -> Costs | None:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         return None if value >= INFINITE else game.pair(value)
 
 
@@ -61,16 +61,16 @@ class Mean:
         self._unit = 1 << game.unit_bits
 
     def lift(self, value: int) -> Value:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         return self.infinite if value >= INFINITE else divmod(value, self._unit)
 
     def add(self, value: int, rest: Value) -> Value:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         prime, supporter = divmod(value, self._unit)
         return (prime + rest[0], supporter + rest[1])
 
     def combine(self, values: Sequence[Value]) -> Value:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         if len(values) == 1:
             return values[0]
         if any(value == self.infinite for value in values):
@@ -81,7 +81,7 @@ class Mean:
         )
 
     def costs(self, game: Game, value: Value) -> Costs | None:
-        """See :class:`Rule`."""
+        """See :class:`ChoiceRule`."""
         if value == self.infinite:
             return None
         return Fraction(value[0]) / game.scale, Fraction(value[1]) / game.scale

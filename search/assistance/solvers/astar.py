@@ -33,7 +33,7 @@ class _Best:
     node: _Node | None = None
 
 
-class Shortest:
+class AStar:
     """The search.
 
     Args:

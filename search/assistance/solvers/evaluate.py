@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from search.assistance.game.game import Move
-from search.assistance.game.rules import Mean, Rule, Value
+from search.assistance.game.rules import ChoiceRule, Mean, Value
 from search.assistance.solvers.components import components
 from search.assistance.solvers.linear import Row, solve_linear
 from serendipity.model.deadline import Deadline
@@ -24,7 +24,7 @@ Outside = Callable[[int], Value]
 """The value of a state in which no option is chosen."""
 
 
-def option_value(option: Option, rule: Rule, value_of: Outside) -> Value:
+def option_value(option: Option, rule: ChoiceRule, value_of: Outside) -> Value:
     """An option's value by the values of its outcomes."""
     rest = option.end
     if rest is None:
@@ -33,7 +33,7 @@ def option_value(option: Option, rule: Rule, value_of: Outside) -> Value:
 
 
 def evaluate(
-    policy: Mapping[int, Option], rule: Rule, outside: Outside, deadline: Deadline
+    policy: Mapping[int, Option], rule: ChoiceRule, outside: Outside, deadline: Deadline
 ) -> dict[int, Value]:
     """Values of all states of a policy; infinite where a run may not end.
 
@@ -65,7 +65,11 @@ def evaluate(
 
 
 def _returning(
-    policy: Mapping[int, Option], component: list[int], rule: Rule, value_of: Outside, deadline: Deadline
+    policy: Mapping[int, Option],
+    component: list[int],
+    rule: ChoiceRule,
+    value_of: Outside,
+    deadline: Deadline,
 ) -> dict[int, Value]:
     """Mean values of states that a run may visit again."""
     index = {state: i for i, state in enumerate(component)}

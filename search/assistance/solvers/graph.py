@@ -5,7 +5,7 @@ A *choice* is a state with the supporter to move, a *reply* one with the prime t
 
 from search.assistance.bounds.bound import Bound
 from search.assistance.game.game import INFINITE, NOOP, Game, Move
-from search.assistance.game.rules import Rule, Value
+from search.assistance.game.rules import ChoiceRule, Value
 from search.assistance.solvers.evaluate import Option
 
 
@@ -27,7 +27,7 @@ class Graph:
         pick: the moves of a policy that is known to end, where one was worked out.
     """
 
-    def __init__(self, game: Game, bound: Bound, rule: Rule, *, no_block: bool) -> None:
+    def __init__(self, game: Game, bound: Bound, rule: ChoiceRule, *, no_block: bool) -> None:
         self.game = game
         self.rule = rule
         self._bound = bound

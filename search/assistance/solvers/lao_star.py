@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from search.assistance.bounds.bound import Bound
 from search.assistance.game.game import INFINITE, Game, Move
-from search.assistance.game.rules import Rule, Value
+from search.assistance.game.rules import ChoiceRule, Value
 from search.assistance.game.solution import MAX_FLOORS, Costs, Entry, Solution
 from search.assistance.solvers.cycles import solve_all
 from search.assistance.solvers.evaluate import Option, evaluate
@@ -21,7 +21,7 @@ _MOST_BACKUPS = 1000
 _MOST_IDLE_PASSES = 20
 
 
-class Branching:
+class LaoStar:
     """The search.
 
     Args:
@@ -31,7 +31,7 @@ class Branching:
         no_block: no move may take the prime's last plan away.
     """
 
-    def __init__(self, game: Game, bound: Bound, rule: Rule, *, no_block: bool) -> None:
+    def __init__(self, game: Game, bound: Bound, rule: ChoiceRule, *, no_block: bool) -> None:
         self._game = game
         self._rule = rule
         self._graph = Graph(game, bound, rule, no_block=no_block)

@@ -4,11 +4,11 @@ from dataclasses import replace
 from typing import Any
 
 from search.packed import operators as ops
-from search.packed import packed_task as encoding
+from search.packed import packed_task
 from search.packed import parallelise as schedule
-from search.packed.operators import Op, OpIndex
-from search.packed.packed_task import Encoding, Goal
-from search.packed.successor_generator import Option, Successors
+from search.packed.operators import Operator, OperatorIndex
+from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.successor_generator import JointAction, Successors
 from serendipity.model import GroundAction
 from serendipity.model.actions import conflicting, disables
 from tests.verify.planted.bug import Bug, always, everywhere, replaced, wrapped
@@ -39,8 +39,8 @@ def _disables_by_deleting(a: GroundAction, b: GroundAction) -> bool:
     return any(f in b.pre for f in a.delete)
 
 
-def _packed_without_deletes(original: Any, self: Encoding, action_id: int) -> Op:
-    op: Op = original(self, action_id)
+def _packed_without_deletes(original: Any, self: PackedTask, action_id: int) -> Operator:
+    op: Operator = original(self, action_id)
     deleted = 0
     for fact in self.task.actions[action_id].delete:
         bits = self.fact_bits[fact]
@@ -49,11 +49,11 @@ def _packed_without_deletes(original: Any, self: Encoding, action_id: int) -> Op
     return op._replace(keep=op.keep | deleted)
 
 
-def _positive_only(original: Any, self: Encoding, positive: Any, negative: Any) -> Any:
+def _positive_only(original: Any, self: PackedTask, positive: Any, negative: Any) -> Any:
     return original(self, positive, ())
 
 
-def _first_two(original: Any, self: Encoding, positive: Any, negative: Any) -> Any:
+def _first_two(original: Any, self: PackedTask, positive: Any, negative: Any) -> Any:
     return original(self, tuple(positive)[:2], negative)
 
 
@@ -63,15 +63,15 @@ def _useful_by_adding(original: Any, task: Any, *arguments: Any) -> Any:
     return relevant, tuple(i for i in useful if relevant.intersection(task.actions[i].add))
 
 
-def _only_indexed(self: OpIndex, state: int) -> list[Op]:
+def _only_indexed(self: OperatorIndex, state: int) -> list[Operator]:
     return self.by_value.get(state & self.field, [])
 
 
-def _one_robot(original: Any, self: Successors, state: int) -> list[Option]:
+def _one_robot(original: Any, self: Successors, state: int) -> list[JointAction]:
     return [option for option in original(self, state) if len(option.actions) <= 1]
 
 
-def _idle(original: Any, self: Successors, first: Option, state: int) -> tuple[Option, ...]:
+def _idle(original: Any, self: Successors, first: JointAction, state: int) -> tuple[JointAction, ...]:
     return (first,)
 
 
@@ -116,40 +116,40 @@ BUGS = (
     Bug(
         "encoding: Encoding.op",
         "deletes of single facts are lost",
-        wrapped(Encoding, "_pack_action", _packed_without_deletes),
+        wrapped(PackedTask, "_pack_action", _packed_without_deletes),
     ),
     Bug(
         "encoding: Encoding.op",
         "negative conditions are lost",
-        wrapped(Encoding, "_literals", _positive_only),
+        wrapped(PackedTask, "_literals", _positive_only),
     ),
-    Bug("encoding: Encoding.op", "a third condition is lost", wrapped(Encoding, "_literals", _first_two)),
+    Bug("encoding: Encoding.op", "a third condition is lost", wrapped(PackedTask, "_literals", _first_two)),
     Bug(
         "encoding: relevance",
         "deleting is of no use",
-        wrapped(encoding, "relevant_to_goals", _useful_by_adding),
+        wrapped(packed_task, "relevant_to_goals", _useful_by_adding),
     ),
-    Bug("encoding: Encoding.compatible", "everything is", replaced(Encoding, "compatible", always(True))),
-    Bug("encoding: Encoding.compatible", "nothing is", replaced(Encoding, "compatible", always(False))),
+    Bug("encoding: Encoding.compatible", "everything is", replaced(PackedTask, "compatible", always(True))),
+    Bug("encoding: Encoding.compatible", "nothing is", replaced(PackedTask, "compatible", always(False))),
     Bug(
         "encoding: Goal.holds",
         "negative goals are forgotten",
-        replaced(Goal, "holds", lambda self, state: state & self.need_mask == self.need),
+        replaced(PackedGoal, "holds", lambda self, state: state & self.need_mask == self.need),
     ),
     Bug(
         "ops: OpIndex",
         "ops without the indexed field are lost",
-        replaced(OpIndex, "candidates", _only_indexed),
+        replaced(OperatorIndex, "candidates", _only_indexed),
     ),
     Bug(
         "encoding: own_mask",
         "the key of the cache leaves out what he only asks for",
-        replaced(Encoding, "own_mask", property(lambda self: self.changed_by(self.own))),
+        replaced(PackedTask, "own_mask", property(lambda self: self.changed_by(self.own))),
     ),
     Bug(
         "encoding: outside",
         "robots are thought to change nothing",
-        replaced(Encoding, "outside", property(always(0))),
+        replaced(PackedTask, "outside", property(always(0))),
     ),
     Bug(
         "successors: with_robots",

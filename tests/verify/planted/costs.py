@@ -3,11 +3,11 @@
 from dataclasses import replace
 from typing import Any
 
-from search.engine.dominance import Label, Labels
+from search.engine.dominance import Label, ParetoFront
 from search.human.individual_planner import PlanGraph
 from search.human.suffix_rules import Preserved, Replan, Subplan
-from search.packed.cost_vector import INFINITE_KEY, Keys, Weights
-from search.packed.operators import Op
+from search.packed.cost_vector import INFINITE_KEY, CostLayout, Weights
+from search.packed.operators import Operator
 from search.packed.successor_generator import Idle
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
@@ -27,7 +27,7 @@ def _discount_for_all(original: Any, self: Weights, *arguments: Any) -> None:
     self.human = self.robots
 
 
-def _unannounced(self: Weights, op: Op) -> int:
+def _unannounced(self: Weights, op: Operator) -> int:
     return self.human[op.cost] if op.agents & self._human_bit else self.robots[op.cost]
 
 
@@ -59,20 +59,20 @@ def _any_end(original: Any, self: Preserved, state: int, epochs: int, start: int
     return original(self, state, epochs, 1)
 
 
-def _by_key_alone(self: Labels, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
+def _by_key_alone(self: ParetoFront, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
     return any(k <= key for _, k, _ in labels)
 
 
-def _by_epoch_alone(self: Labels, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
+def _by_epoch_alone(self: ParetoFront, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
     return any(t <= epoch for t, _, _ in labels)
 
 
-def _never_busy(self: Labels, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
+def _never_busy(self: ParetoFront, labels: list[Label], epoch: int, key: int, idle: Idle) -> bool:
     no_worse = self._no_worse or always(True)
     return any(t <= epoch and k <= key and no_worse(k, key) for t, k, _ in labels)
 
 
-def _no_other_order(original: Any, self: Labels, no_worse: Any = None) -> None:
+def _no_other_order(original: Any, self: ParetoFront, no_worse: Any = None) -> None:
     original(self, None)
 
 
@@ -81,11 +81,11 @@ def _largest(self: PlanGraph) -> tuple[int, ...]:
     return last
 
 
-def _not_announced(original: Any, self: Keys, key: int) -> int:
+def _not_announced(original: Any, self: CostLayout, key: int) -> int:
     return key
 
 
-def _prefer_early(original: Any, self: Keys, start: int, horizon: int) -> int:
+def _prefer_early(original: Any, self: CostLayout, start: int, horizon: int) -> int:
     return start << self.start_shift
 
 
@@ -99,26 +99,26 @@ BUGS = (
     Bug(
         "keys: announce",
         "communication is free in the suffix",
-        wrapped(Keys, "announce", _not_announced),
+        wrapped(CostLayout, "announce", _not_announced),
     ),
     Bug(
         "keys: of_action",
         "actions are not counted",
-        replaced(Keys, "of_action", lambda self, cost: self.of_cost(cost)),
+        replaced(CostLayout, "of_action", lambda self, cost: self.of_cost(cost)),
     ),
     Bug(
         "keys: of_start",
         "an earlier window is preferred",
-        wrapped(Keys, "of_start", _prefer_early),
+        wrapped(CostLayout, "of_start", _prefer_early),
         _TIES,
     ),
-    Bug("labels: add", "later but cheaper dominates", replaced(Labels, "_covered", _by_key_alone)),
-    Bug("labels: add", "earlier but dearer dominates", replaced(Labels, "_covered", _by_epoch_alone)),
-    Bug("labels: add", "busy robots dominate idle ones", replaced(Labels, "_covered", _never_busy)),
+    Bug("labels: add", "later but cheaper dominates", replaced(ParetoFront, "_covered", _by_key_alone)),
+    Bug("labels: add", "earlier but dearer dominates", replaced(ParetoFront, "_covered", _by_epoch_alone)),
+    Bug("labels: add", "busy robots dominate idle ones", replaced(ParetoFront, "_covered", _never_busy)),
     Bug(
         "labels: no_worse",
         "limits don't count in dominance",
-        wrapped(Labels, "__init__", _no_other_order),
+        wrapped(ParetoFront, "__init__", _no_other_order),
     ),
     Bug("suffix: Replan", "the suffix may pass T", wrapped(Replan, "key", _any_length)),
     Bug("suffix: Replan", "the robots' goal is forgotten", replaced(Replan, "key", _whatever_robots_want)),

@@ -5,27 +5,27 @@ from typing import Any
 
 from search import planner
 from search.engine.best_first import Incumbent, Node
-from search.packed.successor_generator import NOTHING, Option
+from search.packed.successor_generator import NOTHING, JointAction
 from search.planner import _Call
-from search.spaces.fixed_human_plan import Followed
-from search.spaces.unrestricted import Free
+from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.spaces.unrestricted import Unrestricted
 from search.spaces.windowed import AnyOfPlan, Timetable, Windowed
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
-def _unchecked(self: Timetable, epoch: int, state: int) -> Iterable[Option]:
+def _unchecked(self: Timetable, epoch: int, state: int) -> Iterable[JointAction]:
     return (self._steps[epoch - 1][1],)
 
 
-def _own_actions(self: AnyOfPlan, epoch: int, state: int) -> Iterable[Option]:
+def _own_actions(self: AnyOfPlan, epoch: int, state: int) -> Iterable[JointAction]:
     return (NOTHING, *self._successors.human(state))
 
 
-def _only_waiting(self: AnyOfPlan, epoch: int, state: int) -> Iterable[Option]:
+def _only_waiting(self: AnyOfPlan, epoch: int, state: int) -> Iterable[JointAction]:
     return (NOTHING,)
 
 
-def _joint_before(self: AnyOfPlan, epoch: int, state: int) -> Iterable[Option]:
+def _joint_before(self: AnyOfPlan, epoch: int, state: int) -> Iterable[JointAction]:
     own = self._successors.human(state)
     planned = (option for option in own if self._actions[option.actions[0]].name in self._planned)
     return (NOTHING, *planned, *self._successors.joint(state))
@@ -134,11 +134,11 @@ BUGS = (
         "the limit itself is too dear",
         replaced(Windowed, "_too_dear", _dear_at_the_limit),
     ),
-    Bug("free: horizon", "an epoch less", wrapped(Free, "__init__", _shorter_horizon)),
-    Bug("free: horizon", "an epoch more", wrapped(Free, "__init__", _longer_horizon)),
-    Bug("free: goals", "the robots' goal is forgotten", wrapped(Free, "__init__", _own_goal)),
-    Bug("free: max_cost", "ignored", replaced(Free, "_too_dear", _never_dear)),
-    Bug("followed: goals", "the robots' goal is forgotten", wrapped(Followed, "__init__", _own_goal)),
+    Bug("free: horizon", "an epoch less", wrapped(Unrestricted, "__init__", _shorter_horizon)),
+    Bug("free: horizon", "an epoch more", wrapped(Unrestricted, "__init__", _longer_horizon)),
+    Bug("free: goals", "the robots' goal is forgotten", wrapped(Unrestricted, "__init__", _own_goal)),
+    Bug("free: max_cost", "ignored", replaced(Unrestricted, "_too_dear", _never_dear)),
+    Bug("followed: goals", "the robots' goal is forgotten", wrapped(FixedHumanPlan, "__init__", _own_goal)),
     Bug(
         "best_first",
         "the first plan found is called optimal",

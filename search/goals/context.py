@@ -2,18 +2,18 @@
 
 from collections.abc import Sequence
 
-from search.context import Tables
+from search.context import SearchContext
 from search.goals.outcome import Candidate
-from search.goals.timeline import Timeline
+from search.goals.timeline import GoalTimeline
 from search.packed.cost_vector import Weights
-from search.packed.packed_task import Encoding, human_facts
+from search.packed.packed_task import PackedTask, human_facts
 from search.spaces.factory import suffix_rule
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.task import Task
 
 
-class SharedTables(Tables):
+class SharedContext(SearchContext):
     """Tables of one candidate whose packing is that of all candidates.
 
     Args:
@@ -23,42 +23,42 @@ class SharedTables(Tables):
         deadline: asked for time.
     """
 
-    def __init__(self, packed: Encoding, task: Task, options: Options, deadline: Deadline) -> None:
+    def __init__(self, packed: PackedTask, task: Task, options: Options, deadline: Deadline) -> None:
         self.task = task
         self.options = options
         self.deadline = deadline
-        self.encoding = packed.for_goal(task)
+        self.packed = packed.for_goal(task)
         self.weights = Weights(packed, options, None)
         self.keys = self.weights.keys
 
 
 def shared_packing(
     task: Task, options: Options, candidates: Sequence[Candidate], deadline: Deadline
-) -> Encoding:
+) -> PackedTask:
     """A packing of every fact that a candidate or its plan asks for."""
     asked: set[int] = set(human_facts(task)) if options.preservation == "state" else set()
     for candidate in candidates:
         asked.update(candidate.goal.positive, candidate.goal.negative)
         for action in (task.actions[i] for i in candidate.plan):
             asked.update(action.pre, action.neg)
-    return Encoding(task, frozenset(asked), deadline)
+    return PackedTask(task, frozenset(asked), deadline)
 
 
-def timeline(tables: SharedTables, candidate: Candidate, horizon: int) -> Timeline:
+def timeline(context: SharedContext, candidate: Candidate, horizon: int) -> GoalTimeline:
     """The rules of SPEC 3.1 for one candidate, under the options of its tables."""
-    options = tables.options
-    return Timeline(
-        encoding=tables.encoding,
-        goal=tables.encoding.goal,
-        steps=tables.followed(candidate.plan),
-        suffix=suffix_rule(tables, candidate.plan),
-        private=tables.bound,
-        keys=tables.keys,
+    options = context.options
+    return GoalTimeline(
+        packed=context.packed,
+        goal=context.packed.goal,
+        steps=context.followed(candidate.plan),
+        suffix=suffix_rule(context, candidate.plan),
+        private=context.bound,
+        keys=context.keys,
         horizon=horizon,
         max_window=options.max_window or horizon,
         per_start=options.preservation == "state",
         strict=options.strict,
-        deadline=tables.deadline,
+        deadline=context.deadline,
     )
 
 
