@@ -20,7 +20,7 @@ from time import perf_counter, process_time
 
 import serendipity
 from serendipity.model import Result
-from verify.certify import certify
+from verify.certificate.certify import certify
 
 KEY = ("test", "mode", "discount", "encoding", "solver")
 FIELDS = (*KEY, "verdict", "processor", "seconds", "load", "variables", "constraints")

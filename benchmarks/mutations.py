@@ -15,7 +15,7 @@ from serendipity.model import InputError
 from tests.verify.doctored import DOCTORED, Doctored
 from tests.verify.planted import PLANTED
 from tests.verify.planted.judge import fate
-from verify.certify import certify
+from verify.certificate.certify import certify
 from verify.rules import check
 
 

@@ -7,7 +7,7 @@ from typing import Final
 from serendipity.limits import limits_from
 from serendipity.model import Certificate, Claim, Deadline, InputError, Result, Task
 from serendipity.model.collection import no_collection
-from verify.obligations import complete
+from verify.base.obligations import complete
 from verify.rules import RuleReport
 from verify.rules import check as check_rules
 
@@ -102,7 +102,7 @@ def verify(
         UsageError: there is no such solver or encoding, or a limit has no legal value.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    from verify.certify import certify  # loads the solvers
+    from verify.certificate.certify import certify  # loads the solvers
 
     return certify(task, result, encoding=encoding, solver=solver, deadline=limits)
 

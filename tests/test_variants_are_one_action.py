@@ -8,7 +8,7 @@ import serendipity
 from serendipity import Task
 from serendipity.model import Options, Result, Window
 from tests.builders import task as build
-from verify.solve import solve
+from verify.calls.solve import solve
 
 
 def _door() -> Task:

@@ -7,9 +7,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from verify.certify import certify
+    from verify.calls.solve import solve
+    from verify.certificate.certify import certify
     from verify.rules import Checker, RuleReport, Violation, check
-    from verify.solve import solve
 
 __all__ = ["Checker", "RuleReport", "Violation", "certify", "check", "solve"]
 
@@ -17,9 +17,9 @@ _HOMES = {
     "Checker": "verify.rules",
     "RuleReport": "verify.rules",
     "Violation": "verify.rules",
-    "certify": "verify.certify",
+    "certify": "verify.certificate.certify",
     "check": "verify.rules",
-    "solve": "verify.solve",
+    "solve": "verify.calls.solve",
 }
 
 

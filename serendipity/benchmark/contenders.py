@@ -45,7 +45,7 @@ def _search(task: Task, options: Options) -> Answer:
 
 def _program(encoding: str) -> Callable[[Task, Options], Answer]:
     def answer(task: Task, options: Options) -> Answer:
-        from verify.solve import solve as by_program  # loads a solver
+        from verify.calls.solve import solve as by_program  # loads a solver
 
         with no_collection():
             start = time.process_time()

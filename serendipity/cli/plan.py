@@ -157,7 +157,7 @@ def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str
         ]
     if goals is not None:
         modules.append("serendipity.goals.planning")
-    return [*modules, "verify.certify"] if certify else modules
+    return [*modules, "verify.certificate.certify"] if certify else modules
 
 
 def _for_goals(result: Result, certificate: Certificate | None, form: str, output_file: Path | None) -> int:

@@ -43,7 +43,7 @@ def solve(
 ) -> int:
     """Answer as `plan` does, by integer programming alone: slower, and independent of the search."""
     from serendipity.planning import options_from
-    from verify.solve import solve as by_program
+    from verify.calls.solve import solve as by_program
 
     form = output.prepare(format, output_file, verbose)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.certify")

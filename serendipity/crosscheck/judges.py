@@ -11,7 +11,7 @@ from serendipity.crosscheck.laws import LAWS, Law
 from serendipity.crosscheck.refusals import may_be_refused
 from serendipity.model import Deadline, PlanError, Result, UsageError
 from serendipity.planning import options_from, plan
-from verify.solve import solve
+from verify.calls.solve import solve
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from itertools import islice
 from serendipity.crosscheck.calls import PlanCall
 from serendipity.model import INFINITE, Options, PlanError, UsageError
 from serendipity.planning import options_from
-from verify.alone import OptimalPlans
+from verify.base.optimal_plans import OptimalPlans
 
 
 def may_be_refused(call: PlanCall) -> bool:

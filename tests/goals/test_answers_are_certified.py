@@ -20,8 +20,8 @@ from tests.goals.oracle import best_expected, robots_sets
 from tests.goals.strategies import literals, rivals
 from tests.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
 from tests.goals.test_worked_cases import helped, workshop
-from verify.alone import OptimalPlans
-from verify.call import Call
+from verify.base.optimal_plans import OptimalPlans
+from verify.calls.call import Call
 from verify.goals import together
 from verify.goals.beliefs import compiled
 

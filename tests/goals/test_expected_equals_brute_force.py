@@ -17,8 +17,8 @@ from tests.goals.oracle import best_expected, robots_sets
 from tests.goals.strategies import literals, rivals
 from tests.oracle import optimal_human_plan
 from tests.strategies import Call, calls
+from verify.base.individual import Alone
 from verify.goals.timelines import Timeline, rule_fault
-from verify.rules.alone import Alone
 from verify.rules.case import Case
 
 _MOST_PLANS = 300

@@ -13,10 +13,10 @@ from tests.builders import task as build
 from tests.cases import case_1, case_2, case_4
 from tests.oracle.reactions import best_reaction
 from tests.simulation.strategies import Reaction, reactions
-from verify import reactions as played
-from verify.alone import OptimalPlans
-from verify.call import Call
-from verify.reactions import cheapest_reaction
+from verify.base.optimal_plans import OptimalPlans
+from verify.calls.call import Call
+from verify.certificate import reactions as played
+from verify.certificate.reactions import cheapest_reaction
 
 MODELS = ["observant", "local"]
 

@@ -24,8 +24,8 @@ from tests.verify.valid import (
     lifted,
     together,
 )
+from verify.calls.solve import solve
 from verify.rules import RULES
-from verify.solve import solve
 
 
 def _set(make: Callable[[], Given], **fields: Any) -> Given:

@@ -12,10 +12,10 @@ from serendipity.cli.app import main
 from serendipity.model import Claim, Options, Result, Task
 from serendipity.pddl.write import write_pddl
 from tests.cases import case_4, case_10
-from verify import minimise
-from verify.certify import certify
-from verify.solve import solve
-from verify.solver import Outcome
+from verify.calls.solve import solve
+from verify.certificate.certify import certify
+from verify.programs import minimise
+from verify.solvers.mip import Outcome
 
 
 def _written(folder: Path, task: Task, **options: Any) -> tuple[str, str]:

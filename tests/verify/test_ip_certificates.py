@@ -13,8 +13,8 @@ from tests.strategies import Call, calls
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED, dearer, solved
 from tests.verify.results import result
 from tests.verify.valid import CASE_4_PI_H
-from verify.certify import certify
-from verify.solve import solve
+from verify.calls.solve import solve
+from verify.certificate.certify import certify
 
 
 def _claim(certificate: Certificate, name: str) -> Claim:

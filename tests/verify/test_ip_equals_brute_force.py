@@ -9,7 +9,7 @@ from serendipity.model import Options, Result, UsageError
 from tests.cases import WORKED, Worked
 from tests.oracle import Optimum, best
 from tests.strategies import Call, calls
-from verify.solve import solve
+from verify.calls.solve import solve
 
 
 def _assert_equal(result: Result, optimum: Optimum, ties: str) -> None:

@@ -14,16 +14,16 @@ from tests.cases import case_4
 from tests.oracle import best, human_plans
 from tests.oracle.epochs import action_sets, after
 from tests.strategies import tasks
-from verify.alone import OptimalPlans
-from verify.encodings.automata import product
-from verify.encodings.automata.encoding import AutomataEncoding
-from verify.encodings.automata.product import automata
-from verify.encodings.paper import PaperEncoding
-from verify.encodings.relevance import Relevant, relevant_part
-from verify.joint import circles
-from verify.question import FREE, WINDOW, Question, prices
-from verify.solve import solve
-from verify.solver import optimise
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.relevance import Relevant, relevant_part
+from verify.base.subproblem import FREE, WINDOW, Question, prices
+from verify.calls.solve import solve
+from verify.exhaustive.uniform_cost import circles
+from verify.programs.automata import product
+from verify.programs.automata.encoding import AutomataEncoding
+from verify.programs.automata.product import automata
+from verify.programs.paper import PaperEncoding
+from verify.solvers.mip import optimise
 
 
 def _question(task: Task, horizon: int = 4, **options: object) -> Question:

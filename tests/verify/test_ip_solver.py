@@ -9,8 +9,8 @@ import pytest
 
 from serendipity.model import Deadline, UsageError
 from serendipity.model.memory import resident
-from verify.solver import LARGEST_COEFFICIENT, SOLVERS, Model, optimise, solver_version
 from verify.solvers import cbc, highs, worker
+from verify.solvers.mip import LARGEST_COEFFICIENT, SOLVERS, Model, optimise, solver_version
 
 solvers = pytest.mark.parametrize("solver", SOLVERS)
 

@@ -13,8 +13,8 @@ from tests.cases import case_2, case_4, case_5, case_8, case_10
 from tests.countdown import Countdown
 from tests.goals.test_worked_cases import helped, workshop
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED
-from verify.certify import certify
-from verify.solve import solve
+from verify.calls.solve import solve
+from verify.certificate.certify import certify
 
 CALLS: dict[str, tuple[Callable[[], Task], dict[str, Any]]] = {
     "individual": (case_4, {"mode": "individual"}),

@@ -8,7 +8,7 @@ import pytest
 import serendipity
 from serendipity.model import Certificate, Claim
 from tests.verify.edits.corpus import Good, corpus
-from verify.obligations import BEST, NEEDED, complete, kind_of, needed
+from verify.base.obligations import BEST, NEEDED, complete, kind_of, needed
 
 _PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
 

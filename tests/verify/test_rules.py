@@ -14,9 +14,10 @@ from tests.strategies import tasks
 from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
 from verify import check
-from verify.certify import certify
-from verify.rules import CLAIMS, RULES, alone
-from verify.rules.alone import Alone
+from verify.base import individual as alone
+from verify.base.individual import Alone
+from verify.certificate.certify import certify
+from verify.rules import CLAIMS, RULES
 
 
 @pytest.mark.parametrize("make", VALID)

@@ -10,9 +10,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 from serendipity.model import Condition, Deadline, GroundAction, Task
-from verify.alone import OptimalPlans
+from verify.base.individual import Alone
+from verify.base.optimal_plans import OptimalPlans
 from verify.goals.reading import Believed, Recognised
-from verify.rules.alone import Alone
 
 Fault = str
 """One line: what is wrong."""

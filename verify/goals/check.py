@@ -6,8 +6,11 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, Deadline, PlanStep, Result, Step, Task
-from verify.alone import OptimalPlans
-from verify.call import Call
+from verify.base.individual import Alone
+from verify.base.obligations import BY_RULES, needed
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.undecided import UNDECIDED, UndecidedError, why
+from verify.calls.call import Call
 from verify.goals.beliefs import considered_plan, faults
 from verify.goals.reading import Believed, MalformedError, Recognised, Served, read
 from verify.goals.timelines import (
@@ -21,12 +24,9 @@ from verify.goals.timelines import (
     together_fault,
 )
 from verify.goals.together import Better, Rank, Together
-from verify.minimise import Effort
-from verify.obligations import BY_RULES, needed
-from verify.rules.alone import Alone
+from verify.programs.minimise import Effort
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
-from verify.undecided import UNDECIDED, UndecidedError, why
 
 _PROVED = {
     "replay": "the posterior is right, and no considered plan is broken",

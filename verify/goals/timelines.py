@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Condition, Deadline, PlanStep, Result, Task
+from verify.base.individual import Alone
 from verify.goals.reading import Served, weight
-from verify.rules.alone import Alone
 from verify.rules.case import Case
 from verify.rules.registry import RULES
 

@@ -12,14 +12,14 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Step
-from verify.answer import best_plan
-from verify.call import Call, Score
-from verify.encodings.relevance import relevant_part
-from verify.epochs import applicable, conflicting
-from verify.joint import LeastLeft
-from verify.minimise import replans
-from verify.question import FREE
-from verify.undecided import UndecidedError
+from verify.base.concurrency import applicable, conflicting
+from verify.base.relevance import relevant_part
+from verify.base.subproblem import FREE
+from verify.base.undecided import UndecidedError
+from verify.calls.answer import best_plan
+from verify.calls.call import Call, Score
+from verify.exhaustive.uniform_cost import LeastLeft
+from verify.programs.minimise import replans
 
 MOST_NODES: Final = 20_000
 

@@ -8,8 +8,8 @@ from math import lcm
 from typing import NamedTuple
 
 from serendipity.model import Condition, Deadline, GroundAction, StateDelta, Task
+from verify.base.undecided import UndecidedError
 from verify.policy.distances import Distances, Edge, Goal, Moves, reaches_below
-from verify.undecided import UndecidedError
 
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))

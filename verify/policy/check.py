@@ -6,7 +6,8 @@ from time import perf_counter
 from typing import Final
 
 from serendipity.model import Claim, Deadline, Result, Task
-from verify.obligations import needed
+from verify.base.obligations import needed
+from verify.base.undecided import UNDECIDED, during, why
 from verify.policy.board import NOTHING, Board, Costs
 from verify.policy.closed import BrokenError, Walk
 from verify.policy.ending import ends
@@ -14,7 +15,6 @@ from verify.policy.figures import Bounds, figure_faults, header_faults
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
-from verify.undecided import UNDECIDED, during, why
 
 _NO_WALK: Final = "not examined: it takes more than a walk through the policy; verify looks at it"
 

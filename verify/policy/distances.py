@@ -6,7 +6,7 @@ from heapq import heapify, heappop, heappush
 from itertools import chain
 
 from serendipity.model import Deadline
-from verify.undecided import UndecidedError
+from verify.base.undecided import UndecidedError
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,8 @@
 """Can the supporter bring the game to an end at all?  By looking at every state."""
 
 from serendipity.model import Deadline
+from verify.base.undecided import UndecidedError
 from verify.policy.board import Board
-from verify.undecided import UndecidedError
 
 _MOST_STATES = 50_000
 

@@ -9,10 +9,10 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Deadline, Policy
+from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.policy.board import FAR, NOTHING, Board, Costs, Reply
 from verify.policy.ending import lost_states
 from verify.policy.reading import combine, plus
-from verify.undecided import UNDECIDED, UndecidedError, why
 
 _NOT_PROVED: Final = "a lower bound does not follow from those after '{}'"
 _A_LOOK: Final = 300

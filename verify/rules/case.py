@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from serendipity.model import PlanError, Result, Task
-from verify.rules.alone import Alone
+from verify.base.individual import Alone
 from verify.rules.replay import Replay, replay, replay_human
 
 

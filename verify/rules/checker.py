@@ -4,11 +4,11 @@ import time
 
 from serendipity.model import Deadline, Result, Task
 from serendipity.model.errors import LIMITS
-from verify.rules.alone import Alone
+from verify.base.individual import Alone
+from verify.base.undecided import UndecidedError, during, why
 from verify.rules.case import Case
 from verify.rules.registry import RULES, Rule
 from verify.rules.report import CLAIMS, RuleReport, Violation
-from verify.undecided import UndecidedError, during, why
 
 
 class Checker:

@@ -1,7 +1,7 @@
 """Rules on what a result says about its call: mode, human, ``pi_H``, horizon, status."""
 
 from serendipity.model import INFINITE, PlanError, Result
-from verify.obligations import is_mean
+from verify.base.obligations import is_mean
 from verify.rules.case import Case, Found
 
 

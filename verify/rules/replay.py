@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from serendipity.model import Deadline, GroundAction, PlanError, PlanStep, Task
-from verify.epochs import applicable, clash
+from verify.base.concurrency import applicable, clash
 
 State = frozenset[int]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from serendipity.model import Result
-from verify.obligations import is_mean, is_tied
+from verify.base.obligations import is_mean, is_tied
 from verify.rules.case import Case, Found
 
 

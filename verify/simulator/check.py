@@ -5,11 +5,11 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, PlanError, Result, Step, Task
-from verify.alone import OptimalPlans
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.undecided import UNDECIDED, why
 from verify.rules.replay import replay_human
 from verify.simulator.person import Person
 from verify.simulator.run import Played, play
-from verify.undecided import UNDECIDED, why
 
 _MODELS = ("observant", "local")
 

@@ -4,14 +4,14 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from serendipity.model import Task
-from verify.alone import OptimalPlans, State
-from verify.epochs import applicable
+from verify.base.concurrency import applicable
+from verify.base.optimal_plans import OptimalPlans, State
 
 
 class Person:
     """What he would do and pay alone; kept between questions about one task.
 
-    Every method but :meth:`cost_of` raises :class:`verify.undecided.TooManyStatesError` where
+    Every method but :meth:`cost_of` raises :class:`verify.base.undecided.TooManyStatesError` where
     his own problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline.
     """
 

@@ -6,9 +6,9 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from serendipity.model import Options, Step, Task, Visible, surroundings
-from verify.alone import OptimalPlans
-from verify.alone import State as Facts
-from verify.epochs import applicable, conflicting
+from verify.base.concurrency import applicable, conflicting
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.optimal_plans import State as Facts
 from verify.simulator.person import Person
 
 

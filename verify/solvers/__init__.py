@@ -1,1 +1,1 @@
-"""What stands behind ``verify.solver``: the programs, and each solver with the way to end it."""
+"""What stands behind ``verify.solvers.mip``: the programs, and each solver with the way to end it."""

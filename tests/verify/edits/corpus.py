@@ -9,7 +9,7 @@ from serendipity.model import Condition, Deadline, LimitReachedError, Options, R
 from tests.builders import task as build
 from tests.cases import CASE_3_PLAN, case_3, case_4, case_5, case_6, case_8, case_9, case_10
 from tests.goals.test_worked_cases import workshop
-from verify.solve import solve
+from verify.calls.solve import solve
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,69 @@
+"""The human's optimal plans from any state, robots idle: predictions of ``pi_H``, replanning.
+
+*Optimal* is least cost, then fewest actions (SPEC 1).
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from serendipity.model import HumanPlan, Task
+from verify.base.concurrency import applicable
+from verify.base.individual import Alone
+
+State = frozenset[int]
+
+Worth = tuple[Fraction, int]
+"""Cost and number of actions."""
+
+
+class OptimalPlans:
+    """His optimal plans, from what the rule checker knows of their cost.
+
+    Every method raises :class:`verify.base.undecided.TooManyStatesError` where his own problem is too large,
+    and :class:`serendipity.model.LimitReachedError` where the deadline of ``alone`` comes.
+    """
+
+    def __init__(self, task: Task, alone: Alone | None = None) -> None:
+        self._task = task
+        self._alone = Alone(task) if alone is None else alone
+        self.deadline = self._alone.deadline
+
+    def worth(self, state: State) -> Worth | None:
+        """Least cost, then fewest actions, or None if the goal is out of reach."""
+        return self._alone.optimum(state)
+
+    def canonical(self) -> HumanPlan | None:
+        """``pi_H`` as SPEC 1 predicts it; None if he can't reach his goal."""
+        return next(self.plans(), None)
+
+    def plans(self) -> Iterator[HumanPlan]:
+        """All optimal plans from the initial state, the canonical one first."""
+        if self.worth(self._task.init) is not None:
+            yield from self._continue((), self._task.init)
+
+    def steps(self, state: State) -> Iterator[tuple[int, State]]:
+        """Actions that start an optimal plan from ``state``, in string order, with their results.
+
+        Of several with one name, which are variants of one action, the first.
+        """
+        worth = self.worth(state)
+        if worth is None or worth[1] == 0:
+            return
+        cost, length = worth
+        last = None
+        for i in self.deadline.each(self._task.human_actions):
+            action = self._task.actions[i]
+            if action.name == last:
+                continue
+            if action.cost <= cost and applicable(action, state):
+                after = state.difference(action.delete).union(action.add)
+                if self.worth(after) == (cost - action.cost, length - 1):
+                    last = action.name
+                    yield i, after
+
+    def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:
+        worth = self.worth(state)
+        if worth is not None and worth[1] == 0:
+            yield plan
+        for i, after in self.steps(state):
+            yield from self._continue((*plan, i), after)

@@ -1,0 +1,106 @@
+"""Which actions and facts can matter at all: reachable from ``I``, relevant for what is asked.
+
+Both tests keep at least one optimal plan of the question: an unreachable action occurs in
+no plan, and an action that changes no relevant fact can be left out of any plan without
+making a precondition, a goal or another action's applicability false.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from serendipity.model import Deadline, GroundAction, Task
+from verify.base.subproblem import Question
+
+
+@dataclass(frozen=True, slots=True)
+class Relevant:
+    """The part of a task that matters for a question.
+
+    Attributes:
+        actions: ids of the actions, ascending.
+        facts: the facts whose truth matters and can change.
+        pre: for each task action, the facts in ``facts`` that must be true (empty if not kept).
+        neg: the same for those that must be false.
+    """
+
+    actions: tuple[int, ...]
+    facts: frozenset[int]
+    pre: dict[int, tuple[int, ...]]
+    neg: dict[int, tuple[int, ...]]
+
+
+def relevant_part(question: Question, extra: Iterable[int] = ()) -> Relevant | None:
+    """Reduce a question's task; None if a goal can't be reached even without deletes.
+
+    Args:
+        question: its deadline is polled.
+        extra: further facts whose truth matters (the states of ``preservation = state``).
+    """
+    task, deadline = question.task, question.deadline
+    true, false, usable = _reachable(task, question.allowed(), deadline)
+    positive = {*task.goal.positive}
+    negative = {*task.goal.negative}
+    if question.robots_goal:
+        positive |= set(task.robot_goal.positive)
+        negative |= set(task.robot_goal.negative)
+    if not positive <= true or not negative <= false:
+        return None
+    forced = [i for i in question.human_plan if i in usable]
+    seeds = positive | negative | set(extra)
+    for i in forced:
+        seeds.update(task.actions[i].pre, task.actions[i].neg)
+    changing = true & false
+    kept, facts = _closure(task.actions, usable, seeds & changing, changing, deadline)
+    kept |= set(forced)
+    return Relevant(
+        tuple(sorted(kept)),
+        frozenset(facts),
+        {i: tuple(f for f in task.actions[i].pre if f in facts) for i in deadline.each(kept)},
+        {i: tuple(f for f in task.actions[i].neg if f in facts) for i in deadline.each(kept)},
+    )
+
+
+def _reachable(task: Task, allowed: Sequence[int], deadline: Deadline) -> tuple[set[int], set[int], set[int]]:
+    """Facts that may become true, facts that may become false, actions that may become applicable."""
+    true, false = set(task.init), set(range(len(task.facts))) - task.init
+    usable: set[int] = set()
+    waiting = list(allowed)
+    while True:
+        ready = [i for i in deadline.each(waiting) if _may(task.actions[i], true, false)]
+        if not ready:
+            return true, false, usable
+        usable.update(ready)
+        waiting = [i for i in deadline.each(waiting) if i not in usable]
+        for i in deadline.each(ready):
+            true.update(task.actions[i].add)
+            false.update(task.actions[i].delete)
+
+
+def _may(action: GroundAction, true: set[int], false: set[int]) -> bool:
+    return true.issuperset(action.pre) and false.issuperset(action.neg)
+
+
+def _closure(
+    actions: Sequence[GroundAction],
+    usable: Iterable[int],
+    seeds: set[int],
+    changing: set[int],
+    deadline: Deadline,
+) -> tuple[set[int], set[int]]:
+    """Facts that matter for the seeds, and the actions that change one of them."""
+    changers: dict[int, list[int]] = {}
+    for i in deadline.each(usable):
+        for f in (*actions[i].add, *actions[i].delete):
+            changers.setdefault(f, []).append(i)
+    kept: set[int] = set()
+    facts, pending = set(seeds), list(seeds)
+    while pending:
+        for i in deadline.each(changers.get(pending.pop(), ())):
+            if i in kept:
+                continue
+            kept.add(i)
+            for f in (*actions[i].pre, *actions[i].neg):
+                if f in changing and f not in facts:
+                    facts.add(f)
+                    pending.append(f)
+    return kept, facts

@@ -1,0 +1,1 @@
+"""A call of the planner's, answered by programs alone."""

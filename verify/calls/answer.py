@@ -1,0 +1,132 @@
+"""The integer program as a planner: the whole answer to a call (SPEC 3)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice
+
+from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
+from verify.base.obligations import TIED_MODES
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.subproblem import Found
+from verify.calls.call import Call, Score
+from verify.exhaustive.uniform_cost import cheapest
+from verify.programs.minimise import Effort
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a call is answered, proved; costs in the call's units.
+
+    Attributes:
+        call: the call.
+        found: the plan of least objective, or None where ``pi_H`` (or nothing) is the answer.
+        opportunity: whether it is an opportunity (SPEC 3.1).
+    """
+
+    call: Call
+    found: Found | None
+    opportunity: bool
+
+    @property
+    def cost(self) -> Fraction | None:
+        """The answer's cost; None: infeasible."""
+        units = self.call.baseline if self.found is None else self.found.cost
+        return None if units is None else self.call.prices.cost(units)
+
+    @property
+    def objective(self) -> Fraction | None:
+        """The answer's objective; that of doing nothing has no ``K``."""
+        return self.cost if self.found is None else self.call.prices.cost(self.found.objective)
+
+    @property
+    def saving(self) -> Fraction | None:
+        """What an opportunity costs less than doing nothing, else 0; None where that is no answer."""
+        if self.cost is None or self.call.baseline is None:
+            return None
+        return self.call.prices.cost(self.call.baseline) - self.cost if self.opportunity else Fraction(0)
+
+    @property
+    def reason(self) -> str | None:
+        """Why there is no plan, or None."""
+        if self.cost is not None:
+            return None
+        if self.call.human_plan is None and self.call.needs_pi_h:
+            return "no-human-plan"
+        return "no-plan" if self.call.horizon == INFINITE else "no-plan-within-horizon"
+
+
+def answer(call: Call) -> Answer:
+    """Solve a call.
+
+    Raises:
+        UndecidedError: a minimum could not be proved in time.
+        UsageError: the call needs a horizon.
+    """
+    if call.options.mode == "individual" or (call.needs_pi_h and call.human_plan is None):
+        return Answer(call, None, opportunity=False)
+    found = best_plan(call)
+    helps = found is not None and is_help(call, (found.objective, found.cost))
+    if call.options.windowed and not helps:
+        found = None
+    return Answer(call, found, opportunity=helps and call.human_plan is not None)
+
+
+def best_plan(call: Call, *, robots: bool = True) -> Found | None:
+    """The plan of least objective, then cost, if it beats doing nothing; without ``robots`` none acts."""
+    if call.horizon != INFINITE:
+        return call.best(call.question.but(robots=robots), call.do_nothing)
+    question = call.endless.but(robots=robots)
+    if call.do_nothing is not None:
+        question = question.below(call.do_nothing[0] - 1)
+    return call.decided(cheapest(question))
+
+
+def is_help(call: Call, score: Score) -> bool:
+    """Whether a plan of this objective and cost beats what there is without robots (SPEC 1, 3.1)."""
+    idle, alone = idle_cost(call), unaided(call)
+    return (idle is None or score[1] < idle) and (alone is None or score < alone)
+
+
+def unaided(call: Call) -> Score | None:
+    """Objective and cost of the best plan in which no robot acts, where help has to beat that, too.
+
+    It has where robots have goals and a plan is given that is not optimal.  Without such goals
+    :func:`idle_cost` is that plan's; beside an optimal plan whatever costs less is an opportunity.
+    """
+    if call.human_plan is None or not call.robots_goal or call.is_optimal:
+        return None
+    found = best_plan(call, robots=False)
+    return None if found is None else (found.objective, found.cost)
+
+
+def idle_cost(call: Call) -> int | None:
+    """Cost of the answer with all robots idle; see :attr:`Call.idle`."""
+    if call.horizon != INFINITE or call.baseline is None or call.robots_goal:
+        return call.idle
+    worth = call.plans.worth(call.task.init)
+    assert worth is not None
+    best = call.prices.units(worth[0])
+    limit = call.endless.most_cost
+    return best if limit is None or best <= limit else call.baseline
+
+
+def calls(
+    task: Task, options: Options, given: HumanPlan | None, effort: Effort, plans: OptimalPlans
+) -> Sequence[Call]:
+    """The calls that make up a task: one, or one for each optimal ``pi_H`` under ``ties``.
+
+    Raises:
+        UsageError: there are more than ``max_ties``.
+    """
+    if given is not None and options.mode != "individual":
+        return [Call(task, options, given, plans, effort)]
+    if options.ties == "fixed" or options.mode not in TIED_MODES:
+        return [Call(task, options, plans.canonical(), plans, effort)]
+    tied: list[HumanPlan | None] = list(islice(plans.plans(), options.max_ties + 1))
+    if len(tied) > options.max_ties:
+        raise UsageError(f"max_ties: the human has more than {options.max_ties} optimal plans")
+    return [Call(task, options, plan, plans, effort) for plan in tied or [None]]
+
+
+__all__ = ["Answer", "answer", "best_plan", "calls", "idle_cost", "is_help"]

@@ -1,0 +1,206 @@
+"""One planning call as the verifier sees it: ``pi_H``, horizon, baseline, and its questions."""
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+
+from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.subproblem import EXACT, FREE, WINDOW, Found, Prices, Question, prices
+from verify.base.undecided import UndecidedError
+from verify.exhaustive.baseline_without_horizon import cheapest_following
+from verify.programs.minimise import Effort, Minimum, minimise
+
+Score = tuple[int, int]
+"""Objective and cost in units: the order of SPEC 3.1 as far as it is proved."""
+
+
+@dataclass(frozen=True)
+class Call:
+    """A task, options and one human plan.
+
+    Attributes:
+        human_plan: ``pi_H``, or None where the human has no plan alone.
+        effort: the solver's settings and what was spent.
+        plans: the human's optimal plans.
+    """
+
+    task: Task
+    options: Options
+    human_plan: HumanPlan | None
+    plans: OptimalPlans
+    effort: Effort = field(default_factory=Effort)
+
+    @cached_property
+    def horizon(self) -> int | str:
+        """``T`` (SPEC 2, 3.1, 3.5).
+
+        Raises:
+            UsageError: it is missing or shorter than ``pi_H``.
+        """
+        asked, plan = self.options.horizon, self.human_plan
+        if asked is None:
+            if plan is None and self.options.mode == "composite":
+                return INFINITE
+            open_goal = self.robots_goal and not self.task.robot_goal.holds(self.task.init)
+            if plan is None or (not plan and open_goal):
+                raise UsageError(
+                    "horizon: expected a number of epochs: the human has no plan to take it from"
+                )
+            return len(plan)
+        if plan is not None and asked != INFINITE and int(asked) < len(plan):
+            raise UsageError(
+                f"horizon: expected at least {len(plan)}, the length of the human's plan, got {asked}"
+            )
+        return asked
+
+    @property
+    def needs_pi_h(self) -> bool:
+        """Whether there is no answer without a plan of the human's: nothing to preserve (SPEC 3.5)."""
+        return self.options.windowed or self.options.mode == "individual"
+
+    @property
+    def robots_goal(self) -> bool:
+        """Whether robots have goals of their own."""
+        return bool(self.task.robot_goal) and self.options.mode != "individual"
+
+    @cached_property
+    def prices(self) -> Prices:
+        """Integer costs."""
+        return prices(self.task, self.options, self.human_plan or (), self.effort.deadline)
+
+    @cached_property
+    def question(self) -> Question:
+        """All plans that the mode and its options allow.  The horizon has to be finite."""
+        return self.endless.but(horizon=int(self.horizon))
+
+    @cached_property
+    def endless(self) -> Question:
+        """The same without a horizon."""
+        return self._question(WINDOW if self.options.windowed else FREE).below(None, self._most_cost)
+
+    def _question(self, rule: str) -> Question:
+        """A question without horizon and limits."""
+        return Question(
+            task=self.task,
+            options=self.options,
+            rule=rule,
+            human_plan=self.human_plan or (),
+            horizon=0,
+            prices=self.prices,
+            deadline=self.effort.deadline,
+        )
+
+    @property
+    def _most_cost(self) -> int | None:
+        limit = self.options.max_cost
+        if limit == "human":
+            return self.baseline
+        return None if limit is None else self.prices.units(Fraction(limit))
+
+    @cached_property
+    def baseline(self) -> int | None:
+        """Cost of doing nothing for the human, in units; None if that is impossible (SPEC 3.1, 3.5).
+
+        Raises:
+            UndecidedError: it could not be proved.
+        """
+        if self.human_plan is None:
+            return None
+        if not self.robots_goal:
+            return sum(self.prices.team[i] for i in self.human_plan)
+        found = self.idle_robots_plan
+        return None if found is None else found.cost
+
+    @cached_property
+    def idle_robots_plan(self) -> Found | None:
+        """The cheapest plan in which he executes ``pi_H`` and robots reach ``G_R`` without him."""
+        if self.horizon == INFINITE:
+            return self.decided(cheapest_following(self._question(EXACT)))
+        question = self._question(EXACT).but(horizon=int(self.horizon))
+        return self.decided(minimise(question, self.effort, self.plans))
+
+    @cached_property
+    def do_nothing(self) -> Score | None:
+        """Objective and cost of doing nothing for the human, which no limit rejects.
+
+        ``pi_H`` with idle robots fits a window of one epoch.  None where it is no candidate: there is
+        no ``pi_H``, or robots have goals, and may need all epochs for them, while a window is asked for.
+        """
+        if self.baseline is None or (self.robots_goal and self.options.windowed):
+            return None
+        epochs = 1 if self.options.windowed and self.human_plan else 0
+        return self.baseline + epochs * self.prices.epoch, self.baseline
+
+    @cached_property
+    def idle(self) -> int | None:
+        """Cost of the answer with all robots idle: less than the baseline only for a given ``pi_H``.
+
+        Raises:
+            UndecidedError: it could not be proved.
+        """
+        if self.baseline is None or self.robots_goal or self.is_optimal:
+            return self.baseline
+        found = self.best(self.question.but(robots=False), self.do_nothing)
+        return self.baseline if found is None else found.cost
+
+    @cached_property
+    def is_optimal(self) -> bool:
+        """Whether ``pi_H`` costs no more than his optimal plan."""
+        worth = self.plans.worth(self.task.init)
+        return (
+            worth is not None
+            and self.human_plan is not None
+            and worth[0] == self.task.cost_of(self.human_plan)
+        )
+
+    def better(self, question: Question, than: Score) -> Found | None:
+        """Some plan with a lower score; None: proved that there is none.
+
+        Raises:
+            UndecidedError: neither was found out.
+        """
+        objective, cost = than
+        limits = [question.below(objective - 1)]
+        if self.may_tie(than):
+            limits.append(question.below(objective, cost - 1))
+        for limited in limits:
+            found = minimise(limited, self.effort, self.plans).settled()
+            if found is not None:
+                return found
+        return None
+
+    def best(self, question: Question, than: Score | None) -> Found | None:
+        """The plan of least objective, then cost, among those with a lower score than ``than``.
+
+        Raises:
+            UndecidedError: it could not be proved.
+        """
+        limited = question if than is None else question.below(than[0] - 1)
+        best = self.decided(minimise(limited, self.effort, self.plans))
+        score = than if best is None else (best.objective, best.cost)
+        while score is not None and self.may_tie(score):
+            tie = question.below(score[0], score[1] - 1)
+            found = self.decided(minimise(tie, self.effort, self.plans))
+            if found is None:
+                break
+            best, score = found, (found.objective, found.cost)
+        return best
+
+    def may_tie(self, score: Score) -> bool:
+        """Whether another plan could have the same objective at a lower cost.
+
+        It would pay for it with communication, or with at least ``K`` for a longer window.
+        """
+        cost = score[1]
+        return cost > 0 and (any(self.prices.talk) or 0 < self.prices.epoch <= cost)
+
+    def decided(self, minimum: Minimum) -> Found | None:
+        """The minimum's plan, None if there is provably none.
+
+        Raises:
+            UndecidedError: it was not proved.
+        """
+        if minimum.status == "undecided":
+            raise UndecidedError(minimum.reason)
+        return minimum.found

@@ -1,0 +1,119 @@
+"""Answers of the verifier in the model's form."""
+
+from fractions import Fraction
+from typing import Any
+
+from serendipity.model import PlanStep, Result, Step, Window
+from verify.base.subproblem import Found
+from verify.calls.answer import Answer, idle_cost
+from verify.calls.call import Call
+
+
+def plan_steps(call: Call, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
+    """Steps with names and costs, in order."""
+    task = call.task
+    return tuple(
+        PlanStep(
+            step.epoch,
+            tuple(task.agents[i] for i in task.actions[step.action].participants),
+            task.actions[step.action].name,
+            float(task.team_cost(task.actions[step.action], call.options.discount)),
+        )
+        for step in sorted(steps)
+    )
+
+
+def found_result(call: Call, found: Found, *, opportunity: bool) -> Result:
+    """A plan as a result whose bound is its objective."""
+    return _result(call, found.steps, found.window, found.objective, found.cost, opportunity=opportunity)
+
+
+def to_result(answer: Answer) -> Result:
+    """The result that an answer is."""
+    call, found = answer.call, answer.found
+    if found is not None:
+        return found_result(call, found, opportunity=answer.opportunity)
+    if answer.cost is None:
+        return _infeasible(call, answer.reason)
+    baseline = call.baseline
+    assert baseline is not None
+    if call.robots_goal:
+        nothing = call.idle_robots_plan
+        assert nothing is not None
+        steps = nothing.steps
+    else:
+        steps = tuple(Step(t, i) for t, i in enumerate(call.human_plan or (), start=1))
+    return _result(call, steps, None, baseline, baseline, opportunity=False)
+
+
+def _result(
+    call: Call,
+    steps: tuple[Step, ...],
+    window: Window | None,
+    objective: int,
+    cost: int,
+    *,
+    opportunity: bool,
+) -> Result:
+    exact, least = call.prices.cost(cost), call.prices.cost(objective)
+    return Result(
+        status="optimal",
+        opportunity=opportunity,
+        cost=float(exact),
+        saving=_saving(call, cost, opportunity=opportunity),
+        objective=float(least),
+        lower_bound=float(least),
+        horizon=_horizon(call),
+        window=window,
+        saving_alone=_saving_alone(call),
+        plan=plan_steps(call, steps),
+        agent_costs=_agent_costs(call, steps),
+        **_header(call),
+    )
+
+
+def _header(call: Call) -> dict[str, Any]:
+    task, plan = call.task, call.human_plan
+    return {
+        "mode": call.options.mode,
+        "human": task.agents[task.human],
+        "options": call.options,
+        "human_plan": None if plan is None else tuple(task.actions[i].name for i in plan),
+        "human_cost": None if plan is None else float(task.cost_of(plan)),
+    }
+
+
+def _infeasible(call: Call, reason: str | None) -> Result:
+    return Result(status="infeasible", reason=reason, horizon=_horizon(call), **_header(call))
+
+
+def _horizon(call: Call) -> int | str | None:
+    if call.human_plan is None and call.needs_pi_h:
+        return None
+    return len(call.human_plan or ()) if call.options.mode == "individual" else call.horizon
+
+
+def _saving(call: Call, cost: int, *, opportunity: bool) -> float | None:
+    if call.baseline is None:
+        return None
+    return float(call.prices.cost(call.baseline - cost)) if opportunity else 0.0
+
+
+def _saving_alone(call: Call) -> float | None:
+    if call.baseline is None:
+        return None
+    idle = idle_cost(call)
+    assert idle is not None
+    return float(call.prices.cost(call.baseline - idle))
+
+
+def _agent_costs(call: Call, steps: tuple[Step, ...]) -> dict[str, float]:
+    """A joint action's cost is shared equally."""
+    task = call.task
+    shares = dict.fromkeys(task.agents, Fraction(0))
+    for step in steps:
+        action = task.actions[step.action]
+        for agent in action.participants:
+            cost = task.team_cost(action, call.options.discount)
+            shares[task.agents[agent]] += cost / len(action.participants)
+    return {agent: float(share) for agent, share in shares.items()}

@@ -1,0 +1,235 @@
+"""The claims that need an optimiser: each a proof, a counter-example, or neither in time."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from time import perf_counter
+
+from serendipity.model import INFINITE, Claim, Result, Step
+from verify.base.subproblem import Found, Question
+from verify.base.undecided import UNDECIDED, UndecidedError, during, why
+from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
+from verify.calls.call import Call, Score
+from verify.calls.results import found_result, plan_steps
+from verify.exhaustive.uniform_cost import cheapest
+from verify.programs.minimise import minimise
+from verify.rules import Checker
+
+Verdict = tuple[str, str, Found | None]
+"""Verdict, reason, counter-example."""
+
+_BOUNDED = ("optimal", "no_opportunity", "lower_bound")
+"""Claims that bound the objective."""
+
+_CLOSED = "closed by reachability and shortest paths, no solver call"
+
+
+class Examiner:
+    """Examines one result of one call.
+
+    Args:
+        call: task, options, ``pi_H`` and the solver's settings.
+        result: the result.
+        steps: its plan by ids.
+        checker: checks counter-examples.
+    """
+
+    def __init__(self, call: Call, result: Result, steps: tuple[Step, ...], checker: Checker) -> None:
+        self.call = call
+        self.result = result
+        self.steps = steps
+        self.checker = checker
+
+    def claim(self, name: str, examine: Callable[[], Verdict]) -> Claim:
+        """Run an examination; running out of time or memory leaves the claim undecided."""
+        started = perf_counter()
+        effort, bound, example = self.call.effort, None, None
+        programs, calls = effort.programs, effort.calls
+        try:
+            verdict, reason, found = examine()
+            if found is not None:
+                self._require_valid(found)
+                reason, example = f"{reason}: {self._describe(found)}", plan_steps(self.call, found.steps)
+            if verdict == "proved" and name in _BOUNDED:
+                bound = self.result.lower_bound
+        except UNDECIDED as error:
+            verdict, reason = "undecided", why(error)
+            bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
+            if bound is not None:
+                reason += f"; no answer has an objective below {bound:.12g}"
+        if verdict == "proved" and effort.programs > programs and effort.calls == calls:
+            reason += f"; {_CLOSED}"
+        return Claim(name, verdict, reason, example, perf_counter() - started, bound)
+
+    # -- the claims
+
+    def optimal(self) -> Verdict:
+        """No plan that the mode and its options allow has a lower objective, or the same at a lower cost."""
+        score = self._score()
+        found = self._better(score)
+        if found is not None:
+            return "refuted", "a better plan", found
+        nothing = self.call.do_nothing
+        if nothing is not None and nothing < score:  # beyond max_cost, which pi_H is exempt from
+            return "refuted", "doing nothing is better", None
+        return "proved", f"no plan has {self._cut(score)}", None
+
+    def optimum_is_no_opportunity(self) -> Verdict:
+        """A proved optimum costs no less than the answer without robots."""
+        idle = idle_cost(self.call)
+        if idle is not None and is_help(self.call, self._score()):
+            return "refuted", f"the optimum costs less than {self._amount(idle)}, robots idle", None
+        return "proved", "the optimum costs no less than the answer without robots", None
+
+    def no_opportunity(self) -> Verdict:
+        """The best plan does not cost less than the answer without robots."""
+        call = self.call
+        if self._usual():
+            nothing = call.do_nothing
+            assert nothing is not None
+            found = self._better(nothing)
+            if found is not None:
+                return "refuted", "an opportunity", found
+            return "proved", f"no plan has {self._cut(nothing)}", None
+        best = best_plan(call)
+        if best is not None and is_help(call, (best.objective, best.cost)):
+            return "refuted", "an opportunity", best
+        return "proved", "the best plan costs no less than the answer without robots", None
+
+    def opportunity_is_cheaper(self) -> Verdict | None:
+        """Refutes an opportunity that costs no less than doing without robots."""
+        idle, score = idle_cost(self.call), self._score()
+        if idle is not None and score[1] >= idle:
+            return "refuted", f"the plan costs no less than {self._amount(idle)}, robots idle", None
+        if not is_help(self.call, score):
+            return "refuted", "the human does as well without a robot", None
+        return None
+
+    def savings(self) -> Verdict | None:
+        """Refutes figures that need an optimiser: ``saving`` with ``G_R``, ``saving_alone``."""
+        call, result = self.call, self.result
+        if call.baseline is None:
+            return self._nothing_to_compare()
+        if self._usual() or result.plan is None:
+            return None
+        idle = idle_cost(call)
+        assert idle is not None
+        alone = float(call.prices.cost(call.baseline - idle))
+        if result.saving_alone != alone and not self._not_yet_known():
+            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
+        cost = self._score()[1]
+        saving = float(call.prices.cost(call.baseline - cost)) if result.opportunity else 0.0
+        if result.saving != saving:
+            return "refuted", f"saving is {saving:g}, the result says {result.saving}", None
+        if not result.opportunity and call.options.windowed and cost != call.baseline:
+            return "refuted", f"doing nothing costs {self._amount(call.baseline)}", None
+        return None
+
+    def _not_yet_known(self) -> bool:
+        """Whether it is open what the human gains alone, since a limit came first."""
+        return self.result.saving_alone is None and self.result.status == "feasible"
+
+    def _nothing_to_compare(self) -> Verdict | None:
+        """Without a way to do nothing there is no saving."""
+        if self.result.saving is None and self.result.saving_alone is None:
+            return None
+        return "refuted", "a saving, though doing nothing is no answer", None
+
+    def lower_bound(self) -> Verdict:
+        """No answer has an objective below the bound."""
+        call, bound = self.call, self.result.lower_bound
+        assert bound is not None
+        shift = self._window_of_nothing()
+        least = shift + self._units_at_least(bound)
+        nothing = call.do_nothing
+        if nothing is not None and nothing[0] < least:
+            return "refuted", f"doing nothing has the objective {self._amount(nothing[0] - shift)}", None
+        question = self._question().below(least - 1)
+        minimum = cheapest(question) if self._endless else minimise(question, call.effort, call.plans)
+        found = minimum.settled()
+        if found is not None:
+            return "refuted", "a plan below the bound", found
+        return "proved", f"no plan has an objective below {bound:.12g}", None
+
+    def infeasible(self) -> Verdict:
+        """There is no plan at all."""
+        call = self.call
+        if call.needs_pi_h and call.human_plan is None:
+            if call.plans.worth(call.task.init) is None:
+                return "proved", "all states that the human reaches alone were visited", None
+            return "refuted", "the human has a plan alone", None
+        given: Answer = answer(call)
+        if given.cost is None:
+            return "proved", "no plan satisfies the program", None
+        return "refuted", "a plan", given.found or call.idle_robots_plan
+
+    # -- helpers
+
+    @property
+    def _endless(self) -> bool:
+        return self.call.horizon == INFINITE
+
+    def _question(self) -> Question:
+        return self.call.endless if self._endless else self.call.question
+
+    def _known(self, units: int | None) -> float | None:
+        """What a solver's bound says of the answer's objective: no more than was asked for."""
+        call, claimed = self.call, self.result.lower_bound
+        if units is None or claimed is None:
+            return None
+        units -= self._window_of_nothing()
+        return min(claimed, max(0.0, float(call.prices.cost(units))))
+
+    def _window_of_nothing(self) -> int:
+        """``K`` of the one-epoch window that the objective of an answer without a window is net of."""
+        call = self.call
+        without = call.options.windowed and bool(call.human_plan) and not self.result.opportunity
+        return call.prices.epoch if without else 0
+
+    def _usual(self) -> bool:
+        """Whether doing nothing and the answer without robots are both ``pi_H``."""
+        return not self.call.robots_goal and self.call.is_optimal
+
+    def _better(self, score: Score) -> Found | None:
+        if not self._endless:
+            return self.call.better(self.call.question, score)
+        return cheapest(self.call.endless.below(score[0] - 1)).settled()
+
+    def _score(self) -> Score:
+        """Objective and cost of the result's own plan, recomputed."""
+        return self.call.endless.measure(self.steps, self.result.window)
+
+    def _units_at_least(self, amount: float) -> int:
+        """The fewest units that are at least ``amount``; a float stands for the exact value it rounds."""
+        scale = self.call.prices.scale
+        nearest = round(Fraction(str(amount)) * scale)
+        if float(Fraction(nearest, scale)) == amount:
+            return nearest
+        return -((-Fraction(str(amount)) * scale).__floor__())
+
+    def _amount(self, units: int) -> str:
+        return f"{float(self.call.prices.cost(units)):.12g}"
+
+    def _cut(self, score: Score) -> str:
+        words = f"an objective below {self._amount(score[0])}"
+        return f"{words}, or the same at a lower cost" if self.call.may_tie(score) else words
+
+    def _describe(self, found: Found) -> str:
+        words = f"cost {self._amount(found.cost)}, objective {self._amount(found.objective)}"
+        return (
+            words if found.window is None else f"{words}, window [{found.window.start}, {found.window.end})"
+        )
+
+    def _require_valid(self, found: Found) -> None:
+        """Return if a counter-example stands.
+
+        Raises:
+            UndecidedError: it breaks a rule, or nobody could tell.
+        """
+        with during("checking a counter-example"):
+            baseline = self.call.baseline
+            opportunity = baseline is not None and found.cost < baseline
+            report = self.checker.check(found_result(self.call, found, opportunity=opportunity))
+        if not report.ok:
+            raise UndecidedError(f"the counter-example breaks a rule: {report.first}")
+        if report.undecided:
+            raise UndecidedError(f"a counter-example could not be checked: {report.stopped or 'too hard'}")

@@ -1,0 +1,141 @@
+"""Claims about the best help that happens with a human who replans (SPEC 6)."""
+
+from fractions import Fraction
+from functools import cached_property
+
+from verify.base.subproblem import Found
+from verify.base.undecided import UndecidedError
+from verify.calls.call import Call
+from verify.certificate.claims import Examiner, Verdict
+from verify.certificate.reactions import cheapest_reaction
+from verify.simulator import Person, play
+
+
+class HumanExaminer(Examiner):
+    """Examines a result that was planned for an observant or a local human.
+
+    No integer program knows what he does; whatever robots could do is played instead.
+    """
+
+    def optimal(self) -> Verdict:
+        """Nothing that happens with him costs less."""
+        cost = self._score()[1]
+        found = _cheaper(self.call, cost)
+        if found is not None:
+            return "refuted", "a better plan", found
+        return "proved", self._played(cost), None
+
+    def no_opportunity(self) -> Verdict:
+        """Nothing that happens with him costs less than without robots."""
+        cost = self._score()[1] if self.call.robots_goal else self._alone
+        assert cost is not None, "without goals of the robots, leaving him alone is an answer"
+        found = _cheaper(self.call, cost)
+        if found is not None:
+            return "refuted", "a better plan" if self.call.robots_goal else "an opportunity", found
+        if self.call.robots_goal and (self._alone is None or cost < self._alone):
+            return "refuted", "leaving the human alone costs more", None
+        return "proved", self._played(cost), None
+
+    def opportunity_is_cheaper(self) -> Verdict | None:
+        """Refutes an opportunity that costs no less than doing without robots."""
+        if self._alone is not None and self._score()[1] >= self._alone:
+            return "refuted", f"the plan costs no less than {self._amount(self._alone)}, robots idle", None
+        return None
+
+    def savings(self) -> Verdict | None:
+        """Refutes ``saving`` and ``saving_alone``."""
+        call, result = self.call, self.result
+        if call.baseline is None:
+            return self._nothing_to_compare()
+        if result.plan is None:
+            return None
+        compared = self._idle is not None and not call.robots_goal
+        idle = min(self._idle, call.baseline) if compared and self._idle is not None else call.baseline
+        alone = float(call.prices.cost(call.baseline - idle))
+        if result.saving_alone != alone and not self._not_yet_known():
+            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
+        saving = float(call.prices.cost(call.baseline - self._score()[1])) if result.opportunity else 0.0
+        if result.saving != saving:
+            return "refuted", f"saving is {saving:g}, the result says {result.saving}", None
+        return None
+
+    def lower_bound(self) -> Verdict:
+        """Nothing that happens with him, and no answer, costs less than the bound."""
+        bound = self.result.lower_bound
+        assert bound is not None
+        least = self._units_at_least(bound)
+        if not self.call.robots_goal and self._alone is not None and self._alone < least:
+            return "refuted", f"without robots it costs {self._amount(self._alone)}", None
+        found = _cheaper(self.call, least)
+        if found is not None:
+            return "refuted", "a plan below the bound", found
+        return "proved", self._played(least), None
+
+    def infeasible(self) -> Verdict:
+        """He has no plan alone, or nothing that happens reaches the robots' goals."""
+        call = self.call
+        if call.human_plan is None:
+            return super().infeasible()
+        found = _decided(call, None)
+        if found is not None:
+            return "refuted", "a plan", found
+        return "proved", "everything that robots can do was played", None
+
+    @cached_property
+    def _alone(self) -> int | None:
+        """What it costs without help: ``pi_H``, or what he does by himself if that is less."""
+        costs = [cost for cost in (self.call.baseline, self._idle) if cost is not None]
+        return min(costs, default=None)
+
+    @cached_property
+    def _idle(self) -> int | None:
+        return _idle_cost(self.call)
+
+    def _played(self, cost: int) -> str:
+        return f"everything that robots can do for less than {self._amount(cost)} was played"
+
+
+def human_cost(call: Call) -> Fraction | None:
+    """Cost of the answer to a call under its human model; None: infeasible.
+
+    Raises:
+        UndecidedError: it could not be proved.
+        TooManyStatesError: the human's own problem is too large.
+    """
+    if call.human_plan is None:
+        return None
+    if call.robots_goal:
+        found = _decided(call, None)
+        return None if found is None else call.prices.cost(found.cost)
+    assert call.baseline is not None
+    idle = _idle_cost(call)
+    found = _cheaper(call, call.baseline if idle is None else min(idle, call.baseline))
+    return call.prices.cost(call.baseline if found is None else found.cost)
+
+
+def _cheaper(call: Call, cost: int) -> Found | None:
+    return _decided(call, cost - 1)
+
+
+def _decided(call: Call, most: int | None) -> Found | None:
+    minimum = cheapest_reaction(call, most)
+    if minimum.status == "undecided":
+        raise UndecidedError(minimum.reason)
+    return minimum.found
+
+
+def _idle_cost(call: Call) -> int | None:
+    """What he pays by himself; None if that does not reach all goals in time."""
+    if call.human_plan is None:
+        return None
+    horizon = call.horizon
+    played = play(
+        call.task,
+        call.options,
+        call.human_plan,
+        (),
+        human_model=call.options.human_model,
+        horizon=horizon if isinstance(horizon, int) else None,
+        person=Person(call.task, call.plans),
+    )
+    return call.prices.units(played.cost) if played.goals_hold else None

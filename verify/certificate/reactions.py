@@ -1,0 +1,135 @@
+"""The best that happens with a human who replans (SPEC 6): all that could cost less is played.
+
+Layer by layer over the epochs, the robots try every set of actions that may share an epoch,
+and the verifier's simulator says what comes of it.  Two things keep it small: nothing is
+played on that must cost more than what is asked for, by distances in the human's automaton;
+and of equal states and minds only the cheapest is played on (an earlier one at the same cost is no
+worse, since robots can do the same from it, only sooner).
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import Final
+
+from serendipity.model import LimitReachedError, Step, surroundings
+from serendipity.model.errors import LIMITS, limit_reason
+from verify.base.concurrency import applicable, conflicting
+from verify.base.relevance import relevant_part
+from verify.base.subproblem import FREE, Found
+from verify.base.undecided import during
+from verify.calls.call import Call
+from verify.exhaustive.uniform_cost import LeastLeft
+from verify.programs.minimise import Minimum
+from verify.simulator import Game, Moment, Person
+
+MOST_MOMENTS: Final = 200_000
+
+State = frozenset[int]
+
+
+def cheapest_reaction(call: Call, most: int | None) -> Minimum:
+    """The cheapest plan that happens under the options' human model.
+
+    Args:
+        call: task, options, ``pi_H`` and the human's optimal plans; there is a horizon.
+        most: it may not cost more than this many units, or None.
+
+    Raises:
+        TooManyStatesError: the human's own problem is too large.
+        LimitReachedError: the deadline came before anything was played.
+    """
+    with during("preparing to play what robots can do"):
+        question = call.question.but(rule=FREE).below(most)
+        part = relevant_part(question)
+        if part is None:
+            return Minimum("none")
+        played = _Reactions(call, LeastLeft(question, part), question.most, question.most_cost)
+    return played.run()
+
+
+class _Reactions:
+    def __init__(self, call: Call, left: LeastLeft, *limits: int | None) -> None:
+        task, options = call.task, call.options
+        self.call = call
+        self.deadline = call.effort.deadline
+        tick = self.deadline.tick
+        sees = surroundings(task, tick).visible if options.human_model == "local" else None
+        self.game = Game(task, options, Person(task, call.plans), sees)
+        self.left = left
+        self.most = min((limit for limit in limits if limit is not None), default=None)
+        self.may_block = options.no_block is False
+        self.known: dict[Moment, int] = {}
+        self.before: dict[tuple[int, Moment], tuple[Moment, tuple[int, ...]]] = {}
+        self.offered: dict[int, list[int]] = {}
+        for i, action in enumerate(self.deadline.each(task.actions)):
+            if action.participants != (task.human,):
+                self.offered.setdefault(min(action.pre, default=-1), []).append(i)
+
+    def run(self) -> Minimum:
+        """Play the layers until nothing is left that could cost less."""
+        try:
+            return self._run()
+        except LIMITS as limit:
+            doing = f"playing what robots can do, {len(self.known):,} states and minds so far"
+            return Minimum("undecided", reason=str(LimitReachedError(limit_reason(limit), doing)))
+
+    def _run(self) -> Minimum:
+        start = self.game.start(self.call.human_plan or ())
+        if self.game.done(start.state):
+            affordable = self.most is None or self.most >= 0
+            return Minimum("found", Found((), None, 0, 0), 0) if affordable else Minimum("none")
+        self.known[start] = 0
+        best: Found | None = None
+        layer = [start]
+        for epoch in range(1, self.call.question.horizon + 1):
+            following: dict[Moment, None] = {}
+            for now in layer:
+                if len(self.known) > MOST_MOMENTS:
+                    return Minimum("undecided", best, reason=f"more than {MOST_MOMENTS} states and minds")
+                for after, total in self._play(epoch, now):
+                    if self.game.done(after.state):
+                        best, self.most = self._found(epoch, after, total), total - 1
+                    else:
+                        self.known[after] = total
+                        following[after] = None
+            layer = list(following)
+        return Minimum("none") if best is None else Minimum("found", best, best.cost)
+
+    def _play(self, epoch: int, now: Moment) -> Iterator[tuple[Moment, int]]:
+        """What can come of an epoch, where it is worth going on, with the cost so far."""
+        spent, look, team = self.known[now], self.game.look(now), self.call.prices.team
+        for offers in self._sets((), self._candidates(now.state)):
+            self.deadline.tick()
+            deed, after = self.game.act(look, offers)
+            if deed.skipped or (deed.blocks and not self.may_block):
+                continue  # without what is skipped the set is tried, too
+            if self.game.sees is None:
+                after = after._replace(belief=after.state)
+            total = spent + sum(team[i] for i in deed.executed)
+            if self.most is not None and total + self.left(after.state) > self.most:
+                continue
+            if total < self.known.get(after, total + 1):
+                self.before[epoch, after] = now, deed.executed
+                yield after, total
+
+    def _candidates(self, state: State) -> list[int]:
+        actions = self.call.task.actions
+        found = (i for f in (-1, *state) for i in self.offered.get(f, ()))
+        return [i for i in self.deadline.each(found) if applicable(actions[i], state)]
+
+    def _sets(self, chosen: tuple[int, ...], candidates: list[int]) -> Iterator[tuple[int, ...]]:
+        """All sets of actions that may share an epoch, the empty one first."""
+        yield chosen
+        actions, strict = self.call.task.actions, self.call.options.strict
+        for k, i in enumerate(candidates):
+            if not any(conflicting(actions[i], actions[j], strict=strict) for j in chosen):
+                yield from self._sets((*chosen, i), candidates[k + 1 :])
+
+    def _found(self, epoch: int, moment: Moment, cost: int) -> Found:
+        return Found(tuple(self._steps(epoch, moment)), None, cost, cost)
+
+    def _steps(self, epoch: int, moment: Moment) -> Iterable[Step]:
+        steps = []
+        for t in range(epoch, 0, -1):
+            moment, executed = self.before[t, moment]
+            steps += [Step(t, i) for i in executed]
+        return sorted(steps)

@@ -1,5 +1,0 @@
-"""The strong encoding: agent automata as networks, shared facts as value flows."""
-
-from verify.encodings.automata.encoding import AutomataEncoding
-
-__all__ = ["AutomataEncoding"]

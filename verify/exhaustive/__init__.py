@@ -1,0 +1,1 @@
+"""Proofs by exhaustive search where no horizon bounds a program."""

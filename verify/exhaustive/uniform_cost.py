@@ -1,0 +1,225 @@
+"""Composite plans without a horizon: uniform-cost search over joint states, with an estimate.
+
+Without a horizon an epoch costs nothing, so that an action set can be taken apart and its
+actions executed one after the other, those first that others of the set would disable.
+Only sets in which actions disable each other in a circle have to stay together.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from typing import Final
+
+from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, Task
+from serendipity.model.errors import LIMITS, limit_reason
+from verify.base.concurrency import conflicting
+from verify.base.relevance import Relevant, relevant_part
+from verify.base.subproblem import Found, Question
+from verify.base.undecided import during
+from verify.programs.automata.network import FAR, distances, goal_states
+from verify.programs.automata.product import automata
+from verify.programs.minimise import Minimum
+
+MOST_STATES: Final = 500_000
+
+State = frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class Bundle:
+    """Actions that are executed together, and what they need and do."""
+
+    actions: tuple[int, ...]
+    pre: State
+    neg: State
+    add: State
+    delete: State
+    cost: int
+
+
+def cheapest(question: Question) -> Minimum:
+    """The least cost of a plan with any number of epochs, within the question's limits.
+
+    Args:
+        question: its horizon is not looked at; its rule is ``free``.
+
+    Raises:
+        LimitReachedError: the deadline came before the search began.
+    """
+    with during("preparing the search for joint plans"):
+        part = relevant_part(question)
+        if part is None:
+            return Minimum("none")
+        search = JointSearch(question, part)
+    return search.run()
+
+
+class LeastLeft:
+    """A lower bound on what is left to pay, in units: distances in the human's automaton.
+
+    Robots' costs are only left out, so it holds whatever they do.
+    """
+
+    def __init__(self, question: Question, part: Relevant) -> None:
+        deadline = question.deadline
+        groups = [frozenset(variable.facts) for variable in question.task.variables_within(deadline)]
+        machine = automata(question.task, part, groups, deadline)[question.task.human]
+        weights = list(question.prices.team)
+        left = distances(machine, weights, goal_states(question, machine), deadline)[0]
+        self._facts = machine.facts
+        self._left = dict(zip(machine.states, left, strict=True))
+
+    def __call__(self, state: State) -> int:
+        """The bound in a state."""
+        return self._left.get(state & self._facts, 0)
+
+
+class JointSearch:
+    """Uniform-cost search of one question; what a timetable changes can be overridden."""
+
+    def __init__(self, question: Question, part: Relevant) -> None:
+        self.question = question
+        self.task = question.task
+        self.deadline = question.deadline
+        self.part = part
+        self.facts = part.facts
+        self.table: dict[int, list[Bundle]] = {}
+        for bundle in self.deadline.each(self._bundles(part)):
+            self.table.setdefault(min(bundle.pre, default=-1), []).append(bundle)
+        conditions = [self.task.goal, *([self.task.robot_goal] if question.robots_goal else [])]
+        self.wanted = part.facts.intersection([f for c in conditions for f in c.positive])
+        self.unwanted = part.facts.intersection([f for c in conditions for f in c.negative])
+        self.left = LeastLeft(question, part)
+        self.closed: set[State] = set()
+        self.bound: int | None = None
+
+    def run(self) -> Minimum:
+        """The cheapest plan within the question's limits."""
+        try:
+            return self._search()
+        except LIMITS as limit:
+            doing = f"searching joint plans, {len(self.closed):,} states so far"
+            return Minimum(
+                "undecided", bound=self.bound, reason=str(LimitReachedError(limit_reason(limit), doing))
+            )
+
+    def _search(self) -> Minimum:
+        start, closed = self.start, self.closed
+        best = {start: 0}
+        parent: dict[State, tuple[State, Bundle]] = {}
+        queue = [(self.estimate(start), 0, 0, start)]
+        number, most = 0, self._most()
+        while queue:
+            self.deadline.check()
+            estimate, _, _, state = heappop(queue)
+            if state in closed:
+                continue
+            self.bound = estimate
+            if estimate > most:
+                break
+            closed.add(state)
+            if self.is_goal(state):
+                return self._found(state, best[state], parent)
+            if len(closed) > MOST_STATES:
+                return Minimum("undecided", bound=estimate, reason=f"more than {MOST_STATES} joint states")
+            for bundle in self.applicable(state):
+                after = (state - bundle.delete) | bundle.add
+                total = best[state] + bundle.cost
+                if total < best.get(after, FAR):
+                    best[after], parent[after] = total, (state, bundle)
+                    number += 1
+                    heappush(queue, (total + self.estimate(after), -total, number, after))
+        return Minimum("none")
+
+    @property
+    def start(self) -> State:
+        """The initial state."""
+        return self.task.init & self.facts
+
+    def is_goal(self, state: State) -> bool:
+        """Whether the goals hold."""
+        return self.wanted <= state and self.unwanted.isdisjoint(state)
+
+    def _most(self) -> int:
+        limits = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
+        return min(limits, default=FAR - 1)
+
+    def _found(self, state: State, cost: int, parent: dict[State, tuple[State, Bundle]]) -> Minimum:
+        bundles = []
+        while state in parent:
+            state, bundle = parent[state]
+            bundles.append(bundle)
+        steps = tuple(
+            Step(epoch, i) for epoch, bundle in enumerate(reversed(bundles), start=1) for i in bundle.actions
+        )
+        return Minimum("found", Found(steps, None, cost, cost), cost)
+
+    def applicable(self, state: State) -> Iterator[Bundle]:
+        """What can be done next."""
+        for f in (-1, *state):
+            for bundle in self.table.get(f, ()):
+                if bundle.pre <= state and bundle.neg.isdisjoint(state):
+                    yield bundle
+
+    def estimate(self, state: State) -> int:
+        """A lower bound on the cost that is left."""
+        return self.left(state)
+
+    def _bundles(self, part: Relevant) -> Iterator[Bundle]:
+        for i in part.actions:
+            yield self.bundle((i,))
+        if not self.question.options.strict:
+            actions = [(i, self.task.actions[i]) for i in self.deadline.each(part.actions)]
+            for circle in circles(actions, self.task, self.deadline):
+                yield self.bundle(circle)
+
+    def bundle(self, ids: tuple[int, ...]) -> Bundle:
+        """The actions as one."""
+        chosen = [self.task.actions[i] for i in ids]
+        return Bundle(
+            ids,
+            self.facts.intersection([f for action in chosen for f in action.pre]),
+            self.facts.intersection([f for action in chosen for f in action.neg]),
+            self.facts.intersection([f for action in chosen for f in action.add]),
+            self.facts.intersection([f for action in chosen for f in action.delete]),
+            sum(self.question.prices.team[i] for i in ids),
+        )
+
+
+def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadline) -> list[tuple[int, ...]]:
+    """Sets of actions that may share an epoch but in no order follow each other."""
+    by_id = dict(actions)
+    disables = {i: [j for j, b in deadline.each(actions) if j != i and _disables(a, b)] for i, a in actions}
+    found: set[tuple[int, ...]] = set()
+
+    def extend(chosen: tuple[int, ...]) -> None:
+        deadline.tick()
+        if len(chosen) > 1 and _strongly_connected(chosen, disables):
+            found.add(tuple(sorted(chosen)))
+        if len(chosen) < len(task.agents):
+            for j in {j for i in chosen for j in disables[i]} - set(chosen):
+                if not any(conflicting(by_id[i], by_id[j], strict=False) for i in chosen):
+                    extend((*chosen, j))
+
+    for i, _ in actions:
+        extend((i,))
+    return sorted(found)
+
+
+def _disables(a: GroundAction, b: GroundAction) -> bool:
+    return not set(a.delete).isdisjoint(b.pre) or not set(a.add).isdisjoint(b.neg)
+
+
+def _strongly_connected(chosen: tuple[int, ...], disables: dict[int, list[int]]) -> bool:
+    """Whether each of the actions leads to each other one along ``disables``."""
+    members = set(chosen)
+    for start in chosen:
+        reached, pending = {start}, [start]
+        while pending:
+            for j in disables[pending.pop()]:
+                if j in members and j not in reached:
+                    reached.add(j)
+                    pending.append(j)
+        if reached != members:
+            return False
+    return True

@@ -1,0 +1,135 @@
+"""What the human may do in which epoch: his control automaton, one for each rule.
+
+A control state is a short text-and-numbers tuple; the first entry says in which part of
+the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (SPEC 3.1), or ``free``.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from verify.base.subproblem import ALONE, EXACT, FREE, Question, in_plan
+
+Control = tuple[str, int, int]
+
+PREFIX, INSIDE, SUFFIX, ANY = "prefix", "window", "suffix", "free"
+
+ALL, OWN = "all", "own"
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """One way to spend an epoch.
+
+    Attributes:
+        after: control state of this epoch, from which the next one goes on.
+        actions: ids that he may do, or ``all`` or ``own``.
+        wait: whether he may do nothing.
+        weight: units that the epoch adds to the objective (``K`` inside the window).
+        needs: facts that must be true before the epoch (Def. 3.1 read literally).
+    """
+
+    after: Control
+    actions: tuple[int, ...] | str
+    wait: bool = True
+    weight: int = 0
+    needs: frozenset[int] = frozenset()
+
+
+class HumanControl:
+    """Control of one question; ``start``, :meth:`legs` by epoch, :meth:`accepts` at the end."""
+
+    def __init__(self, question: Question, expected: tuple[frozenset[int], ...] = ()) -> None:
+        """``expected[j]``: the facts of ``delta(I, pi_H[1..j])`` that the human's domain mentions."""
+        self.question = question
+        self.plan = question.human_plan
+        self.expected = expected
+        options = question.options
+        self.literal = options.preservation == "state"
+        longest = options.max_window
+        self.counted = longest is not None and longest < question.horizon
+        self.longest = longest if self.counted else question.horizon
+        self.start: Control = (PREFIX, 0, 0) if question.rule != FREE else (ANY, 0, 0)
+        own = in_plan(question.task, self.plan).intersection(question.task.human_actions)
+        self.any_of_plan = tuple(sorted(own))
+
+    def legs(self, control: Control, epoch: int) -> Iterator[Leg]:
+        """The ways to spend ``epoch`` after control state ``control``."""
+        rule = self.question.rule
+        if rule == FREE:
+            yield Leg(control, ALL)
+        elif rule == ALONE:
+            yield Leg(control, OWN)
+        elif rule == EXACT:
+            yield self._planned(epoch)
+        elif control[0] == PREFIX:
+            yield self._planned(epoch)
+            if epoch <= len(self.plan):
+                tag = epoch if self.literal else 0
+                yield Leg((INSIDE, tag, 1 if self.counted else 0), ALL, weight=self.question.prices.epoch)
+        elif control[0] == INSIDE:
+            _, tag, length = control
+            assert self.longest is not None
+            if not self.counted or length < self.longest:
+                after = (INSIDE, tag, length + 1 if self.counted else 0)
+                yield Leg(after, ALL, weight=self.question.prices.epoch)
+            yield from self._suffix_starts(tag)
+        else:
+            yield from self._suffix_goes_on(control)
+
+    def accepts(self, control: Control) -> list[frozenset[int]]:
+        """Sets of facts one of which must hold at the end; empty if the plan may not end here."""
+        if self.question.rule != "window":
+            return [frozenset()]
+        if control[0] == PREFIX:
+            return []
+        if not self.literal:
+            return [frozenset()]
+        last = len(self.plan)
+        if control[0] == INSIDE:
+            return [self.expected[last]]
+        return [frozenset()] if control[1] == last else []
+
+    def _planned(self, epoch: int) -> Leg:
+        """Eq. (7b) at its own epoch; with the paper's second (7b) any action of the plan."""
+        here: Control = (PREFIX, 0, 0)
+        if self.question.rule != EXACT and self.question.options.keep_prefix:
+            return Leg(here, self.any_of_plan)
+        if epoch <= len(self.plan):
+            return Leg(here, (self.plan[epoch - 1],), wait=False)
+        return Leg(here, ())
+
+    def _suffix_starts(self, xi1: int) -> Iterator[Leg]:
+        """Eq. (8): from xi2 on he is alone."""
+        if self.literal:
+            for j in range(xi1 - 1, len(self.plan) + 1):
+                for leg in self._suffix_goes_on((SUFFIX, j, 0)):
+                    yield Leg(leg.after, leg.actions, leg.wait, needs=self.expected[j])
+        else:
+            yield from self._suffix_goes_on((SUFFIX, 0, 0))
+
+    def _suffix_goes_on(self, control: Control) -> Iterator[Leg]:
+        _, done, _ = control
+        if self.literal:
+            yield Leg(control, ())
+            if done < len(self.plan):
+                yield Leg((SUFFIX, done + 1, 0), (self.plan[done],), wait=False)
+        elif self.question.options.suffix == "subplan":
+            yield Leg(control, ())
+            for k in range(done, len(self.plan)):
+                yield Leg((SUFFIX, k + 1, 0), (self.plan[k],), wait=False)
+        else:
+            yield Leg(control, OWN)
+
+
+def expected_states(question: Question) -> tuple[frozenset[int], ...]:
+    """``delta(I, pi_H[1..j])`` for each j, cut down to facts that the human's own domain mentions."""
+    task, deadline = question.task, question.deadline
+    mentioned = {*task.goal.positive, *task.goal.negative}
+    for i in deadline.each(task.human_actions):
+        action = task.actions[i]
+        mentioned.update(action.pre, action.neg, action.add, action.delete)
+    states = [task.init]
+    for i in deadline.each(question.human_plan):
+        action = task.actions[i]
+        states.append((states[-1] - frozenset(action.delete)) | frozenset(action.add))
+    return tuple(state & mentioned for state in states)

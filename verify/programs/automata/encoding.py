@@ -1,0 +1,167 @@
+"""The strong encoding of a question, from its task to a program that a solver can take."""
+
+from serendipity.model import GroundAction, Step, Window
+from verify.base.relevance import Relevant, relevant_part
+from verify.base.subproblem import WINDOW, Question
+from verify.base.undecided import during
+from verify.programs.automata.control import HumanControl, expected_states
+from verify.programs.automata.network import (
+    FAR,
+    HumanNetwork,
+    Network,
+    RobotNetwork,
+    distances,
+    goal_states,
+)
+from verify.programs.automata.product import Automaton, automata
+from verify.programs.automata.program import BYTES_AN_ARC, Program
+from verify.programs.automata.pruning import prune
+from verify.programs.automata.setting import Setting
+from verify.programs.automata.suffixes import bound_suffix
+from verify.solvers.mip import Model
+
+
+class AutomataEncoding:
+    """An encoding of a question.
+
+    Attributes:
+        model: the integer program, or None where pruning alone proves that there is no plan.
+    """
+
+    def __init__(self, question: Question) -> None:
+        """Build the program.  The horizon has to be at least 1."""
+        self.question = question
+        self.deadline = question.deadline
+        self.program: Program | None = None
+        literal = question.rule == WINDOW and question.options.preservation == "state"
+        expected = expected_states(question) if literal else ()
+        part = relevant_part(question, frozenset().union(*expected))
+        if part is None:
+            return
+        variables = question.task.variables_within(self.deadline)
+        groups = [frozenset(variable.facts) for variable in variables]
+        groups = [group for group in groups if _moves_by_value(question, part, group)]
+        with during("building the agents' automata"):
+            setting = self._setting(part, groups, expected)
+        with during(f"pruning the agents' automata over {question.horizon} epochs"):
+            promising = prune(setting)
+        if promising:
+            arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
+            with during(f"writing a program for {arcs:,} arcs of the agents' automata"):
+                self.deadline.require(arcs * BYTES_AN_ARC)
+                self.program = Program(question, setting, groups, complete=self.needs_whole_state(part))
+
+    @property
+    def model(self) -> Model | None:
+        """The integer program, or None where pruning alone proves that there is no plan."""
+        return None if self.program is None else self.program.model
+
+    def plan(self, values: tuple[int, ...]) -> tuple[tuple[Step, ...], Window | None]:
+        """The plan and the window that a solution stands for."""
+        assert self.program is not None
+        return self.program.plan(values)
+
+    def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
+        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
+        assert self.program is not None
+        bound_suffix(self.program, xi2, state, least)
+
+    def needs_whole_state(self, part: Relevant) -> bool:
+        """Whether a suffix may turn out not to be his optimal plan, or that plan not to fit.
+
+        With equal positive costs of his own actions a cheaper plan is a shorter one, so
+        that what the program finds cheapest is optimal and fits (SPEC 3.1, rule 3).
+        """
+        question = self.question
+        if (
+            question.rule != WINDOW
+            or question.options.suffix != "replan"
+            or question.options.preservation == "state"
+        ):
+            return False
+        task = question.task
+        his = (task.actions[i] for i in self.deadline.each(part.actions))
+        costs = {action.cost for action in his if action.participants == (task.human,)}
+        talk = any(question.prices.talk[i] for i in task.human_actions)
+        return len(costs) > 1 or 0 in costs or talk or bool(task.robot_goal)
+
+    def _setting(
+        self, part: Relevant, groups: list[frozenset[int]], expected: tuple[frozenset[int], ...]
+    ) -> Setting:
+        question = self.question
+        task = question.task
+        machines = automata(task, part, groups, self.deadline)
+        wanted_true = frozenset(task.goal.positive).union(*expected) & part.facts
+        wanted_false = frozenset(task.goal.negative) & part.facts
+        if question.robots_goal:
+            wanted_true |= part.facts.intersection(task.robot_goal.positive)
+            wanted_false |= part.facts.intersection(task.robot_goal.negative)
+        weights = self._weights()
+        control = HumanControl(question, expected)
+        networks: list[Network] = []
+        for agent, machine in enumerate(machines):
+            if agent == task.human:
+                human = HumanNetwork(machine, weights[agent], control, question, part)
+                networks.append(human)
+            else:
+                open_end = self.needs_whole_state(part) or self._watched(
+                    part, machine, wanted_true | wanted_false
+                )
+                networks.append(RobotNetwork(machine, weights[agent], open_end=open_end))
+        finals = [goal_states(question, machine) for machine in machines]
+        return Setting(
+            task=task,
+            part=part,
+            networks=networks,
+            human=human,
+            horizon=question.horizon,
+            most=FAR - 1 if question.most is None else question.most,
+            wanted_true=wanted_true,
+            wanted_false=wanted_false,
+            finals=finals,
+            deadline=self.deadline,
+            bounds=distances(machines[task.human], weights[task.human], finals[task.human], self.deadline),
+        )
+
+    def _watched(self, part: Relevant, machine: Automaton, wanted: frozenset[int]) -> bool:
+        """Whether anybody else looks at a robot's private facts: then they count to the end."""
+        if not machine.facts.isdisjoint(wanted):
+            return True
+        return any(
+            not machine.facts.isdisjoint((*part.pre[i], *part.neg[i]))
+            for i in self.deadline.each(part.actions)
+            if machine.agent not in self.question.task.actions[i].participants
+        )
+
+    def _weights(self) -> list[list[int]]:
+        """What an arc of each action adds to the objective in each agent's network.
+
+        A joint action counts once: the human pays, or its first participant.
+        """
+        question = self.question
+        task = question.task
+        weights = [[0] * len(task.actions) for _ in task.agents]
+        for i, action in enumerate(self.deadline.each(task.actions)):
+            payer = task.human if task.human in action.participants else action.participants[0]
+            weights[payer][i] = question.prices.team[i] + question.prices.talk[i]
+        return weights
+
+
+def _moves_by_value(question: Question, part: Relevant, group: frozenset[int]) -> bool:
+    """Whether exactly one fact of a group is true initially and each action keeps it so.
+
+    Each action that changes the group needs and deletes one member and adds another, so
+    that two of them exclude each other and a unit of flow follows the group exactly.
+    """
+    task = question.task
+    if len(group) < 2 or len(group & task.init) != 1 or group.isdisjoint(part.facts):
+        return False
+    return all(_moves(task.actions[i], group) for i in question.deadline.each(part.actions))
+
+
+def _moves(action: GroundAction, group: frozenset[int]) -> bool:
+    added, deleted = group.intersection(action.add), group.intersection(action.delete)
+    if not added and not deleted:
+        return True
+    needed = group.intersection(action.pre)
+    return len(needed) == 1 and needed <= deleted and len(added) == 1 and added.isdisjoint(needed)

@@ -1,0 +1,189 @@
+"""Networks: an agent's automaton unrolled over the epochs, one unit of flow each.
+
+An arc is a tuple ``(source, target, action, weight, needs)``: node numbers, the action's id
+(:data:`WAIT` for none), what it adds to the objective, and the facts outside the automaton
+that must be true before the epoch besides the action's own precondition.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+from typing import Final
+
+from serendipity.model import Deadline
+from verify.base.relevance import Relevant
+from verify.base.subproblem import Question
+from verify.programs.automata.control import ALL, OWN, SUFFIX, Control, HumanControl
+from verify.programs.automata.product import Automaton
+
+WAIT: Final = -1
+NOTHING: Final[frozenset[int]] = frozenset()
+
+Arc = tuple[int, int, int, int, frozenset[int]]
+
+FAR: Final = 10**15
+"""More than any sum of weights: no way there."""
+
+
+@dataclass(slots=True)
+class Network:
+    """One agent's network.
+
+    Attributes:
+        automaton: what it unrolls.
+        state_of: automaton state of each node.
+        layers: the arcs of each epoch; ``layers[t - 1]`` are those of epoch t.
+        open_end: whether the flow goes on to the last epoch; else it may stop anywhere,
+            which stands for an agent that does nothing any more.
+        start: the initial node.
+    """
+
+    automaton: Automaton
+    state_of: list[int] = field(default_factory=lambda: [0])
+    layers: list[list[Arc]] = field(default_factory=list)
+    open_end: bool = True
+    start: int = 0
+
+    @property
+    def agent(self) -> int:
+        """The agent's id."""
+        return self.automaton.agent
+
+    def true_facts(self, node: int) -> frozenset[int]:
+        """The automaton's facts that are true in a node."""
+        return self.automaton.states[self.state_of[node]]
+
+    def outgoing(self, node: int, epoch: int) -> Iterator[Arc]:
+        """All arcs of an epoch from a node, before anything is pruned."""
+        raise NotImplementedError
+
+    def ends(self, node: int) -> list[frozenset[int]]:
+        """Sets of facts one of which must hold for the plan to end in ``node``."""
+        del node
+        return [NOTHING]
+
+
+class RobotNetwork(Network):
+    """A robot may do any of its actions, or wait, in every epoch."""
+
+    def __init__(self, automaton: Automaton, weights: list[int], *, open_end: bool) -> None:
+        super().__init__(automaton, list(range(len(automaton.states))), open_end=open_end)
+        self.weights = weights
+
+    def outgoing(self, node: int, epoch: int) -> Iterator[Arc]:
+        """See :class:`Network`."""
+        del epoch
+        yield (node, node, WAIT, 0, NOTHING)
+        for action, target in self.automaton.moves[node]:
+            yield (node, target, action, self.weights[action], NOTHING)
+
+
+class HumanNetwork(Network):
+    """The human's automaton times his control automaton."""
+
+    def __init__(
+        self,
+        automaton: Automaton,
+        weights: list[int],
+        control: HumanControl,
+        question: Question,
+        part: Relevant,
+    ) -> None:
+        super().__init__(automaton, [0])
+        self.weights = weights
+        self.control = control
+        self.facts = part.facts
+        self.controls: list[Control] = [control.start]
+        self.numbers: dict[tuple[int, Control], int] = {(0, control.start): 0}
+        task = question.task
+        own = question.deadline.each(part.actions)
+        self.own = {i for i in own if task.actions[i].participants == (task.human,)}
+
+    def node(self, state: int, control: Control) -> int:
+        """The number of a node, new or old."""
+        number = self.numbers.setdefault((state, control), len(self.state_of))
+        if number == len(self.state_of):
+            self.state_of.append(state)
+            self.controls.append(control)
+        return number
+
+    def outgoing(self, node: int, epoch: int) -> Iterator[Arc]:
+        """See :class:`Network`."""
+        state, control = self.state_of[node], self.controls[node]
+        moves = self.automaton.moves[state]
+        for leg in self.control.legs(control, epoch):
+            needs = self.outer(leg.needs, state)
+            if needs is None:
+                continue
+            if leg.wait:
+                yield (node, self.node(state, leg.after), WAIT, leg.weight, needs)
+            for action, target in moves:
+                if leg.actions == ALL or (
+                    action in self.own if leg.actions == OWN else action in leg.actions
+                ):
+                    weight = leg.weight + self.weights[action]
+                    yield (node, self.node(target, leg.after), action, weight, needs)
+
+    def outer(self, needs: frozenset[int], state: int) -> frozenset[int] | None:
+        """What is needed of facts outside the automaton; None if those inside rule it out."""
+        if not needs:
+            return NOTHING
+        inside = needs & self.automaton.facts
+        if not inside <= self.automaton.states[state]:
+            return None
+        return (needs & self.facts) - inside
+
+    def ends(self, node: int) -> list[frozenset[int]]:
+        """See :class:`Network`."""
+        state = self.state_of[node]
+        wanted = (self.outer(needs, state) for needs in self.control.accepts(self.controls[node]))
+        return [needs for needs in wanted if needs is not None]
+
+    def in_suffix(self, node: int) -> bool:
+        """Whether the epoch that led to ``node`` belongs to the suffix: no robot may act."""
+        return self.controls[node][0] == SUFFIX
+
+
+def distances(
+    automaton: Automaton, weights: list[int], goals: set[int], deadline: Deadline
+) -> tuple[list[int], list[int]]:
+    """Least weight and fewest actions from each automaton state to a goal state; a lower bound."""
+    backward: list[list[tuple[int, int]]] = [[] for _ in automaton.states]
+    for state, moves in enumerate(deadline.each(automaton.moves)):
+        for action, target in moves:
+            backward[target].append((state, weights[action]))
+    weight = _dijkstra(backward, goals, deadline, unit=False)
+    return weight, _dijkstra(backward, goals, deadline, unit=True)
+
+
+def _dijkstra(
+    backward: list[list[tuple[int, int]]], goals: set[int], deadline: Deadline, *, unit: bool
+) -> list[int]:
+    best = [FAR] * len(backward)
+    queue: list[tuple[int, int]] = []
+    for goal in goals:
+        best[goal] = 0
+        queue.append((0, goal))
+    while queue:
+        deadline.tick()
+        done, state = heappop(queue)
+        if done > best[state]:
+            continue
+        for source, weight in backward[state]:
+            total = done + (1 if unit else weight)
+            if total < best[source]:
+                best[source] = total
+                heappush(queue, (total, source))
+    return best
+
+
+def goal_states(question: Question, automaton: Automaton) -> set[int]:
+    """Automaton states in which no literal of the goals is false."""
+    task = question.task
+    conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]
+    true: frozenset[int] = frozenset()
+    false: frozenset[int] = frozenset()
+    for condition in conditions:
+        true |= automaton.facts.intersection(condition.positive)
+        false |= automaton.facts.intersection(condition.negative)
+    return {k for k, state in enumerate(automaton.states) if true <= state and false.isdisjoint(state)}

@@ -1,0 +1,155 @@
+"""Agent automata: the product of all facts that only one agent's actions change.
+
+A fact is *private* to an agent if he takes part in every action that changes it (a joint
+action that hands him a kit included).  Since he does one action per epoch, the values of
+his private facts follow an automaton whose arcs are his actions; what an action needs of
+other facts is left to the rows of the program.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+from serendipity.model import Deadline, GroundAction, Task
+from verify.base.relevance import Relevant
+
+MOST_STATES: Final = 2000
+"""Facts are left out of an automaton, and become shared ones, rather than pass this size."""
+
+_MANY: Final = 500_000
+"""Moves from which on there may be no memory for more."""
+
+_BYTES_A_MOVE: Final = 80
+
+Move = tuple[int, int]
+"""An action's id and the state it leads to."""
+
+_Entry = tuple[int, frozenset[int], frozenset[int], frozenset[int], frozenset[int]]
+"""An action's id, and what it needs, excludes, adds and deletes of some facts."""
+
+
+@dataclass(slots=True)
+class Automaton:
+    """One agent's automaton; states are numbered, state 0 is the initial one.
+
+    Attributes:
+        agent: id.
+        facts: the private facts that its states tell apart.
+        states: the set of ``facts`` that is true in each state.
+        moves: for each state the actions that its private facts allow.
+    """
+
+    agent: int
+    facts: frozenset[int]
+    states: list[frozenset[int]] = field(default_factory=list)
+    moves: list[list[Move]] = field(default_factory=list)
+
+
+def private_facts(task: Task, part: Relevant, deadline: Deadline) -> dict[int, int]:
+    """The agent to whom each private fact belongs; the human goes first where two could."""
+    owners: dict[int, set[int]] = {}
+    for i in deadline.each(part.actions):
+        action = task.actions[i]
+        for f in {*action.add, *action.delete} & part.facts:
+            owners.setdefault(f, set(action.participants)).intersection_update(action.participants)
+    order = sorted(range(len(task.agents)), key=lambda agent: (agent != task.human, agent))
+    return {f: next(a for a in order if a in agents) for f, agents in deadline.each(owners.items()) if agents}
+
+
+def automata(
+    task: Task, part: Relevant, units: Iterable[frozenset[int]], deadline: Deadline
+) -> tuple[Automaton, ...]:
+    """The automaton of each agent, in the order of ids.
+
+    Args:
+        task: the task.
+        part: what of it matters.
+        units: groups of facts that go into an automaton, or stay out, together.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came first.
+    """
+    owner = private_facts(task, part, deadline)
+    result = []
+    for agent in range(len(task.agents)):
+        mine = frozenset(f for f, a in deadline.each(owner.items()) if a == agent)
+        actions = {
+            i: task.actions[i] for i in deadline.each(part.actions) if agent in task.actions[i].participants
+        }
+        result.append(_Explorer(task, part, agent, actions, deadline).largest(mine, units))
+    return tuple(result)
+
+
+class _Explorer:
+    """Makes automata of one agent."""
+
+    def __init__(
+        self,
+        task: Task,
+        part: Relevant,
+        agent: int,
+        actions: Mapping[int, GroundAction],
+        deadline: Deadline,
+    ) -> None:
+        self._task = task
+        self._part = part
+        self._agent = agent
+        self._actions = actions
+        self._deadline = deadline
+
+    def largest(self, mine: frozenset[int], units: Iterable[frozenset[int]]) -> Automaton:
+        """The product of all private facts, or of as many units as stay below the limit."""
+        whole = self._explore(mine)
+        if whole is not None:
+            return whole
+        pieces = [unit for unit in self._deadline.each(units) if unit <= mine]
+        grouped = frozenset().union(*pieces)
+        pieces += [frozenset((f,)) for f in sorted(mine - grouped)]
+        best = self._explore(frozenset())
+        assert best is not None
+        for piece in sorted(pieces, key=lambda piece: (-len(piece), min(piece))):
+            best = self._explore(best.facts | piece) or best
+        return best
+
+    def _explore(self, facts: frozenset[int]) -> Automaton | None:
+        """The reachable states over ``facts``, or None if they are too many."""
+        table = self._by_first_fact(facts)
+        start = self._task.init & facts
+        found = Automaton(self._agent, facts, [start])
+        index = {start: 0}
+        size, enough = 0, _MANY
+        for state in found.states:  # grows while it is walked
+            self._deadline.check()
+            moves: list[Move] = []
+            for f in (-1, *state):
+                for i, pre, neg, add, delete in table.get(f, ()):
+                    if pre <= state and neg.isdisjoint(state):
+                        target = (state - delete) | add
+                        if target not in index:
+                            if len(index) >= MOST_STATES:
+                                return None
+                            index[target] = len(index)
+                            found.states.append(target)
+                        moves.append((i, index[target]))
+            found.moves.append(moves)
+            size += len(moves)
+            if size > enough:  # there has to be memory for as many again
+                self._deadline.require(size * _BYTES_A_MOVE)
+                enough = 2 * size
+        return found
+
+    def _by_first_fact(self, facts: frozenset[int]) -> dict[int, list[_Entry]]:
+        """Actions projected on ``facts``, by one fact that they need (-1: none)."""
+        needs = {i: facts.intersection(self._part.pre[i]) for i in self._deadline.each(self._actions)}
+        popular: dict[int, int] = {}
+        for pre in self._deadline.each(needs.values()):
+            for f in pre:
+                popular[f] = popular.get(f, 0) + 1
+        table: dict[int, list[_Entry]] = {}
+        for i, action in self._deadline.each(self._actions.items()):
+            pre = needs[i]
+            first = min(pre, key=lambda f: (popular[f], f), default=-1)
+            entry = (i, pre, facts.intersection(self._part.neg[i]), facts.intersection(action.add))
+            table.setdefault(first, []).append((*entry, facts.intersection(action.delete)))
+        return table

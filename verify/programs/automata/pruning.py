@@ -1,0 +1,271 @@
+"""Which arcs can lie on a plan that is cheap enough: reachability and least weights.
+
+Everything here is a relaxation, so that what it drops is on no plan within the limit:
+
+* forward: an arc needs a reachable source, facts that may be true (false) by then, and, for
+  a joint action, an arc of the same action for each participant;
+* least weights: the weight of a plan is the sum over its networks, so an arc is dropped if
+  its own path and the least of the other networks pass the limit;
+* help costs: a fact that only robots can provide costs at least the cheapest provider's path;
+* usefulness: a robot that stops acting does so after an arc that somebody makes use of.
+"""
+
+from collections import defaultdict
+from collections.abc import Container
+
+from verify.programs.automata.forward import Forward
+from verify.programs.automata.network import FAR, WAIT, Arc
+from verify.programs.automata.setting import Setting
+
+MOST_ROUNDS = 6
+
+
+def prune(setting: Setting) -> bool:
+    """Drop arcs from the networks' layers; False if no plan within the limit is left."""
+    forward = Forward(setting)
+    forward.unroll()
+    count = -1
+    for _ in range(MOST_ROUNDS):
+        if not _least_weights(setting, forward):
+            return False
+        left = sum(len(layer) for network in setting.networks for layer in network.layers)
+        if left == count:
+            return True
+        count = left
+        forward.filter()
+    return _least_weights(setting, forward)
+
+
+def _least_weights(setting: Setting, forward: Forward) -> bool:
+    """One round of backward passes; False if the human has no path left."""
+    human = setting.task.human
+    robots = [k for k in range(len(setting.networks)) if k != human]
+    provided = _Providers(setting, forward, robots)
+    through = _human_backward(setting, forward, provided)
+    if not through.cheapest < FAR:
+        return False
+    for k in robots:
+        if setting.networks[k].open_end:
+            if not _open_backward(setting, forward, k, through.cheapest, through.active):
+                return False
+        else:
+            _useful_backward(setting, forward, k, through)
+    return True
+
+
+class _Providers:
+    """What help costs at least: robots' cheapest way to provide a fact or half of a joint action."""
+
+    def __init__(self, setting: Setting, forward: Forward, robots: list[int]) -> None:
+        self.setting = setting
+        task = setting.task
+        self.inside = frozenset().union(*(network.automaton.facts for network in setting.networks))
+        self.true: dict[int, list[tuple[int, int]]] = defaultdict(list)
+        self.false: dict[int, list[tuple[int, int]]] = defaultdict(list)
+        self.joint: dict[tuple[int, int], list[int]] = {}
+        self.his_true: set[int] = set()
+        self.his_false: set[int] = set()
+        for layer in setting.human.layers:
+            for action in {arc[2] for arc in setting.deadline.each(layer)} - {WAIT}:
+                self.his_true.update(task.actions[action].add)
+                self.his_false.update(task.actions[action].delete)
+        for k in robots:
+            for epoch, layer in enumerate(setting.networks[k].layers, start=1):
+                self._collect(k, epoch, layer, forward.reach[k][epoch - 1])
+
+    def _collect(self, k: int, epoch: int, layer: list[Arc], before: dict[int, int]) -> None:
+        cheapest: dict[int, int] = {}
+        for source, _, action, weight, _ in self.setting.deadline.each(layer):
+            if action != WAIT:
+                total = before[source] + weight
+                if total < cheapest.get(action, FAR):
+                    cheapest[action] = total
+        for i, total in self.setting.deadline.each(cheapest.items()):
+            ground = self.setting.task.actions[i]
+            if len(ground.participants) > 1:
+                self.joint.setdefault((i, epoch), []).append(total)
+            for f in ground.add:
+                self.true[f].append((epoch, total))
+            for f in ground.delete:
+                self.false[f].append((epoch, total))
+
+    def surcharge(self, action: int, epoch: int, needs: frozenset[int]) -> int:
+        """What robots must have spent for an arc of the human's to be possible in ``epoch``."""
+        if action == WAIT and not needs:
+            return 0
+        init, inside = self.setting.task.init, self.inside
+        most = 0
+        pre = (*self.setting.outer_pre[action], *needs) if action != WAIT else tuple(needs)
+        for f in pre:
+            if f not in init and f not in inside and f not in self.his_true:
+                most = max(most, _cheapest_before(self.true[f], epoch))
+        if action != WAIT:
+            for f in self.setting.outer_neg[action]:
+                if f in init and f not in inside and f not in self.his_false:
+                    most = max(most, _cheapest_before(self.false[f], epoch))
+            most = max(most, sum(self.joint.get((action, epoch), ())))
+        return most
+
+
+def _cheapest_before(providers: list[tuple[int, int]], epoch: int) -> int:
+    return min((total for when, total in providers if when < epoch), default=FAR)
+
+
+class _Through:
+    """Least weight of the human's paths, by what their arcs use."""
+
+    def __init__(self, setting: Setting) -> None:
+        self.setting = setting
+        self.cheapest = FAR
+        self.true: dict[int, list[tuple[int, int]]] = defaultdict(list)
+        self.false: dict[int, list[tuple[int, int]]] = defaultdict(list)
+        self.joint: dict[tuple[int, int], int] = {}
+        self.active: dict[int, int] = {}
+        """By epoch: the least total with the epoch outside the suffix, so that robots may act."""
+
+    def note(self, action: int, epoch: int, needs: frozenset[int], total: int) -> None:
+        """An arc of the human's that is kept."""
+        for f in needs:
+            self.true[f].append((epoch, total))
+        if action == WAIT:
+            return
+        for f in self.setting.outer_pre[action]:
+            self.true[f].append((epoch, total))
+        for f in self.setting.outer_neg[action]:
+            self.false[f].append((epoch, total))
+        if len(self.setting.task.actions[action].participants) > 1:
+            key = (action, epoch)
+            self.joint[key] = min(total, self.joint.get(key, FAR))
+
+
+def _human_backward(setting: Setting, forward: Forward, provided: _Providers) -> _Through:
+    network, human = setting.human, setting.task.human
+    through = _Through(setting)
+    after = {
+        node: 0
+        for node in forward.reach[human][-1]
+        if network.state_of[node] in setting.finals[human] and network.ends(node)
+    }
+    through.cheapest = min((forward.reach[human][0].get(node, FAR) for node in after), default=FAR)
+    if setting.horizon:
+        through.cheapest = FAR
+    for epoch in range(setting.horizon, 0, -1):
+        reached = forward.reach[human][epoch - 1]
+        surcharges: dict[tuple[int, frozenset[int]], int] = {}
+        totals: dict[tuple[int, frozenset[int]], int] = {}
+        kept: list[Arc] = []
+        before: dict[int, int] = {}
+        for arc in setting.deadline.each(network.layers[epoch - 1]):
+            source, target, action, weight, needs = arc
+            if target not in after:
+                continue
+            key = (action, needs)
+            if key not in surcharges:
+                surcharges[key] = provided.surcharge(action, epoch, needs)
+            rest = weight + after[target]
+            total = reached[source] + rest  # his own path; robots add what they spent to theirs
+            if total + surcharges[key] > setting.most:
+                continue
+            kept.append(arc)
+            if rest < before.get(source, FAR):
+                before[source] = rest
+            if total < totals.get(key, FAR):
+                totals[key] = total
+            if total < through.active.get(epoch, FAR) and not network.in_suffix(target):
+                through.active[epoch] = total
+        network.layers[epoch - 1] = kept
+        for (action, needs), total in setting.deadline.each(totals.items()):
+            through.note(action, epoch, needs, total)
+        after = before
+        through.cheapest = min(totals.values(), default=FAR)
+        if not kept:
+            return through
+    return through
+
+
+def _open_backward(setting: Setting, forward: Forward, k: int, others: int, active: Container[int]) -> bool:
+    """A network whose flow goes on to the end; False if it can't."""
+    network = setting.networks[k]
+    after = {
+        node: 0
+        for node in forward.reach[k][-1]
+        if network.state_of[node] in setting.finals[k] and network.ends(node)
+    }
+    for epoch in range(setting.horizon, 0, -1):
+        reached = forward.reach[k][epoch - 1]
+        kept: list[Arc] = []
+        before: dict[int, int] = {}
+        for arc in setting.deadline.each(network.layers[epoch - 1]):
+            if arc[1] not in after:
+                continue
+            rest = arc[3] + after[arc[1]]
+            if arc[2] != WAIT and epoch not in active:
+                continue
+            if reached[arc[0]] + rest + others <= setting.most:
+                kept.append(arc)
+                if rest < before.get(arc[0], FAR):
+                    before[arc[0]] = rest
+        network.layers[epoch - 1] = kept
+        after = before
+    return bool(after)
+
+
+def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Through) -> None:
+    """A robot that may stop anywhere: it does so after an arc of which somebody makes use."""
+    network, task = setting.networks[k], setting.task
+    uses_true = _uses(setting, k, setting.wanted_true, setting.outer_pre)
+    uses_false = _uses(setting, k, setting.wanted_false, setting.outer_neg)
+    after: dict[int, int] = {}
+    for epoch in range(setting.horizon, 0, -1):
+        reached = forward.reach[k][epoch - 1]
+        exits: dict[int, int] = {WAIT: FAR}
+        active = through.active.get(epoch, FAR)
+        kept: list[Arc] = []
+        before: dict[int, int] = {}
+        for arc in setting.deadline.each(network.layers[epoch - 1]):
+            source, target, i, weight, _ = arc
+            if i not in exits:
+                action = task.actions[i]
+                if len(action.participants) > 1:
+                    with_human = task.human in action.participants
+                    worth = through.joint.get((i, epoch), FAR) if with_human else through.cheapest
+                else:
+                    worth = min(
+                        _worth(action.add, epoch, uses_true, through.true, through.cheapest),
+                        _worth(action.delete, epoch, uses_false, through.false, through.cheapest),
+                    )
+                exits[i] = max(worth, active)
+            rest = weight + min(exits[i], after.get(target, FAR))
+            if reached[source] + rest <= setting.most and (i == WAIT or active < FAR):
+                kept.append(arc)
+                if rest < before.get(source, FAR):
+                    before[source] = rest
+        network.layers[epoch - 1] = kept
+        after = before
+
+
+def _uses(setting: Setting, k: int, wanted: frozenset[int], outer: dict[int, tuple[int, ...]]) -> set[int]:
+    """Facts that a goal or another robot's surviving arcs look at: worth the human's least weight."""
+    used = set(wanted)
+    for other, network in enumerate(setting.networks):
+        if other not in (k, setting.task.human):
+            for layer in network.layers:
+                for action in {arc[2] for arc in setting.deadline.each(layer)} - {WAIT}:
+                    used.update(outer[action])
+    return used
+
+
+def _worth(
+    facts: tuple[int, ...],
+    epoch: int,
+    used: set[int],
+    by_human: dict[int, list[tuple[int, int]]],
+    cheapest: int,
+) -> int:
+    """Least weight of the human's path if one of the facts is made use of after ``epoch``."""
+    best = FAR
+    for f in facts:
+        if f in used:
+            return cheapest
+        best = min(best, min((total for when, total in by_human.get(f, ()) if when > epoch), default=FAR))
+    return best

@@ -1,0 +1,45 @@
+"""What a program is taught about a suffix that is not the human's optimal plan."""
+
+from verify.programs.automata.control import INSIDE, SUFFIX
+from verify.programs.automata.program import Program, plus
+
+
+def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int | None) -> None:
+    """A suffix from ``state`` at ``xi2`` weighs at least ``least``; with None there is none.
+
+    The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
+    """
+    literals, constant = _suffix_starts(program, xi2, state)
+    for f in program.deadline.each(
+        sorted(program.setting.part.facts - program.setting.human.automaton.facts)
+    ):
+        terms, fixed = program.truth(f, xi2 - 1)
+        sign = 1 if f in state else -1
+        literals = plus(literals, terms, sign)
+        constant += fixed - 1 if f in state else -fixed
+    if least is None:
+        program.model.add("(8)", literals, "<=", -1 - constant)
+    else:
+        scaled = {x: -least * c for x, c in literals.items()}
+        program.model.add("(8)", plus(scaled, _suffix_weights(program)), ">=", least * (constant + 1))
+
+
+def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[dict[int, int], int]:
+    """Minus 1 unless the suffix starts at ``xi2`` with his private facts as in ``state``."""
+    network = program.setting.human
+    layer, columns = network.layers[xi2 - 1], program.columns[program.task.human][xi2 - 1]
+    starts: dict[int, int] = {}
+    for arc, x in zip(program.deadline.each(layer), columns, strict=True):
+        begins = network.controls[arc[0]][0] == INSIDE and network.controls[arc[1]][0] == SUFFIX
+        if begins and network.true_facts(arc[0]) == state & network.automaton.facts:
+            starts[x] = 1
+    return starts, -1
+
+
+def _suffix_weights(program: Program) -> dict[int, int]:
+    weights: dict[int, int] = {}
+    for layer, columns in zip(program.setting.human.layers, program.columns[program.task.human], strict=True):
+        for arc, x in zip(program.deadline.each(layer), columns, strict=True):
+            if arc[3] and program.setting.human.controls[arc[1]][0] == SUFFIX:
+                weights[x] = arc[3]
+    return weights
