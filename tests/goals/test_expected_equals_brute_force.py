@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from search.engine.outcome import plan_steps
-from search.goals import Candidate, Expected, Served, solve_expected
+from search.goals import Candidate, Expected, ServedGoal, solve_expected
 from search.goals.planner import _Search
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
 from tests.builders import task as build
@@ -17,7 +17,7 @@ from tests.goals.oracle import best_expected, robots_sets
 from tests.goals.strategies import literals, rivals
 from tests.oracle import optimal_human_plan
 from tests.strategies import Call, calls
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.goals.timelines import Timeline, rule_fault
 from verify.rules.case import Case
 
@@ -69,7 +69,9 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
         robots = {s for s in served.steps if task.human not in task.actions[s.action].participants}
         assert robots == set(answer.robots)
         line = Timeline(
-            "it", Fraction(1), Case(own, _as_result(own, options, candidate, served, answer), Alone(own))
+            "it",
+            Fraction(1),
+            Case(own, _as_result(own, options, candidate, served, answer), IndividualOptimum(own)),
         )
         assert [rule_fault(claim, [line]) for claim in ("replay", "cost", "window")] == [None] * 3
         if served.window is None:
@@ -80,7 +82,7 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
 
 
 def _assert_needed(
-    task: Task, options: Options, candidate: Candidate, served: Served, answer: Expected
+    task: Task, options: Options, candidate: Candidate, served: ServedGoal, answer: Expected
 ) -> None:
     """A window that gains nothing for its own goal: his plan beside what robots do is no better.
 
@@ -93,7 +95,9 @@ def _assert_needed(
     )
     alone = replace(served, steps=beside, window=None, cost=cost)
     line = Timeline(
-        "it", Fraction(1), Case(task, _as_result(task, options, candidate, alone, answer), Alone(task))
+        "it",
+        Fraction(1),
+        Case(task, _as_result(task, options, candidate, alone, answer), IndividualOptimum(task)),
     )
     assert served.window is not None
     length = options.window_weight * (len(served.window) - 1)
@@ -186,7 +190,7 @@ def _renamed(task: Task, candidates: list[Candidate]) -> list[Candidate]:
 
 
 def _as_result(
-    task: Task, options: Options, candidate: Candidate, served: Served, answer: Expected
+    task: Task, options: Options, candidate: Candidate, served: ServedGoal, answer: Expected
 ) -> Result:
     """What happens for one goal, ready to be checked."""
     steps = []

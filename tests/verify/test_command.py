@@ -15,7 +15,7 @@ from tests.cases import case_4, case_10
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs import minimise
-from verify.solvers.mip import Outcome
+from verify.solvers.mip import SolverOutcome
 
 
 def _written(folder: Path, task: Task, **options: Any) -> tuple[str, str]:
@@ -84,8 +84,8 @@ def test_what_is_undecided_still_has_a_bound(
     task = serendipity.example("room2")
     answer = serendipity.plan(task, discount="0.6")
 
-    def stopped(*_: object, **__: object) -> Outcome:
-        return Outcome("undecided", bound=None if known is None else known * 5, reason="time limit")
+    def stopped(*_: object, **__: object) -> SolverOutcome:
+        return SolverOutcome("undecided", bound=None if known is None else known * 5, reason="time limit")
 
     monkeypatch.setattr(minimise, "optimise", stopped)
     claims = certify(task, answer, encoding="paper").claims

@@ -16,7 +16,7 @@ from tests.oracle.epochs import action_sets, after
 from tests.strategies import tasks
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
-from verify.base.subproblem import FREE, WINDOW, Question, prices
+from verify.base.subproblem import FREE, WINDOW, Subproblem, prices
 from verify.calls.solve import solve
 from verify.exhaustive.uniform_cost import circles
 from verify.programs.automata import product
@@ -26,9 +26,9 @@ from verify.programs.paper import PaperEncoding
 from verify.solvers.mip import optimise
 
 
-def _question(task: Task, horizon: int = 4, **options: object) -> Question:
+def _question(task: Task, horizon: int = 4, **options: object) -> Subproblem:
     chosen = Options(mode="composite", **options)  # type: ignore[arg-type]
-    return Question(task, chosen, FREE, (), horizon, prices(task, chosen, ()))
+    return Subproblem(task, chosen, FREE, (), horizon, prices(task, chosen, ()))
 
 
 def _part(task: Task) -> Relevant | None:
@@ -158,7 +158,7 @@ def test_a_bound_on_a_suffix_cuts_that_suffix_only(encode: type[AutomataEncoding
     task = build(goal="p", actions=DETOUR)
     options = Options(horizon=2, max_window=1)
     plan = OptimalPlans(task).canonical() or ()
-    question = Question(task, options, WINDOW, plan, 2, prices(task, options, plan))
+    question = Subproblem(task, options, WINDOW, plan, 2, prices(task, options, plan))
 
     def least(bounds: list[tuple[int, frozenset[int], int | None]]) -> float | None:
         encoding = encode(question)

@@ -15,7 +15,7 @@ from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
 from verify import check
 from verify.base import individual as alone
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.certificate.certify import certify
 from verify.rules import CLAIMS, RULES
 
@@ -100,7 +100,7 @@ def test_his_optimal_cost_alone_equals_the_oracle(task: Task, data: st.DataObjec
         ready = [action for action in task.actions if action.applicable(state)]
         if ready:
             state = after(state, [data.draw(st.sampled_from(ready))])
-    assert Alone(task).optimum(state) == OracleAlone(task).worth(state)
+    assert IndividualOptimum(task).optimum(state) == OracleAlone(task).worth(state)
 
 
 def test_what_is_too_hard_for_a_rule_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,13 +8,13 @@ from typing import Final
 
 from serendipity.model import Deadline, Task
 from verify.base.operators import OwnActions
-from verify.base.projection import Projection
+from verify.base.projection import ProjectedCosts
 from verify.base.undecided import TooManyStatesError, during
 
 _MOST_EXPANSIONS: Final = 200_000
 
 
-class Alone:
+class IndividualOptimum:
     """Optimal (cost, length) of the human alone; tables are built when first needed.
 
     Args:
@@ -32,8 +32,8 @@ class Alone:
         return OwnActions(self._task, self.deadline)
 
     @cached_property
-    def _projection(self) -> Projection:
-        return Projection(self._task, self._own, self.deadline)
+    def _projection(self) -> ProjectedCosts:
+        return ProjectedCosts(self._task, self._own, self.deadline)
 
     def optimum(self, state: frozenset[int]) -> tuple[Fraction, int] | None:
         """Least (cost, number of actions) from ``state``; None if he can't reach ``G_H`` alone.

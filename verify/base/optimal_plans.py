@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from serendipity.model import HumanPlan, Task
 from verify.base.concurrency import applicable
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 
 State = frozenset[int]
 
@@ -23,9 +23,9 @@ class OptimalPlans:
     and :class:`serendipity.model.LimitReachedError` where the deadline of ``alone`` comes.
     """
 
-    def __init__(self, task: Task, alone: Alone | None = None) -> None:
+    def __init__(self, task: Task, alone: IndividualOptimum | None = None) -> None:
         self._task = task
-        self._alone = Alone(task) if alone is None else alone
+        self._alone = IndividualOptimum(task) if alone is None else alone
         self.deadline = self._alone.deadline
 
     def worth(self, state: State) -> Worth | None:

@@ -19,7 +19,7 @@ _Move = tuple[Projected, Projected, Projected, Projected]
 """Precondition, forbidden facts, adds, deletes."""
 
 
-class Projection:
+class ProjectedCosts:
     """Weights of cheapest plans in the projection, for the states that are reached from those asked for.
 
     Args:

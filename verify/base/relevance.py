@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from serendipity.model import Deadline, GroundAction, Task
-from verify.base.subproblem import Question
+from verify.base.subproblem import Subproblem
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Relevant:
     neg: dict[int, tuple[int, ...]]
 
 
-def relevant_part(question: Question, extra: Iterable[int] = ()) -> Relevant | None:
+def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant | None:
     """Reduce a question's task; None if a goal can't be reached even without deletes.
 
     Args:

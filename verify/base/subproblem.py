@@ -1,6 +1,6 @@
 """What is asked of an integer program: one minimum, under one mode's rules.
 
-A :class:`Question` holds all that decides which plans are allowed and what they cost;
+A :class:`Subproblem` holds all that decides which plans are allowed and what they cost;
 both encodings answer it.  Costs become integers here: all are multiplied by the least
 common multiple of their denominators, so that cheaper means cheaper by at least 1.
 """
@@ -42,7 +42,7 @@ class Prices:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Solution:
     """A plan that answers a question, replayed; costs in the question's units."""
 
     steps: tuple[Step, ...]
@@ -52,7 +52,7 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Question:
+class Subproblem:
     """Minimise the objective over the plans that a rule allows.
 
     Attributes:
@@ -81,11 +81,11 @@ class Question:
     most_cost: int | None = None
     deadline: Deadline = field(default_factory=Deadline, compare=False, repr=False)
 
-    def but(self, **changes: object) -> "Question":
+    def but(self, **changes: object) -> "Subproblem":
         """This question with some fields changed."""
         return replace(self, **changes)  # type: ignore[arg-type]
 
-    def below(self, most: int | None, most_cost: int | None = None) -> "Question":
+    def below(self, most: int | None, most_cost: int | None = None) -> "Subproblem":
         """The same with tighter limits on objective and cost (eq. 11)."""
         return replace(self, most=_least(self.most, most), most_cost=_least(self.most_cost, most_cost))
 

@@ -8,7 +8,7 @@ from itertools import islice
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import Found
+from verify.base.subproblem import Solution
 from verify.calls.call import Call, Score
 from verify.exhaustive.uniform_cost import cheapest
 from verify.programs.minimise import Effort
@@ -25,7 +25,7 @@ class Answer:
     """
 
     call: Call
-    found: Found | None
+    found: Solution | None
     opportunity: bool
 
     @property
@@ -72,7 +72,7 @@ def answer(call: Call) -> Answer:
     return Answer(call, found, opportunity=helps and call.human_plan is not None)
 
 
-def best_plan(call: Call, *, robots: bool = True) -> Found | None:
+def best_plan(call: Call, *, robots: bool = True) -> Solution | None:
     """The plan of least objective, then cost, if it beats doing nothing; without ``robots`` none acts."""
     if call.horizon != INFINITE:
         return call.best(call.question.but(robots=robots), call.do_nothing)

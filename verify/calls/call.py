@@ -6,7 +6,7 @@ from functools import cached_property
 
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import EXACT, FREE, WINDOW, Found, Prices, Question, prices
+from verify.base.subproblem import EXACT, FREE, WINDOW, Prices, Solution, Subproblem, prices
 from verify.base.undecided import UndecidedError
 from verify.exhaustive.baseline_without_horizon import cheapest_following
 from verify.programs.minimise import Effort, Minimum, minimise
@@ -70,18 +70,18 @@ class Call:
         return prices(self.task, self.options, self.human_plan or (), self.effort.deadline)
 
     @cached_property
-    def question(self) -> Question:
+    def question(self) -> Subproblem:
         """All plans that the mode and its options allow.  The horizon has to be finite."""
         return self.endless.but(horizon=int(self.horizon))
 
     @cached_property
-    def endless(self) -> Question:
+    def endless(self) -> Subproblem:
         """The same without a horizon."""
         return self._question(WINDOW if self.options.windowed else FREE).below(None, self._most_cost)
 
-    def _question(self, rule: str) -> Question:
+    def _question(self, rule: str) -> Subproblem:
         """A question without horizon and limits."""
-        return Question(
+        return Subproblem(
             task=self.task,
             options=self.options,
             rule=rule,
@@ -113,7 +113,7 @@ class Call:
         return None if found is None else found.cost
 
     @cached_property
-    def idle_robots_plan(self) -> Found | None:
+    def idle_robots_plan(self) -> Solution | None:
         """The cheapest plan in which he executes ``pi_H`` and robots reach ``G_R`` without him."""
         if self.horizon == INFINITE:
             return self.decided(cheapest_following(self._question(EXACT)))
@@ -154,7 +154,7 @@ class Call:
             and worth[0] == self.task.cost_of(self.human_plan)
         )
 
-    def better(self, question: Question, than: Score) -> Found | None:
+    def better(self, question: Subproblem, than: Score) -> Solution | None:
         """Some plan with a lower score; None: proved that there is none.
 
         Raises:
@@ -170,7 +170,7 @@ class Call:
                 return found
         return None
 
-    def best(self, question: Question, than: Score | None) -> Found | None:
+    def best(self, question: Subproblem, than: Score | None) -> Solution | None:
         """The plan of least objective, then cost, among those with a lower score than ``than``.
 
         Raises:
@@ -195,7 +195,7 @@ class Call:
         cost = score[1]
         return cost > 0 and (any(self.prices.talk) or 0 < self.prices.epoch <= cost)
 
-    def decided(self, minimum: Minimum) -> Found | None:
+    def decided(self, minimum: Minimum) -> Solution | None:
         """The minimum's plan, None if there is provably none.
 
         Raises:

@@ -4,7 +4,7 @@ from fractions import Fraction
 from typing import Any
 
 from serendipity.model import PlanStep, Result, Step, Window
-from verify.base.subproblem import Found
+from verify.base.subproblem import Solution
 from verify.calls.answer import Answer, idle_cost
 from verify.calls.call import Call
 
@@ -23,7 +23,7 @@ def plan_steps(call: Call, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
     )
 
 
-def found_result(call: Call, found: Found, *, opportunity: bool) -> Result:
+def found_result(call: Call, found: Solution, *, opportunity: bool) -> Result:
     """A plan as a result whose bound is its objective."""
     return _result(call, found.steps, found.window, found.objective, found.cost, opportunity=opportunity)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageError
 from serendipity.model.collection import no_collection
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
@@ -72,7 +72,7 @@ def solve(
 
 
 def _solve(task: Task, options: Options, given: HumanPlan | None, effort: Effort) -> Result:
-    plans = OptimalPlans(task, Alone(task, effort.deadline))
+    plans = OptimalPlans(task, IndividualOptimum(task, effort.deadline))
     answers = [answer(call) for call in calls(task, options, given, effort, plans)]
     tied = options.ties != "fixed" and options.mode in TIED_MODES
     several = tied and answers[0].call.human_plan is not None

@@ -18,7 +18,7 @@ from serendipity.model import (
     UsageError,
 )
 from serendipity.model.collection import no_collection
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
@@ -126,7 +126,7 @@ class _Certifier:
         self.task = task
         self.result = result
         self.effort = effort
-        self.alone = Alone(task, effort.deadline)
+        self.alone = IndividualOptimum(task, effort.deadline)
         self.plans = OptimalPlans(task, self.alone)
         self.checker = Checker(task, self.alone)
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import INFINITE, Claim, Result, Step
-from verify.base.subproblem import Found, Question
+from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
 from verify.calls.call import Call, Score
@@ -14,7 +14,7 @@ from verify.exhaustive.uniform_cost import cheapest
 from verify.programs.minimise import minimise
 from verify.rules import Checker
 
-Verdict = tuple[str, str, Found | None]
+Verdict = tuple[str, str, Solution | None]
 """Verdict, reason, counter-example."""
 
 _BOUNDED = ("optimal", "no_opportunity", "lower_bound")
@@ -168,7 +168,7 @@ class Examiner:
     def _endless(self) -> bool:
         return self.call.horizon == INFINITE
 
-    def _question(self) -> Question:
+    def _question(self) -> Subproblem:
         return self.call.endless if self._endless else self.call.question
 
     def _known(self, units: int | None) -> float | None:
@@ -189,7 +189,7 @@ class Examiner:
         """Whether doing nothing and the answer without robots are both ``pi_H``."""
         return not self.call.robots_goal and self.call.is_optimal
 
-    def _better(self, score: Score) -> Found | None:
+    def _better(self, score: Score) -> Solution | None:
         if not self._endless:
             return self.call.better(self.call.question, score)
         return cheapest(self.call.endless.below(score[0] - 1)).settled()
@@ -213,13 +213,13 @@ class Examiner:
         words = f"an objective below {self._amount(score[0])}"
         return f"{words}, or the same at a lower cost" if self.call.may_tie(score) else words
 
-    def _describe(self, found: Found) -> str:
+    def _describe(self, found: Solution) -> str:
         words = f"cost {self._amount(found.cost)}, objective {self._amount(found.objective)}"
         return (
             words if found.window is None else f"{words}, window [{found.window.start}, {found.window.end})"
         )
 
-    def _require_valid(self, found: Found) -> None:
+    def _require_valid(self, found: Solution) -> None:
         """Return if a counter-example stands.
 
         Raises:

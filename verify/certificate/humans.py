@@ -3,7 +3,7 @@
 from fractions import Fraction
 from functools import cached_property
 
-from verify.base.subproblem import Found
+from verify.base.subproblem import Solution
 from verify.base.undecided import UndecidedError
 from verify.calls.call import Call
 from verify.certificate.claims import Examiner, Verdict
@@ -113,11 +113,11 @@ def human_cost(call: Call) -> Fraction | None:
     return call.prices.cost(call.baseline if found is None else found.cost)
 
 
-def _cheaper(call: Call, cost: int) -> Found | None:
+def _cheaper(call: Call, cost: int) -> Solution | None:
     return _decided(call, cost - 1)
 
 
-def _decided(call: Call, most: int | None) -> Found | None:
+def _decided(call: Call, most: int | None) -> Solution | None:
     minimum = cheapest_reaction(call, most)
     if minimum.status == "undecided":
         raise UndecidedError(minimum.reason)

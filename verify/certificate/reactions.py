@@ -14,12 +14,12 @@ from serendipity.model import LimitReachedError, Step, surroundings
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.concurrency import applicable, conflicting
 from verify.base.relevance import relevant_part
-from verify.base.subproblem import FREE, Found
+from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import during
 from verify.calls.call import Call
 from verify.exhaustive.uniform_cost import LeastLeft
 from verify.programs.minimise import Minimum
-from verify.simulator import Game, Moment, Person
+from verify.simulator import Moment, Person, Play
 
 MOST_MOMENTS: Final = 200_000
 
@@ -53,7 +53,7 @@ class _Reactions:
         self.deadline = call.effort.deadline
         tick = self.deadline.tick
         sees = surroundings(task, tick).visible if options.human_model == "local" else None
-        self.game = Game(task, options, Person(task, call.plans), sees)
+        self.game = Play(task, options, Person(task, call.plans), sees)
         self.left = left
         self.most = min((limit for limit in limits if limit is not None), default=None)
         self.may_block = options.no_block is False
@@ -76,9 +76,9 @@ class _Reactions:
         start = self.game.start(self.call.human_plan or ())
         if self.game.done(start.state):
             affordable = self.most is None or self.most >= 0
-            return Minimum("found", Found((), None, 0, 0), 0) if affordable else Minimum("none")
+            return Minimum("found", Solution((), None, 0, 0), 0) if affordable else Minimum("none")
         self.known[start] = 0
-        best: Found | None = None
+        best: Solution | None = None
         layer = [start]
         for epoch in range(1, self.call.question.horizon + 1):
             following: dict[Moment, None] = {}
@@ -124,8 +124,8 @@ class _Reactions:
             if not any(conflicting(actions[i], actions[j], strict=strict) for j in chosen):
                 yield from self._sets((*chosen, i), candidates[k + 1 :])
 
-    def _found(self, epoch: int, moment: Moment, cost: int) -> Found:
-        return Found(tuple(self._steps(epoch, moment)), None, cost, cost)
+    def _found(self, epoch: int, moment: Moment, cost: int) -> Solution:
+        return Solution(tuple(self._steps(epoch, moment)), None, cost, cost)
 
     def _steps(self, epoch: int, moment: Moment) -> Iterable[Step]:
         steps = []

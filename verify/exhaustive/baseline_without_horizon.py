@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 from verify.base.concurrency import conflicting
 from verify.base.relevance import relevant_part
-from verify.base.subproblem import Question
+from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
 from verify.exhaustive.uniform_cost import Bundle, JointSearch, State
 from verify.programs.minimise import Minimum
 
 
-def cheapest_following(question: Question) -> Minimum:
+def cheapest_following(question: Subproblem) -> Minimum:
     """The least cost of a plan in which he executes ``pi_H`` epoch by epoch and is then idle.
 
     Args:

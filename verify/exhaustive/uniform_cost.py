@@ -14,7 +14,7 @@ from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, T
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.concurrency import conflicting
 from verify.base.relevance import Relevant, relevant_part
-from verify.base.subproblem import Found, Question
+from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import during
 from verify.programs.automata.network import FAR, distances, goal_states
 from verify.programs.automata.product import automata
@@ -37,7 +37,7 @@ class Bundle:
     cost: int
 
 
-def cheapest(question: Question) -> Minimum:
+def cheapest(question: Subproblem) -> Minimum:
     """The least cost of a plan with any number of epochs, within the question's limits.
 
     Args:
@@ -60,7 +60,7 @@ class LeastLeft:
     Robots' costs are only left out, so it holds whatever they do.
     """
 
-    def __init__(self, question: Question, part: Relevant) -> None:
+    def __init__(self, question: Subproblem, part: Relevant) -> None:
         deadline = question.deadline
         groups = [frozenset(variable.facts) for variable in question.task.variables_within(deadline)]
         machine = automata(question.task, part, groups, deadline)[question.task.human]
@@ -77,7 +77,7 @@ class LeastLeft:
 class JointSearch:
     """Uniform-cost search of one question; what a timetable changes can be overridden."""
 
-    def __init__(self, question: Question, part: Relevant) -> None:
+    def __init__(self, question: Subproblem, part: Relevant) -> None:
         self.question = question
         self.task = question.task
         self.deadline = question.deadline
@@ -152,7 +152,7 @@ class JointSearch:
         steps = tuple(
             Step(epoch, i) for epoch, bundle in enumerate(reversed(bundles), start=1) for i in bundle.actions
         )
-        return Minimum("found", Found(steps, None, cost, cost), cost)
+        return Minimum("found", Solution(steps, None, cost, cost), cost)
 
     def applicable(self, state: State) -> Iterator[Bundle]:
         """What can be done next."""

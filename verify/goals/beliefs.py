@@ -10,7 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from serendipity.model import Condition, Deadline, GroundAction, Task
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.goals.reading import Believed, Recognised
 
@@ -56,7 +56,7 @@ def considered_plan(
 ) -> PlanNames | None:
     """The canonical optimal plan for a goal that embeds the observations; None if there is none."""
     own = compiled(task, goal, observed, deadline, embed=True)
-    plan = OptimalPlans(own, Alone(own, deadline)).canonical()
+    plan = OptimalPlans(own, IndividualOptimum(own, deadline)).canonical()
     return None if plan is None else tuple(own.actions[i].name for i in plan)
 
 
@@ -84,7 +84,7 @@ def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[F
 def _own_faults(task: Task, recognised: Recognised, goal: Believed, deadline: Deadline) -> Iterator[Fault]:
     for embed, said in ((True, goal.with_observed), (False, goal.without_observed)):
         own = compiled(task, goal.goal, recognised.observed, deadline, embed=embed)
-        worth = Alone(own, deadline).optimum(own.init)
+        worth = IndividualOptimum(own, deadline).optimum(own.init)
         least = None if worth is None else float(worth[0])
         if said != least:
             what = "with" if embed else "without"

@@ -6,13 +6,13 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, Deadline, PlanStep, Result, Step, Task
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.calls.call import Call
 from verify.goals.beliefs import considered_plan, faults
-from verify.goals.reading import Believed, MalformedError, Recognised, Served, read
+from verify.goals.reading import Believed, MalformedError, Recognised, StatedGoal, read
 from verify.goals.timelines import (
     Timeline,
     bound_fault,
@@ -99,7 +99,7 @@ def _selection_fault(
     result: Result,
     recognised: Recognised,
     chosen: Sequence[Believed],
-    served: Sequence[Served],
+    served: Sequence[StatedGoal],
 ) -> str | None:
     """Whether the goals considered, their plans and probabilities follow from the posterior."""
     if [entry.name for entry in served] != [goal.name for goal in chosen]:
@@ -150,12 +150,14 @@ def _nothing_fault(task: Task, result: Result) -> str | None:
     own = (result.human_plan, result.human_cost, result.lower_bound, result.horizon)
     if own != (None, None, None, None):
         return "infeasible, with a plan, a cost, a bound or a horizon"
-    case = Case(task, result, Alone(task))
+    case = Case(task, result, IndividualOptimum(task))
     found = mode_and_human(case) or status_and_fields(case) or reason(case)
     return None if found is None else found.message
 
 
-def _certain(task: Task, result: Result, goal: Believed, entry: Served, certify: Certify) -> Iterator[Claim]:
+def _certain(
+    task: Task, result: Result, goal: Believed, entry: StatedGoal, certify: Certify
+) -> Iterator[Claim]:
     """One goal is left: the answer is one of section 3."""
     same = (entry.human_plan, entry.cost, entry.window, entry.plan)
     if same != (result.human_plan, result.cost, result.window, result.plan):

@@ -41,7 +41,7 @@ class Recognised:
 
 
 @dataclass(frozen=True, slots=True)
-class Served:
+class StatedGoal:
     """What happens if one goal is the human's."""
 
     name: str
@@ -52,7 +52,7 @@ class Served:
     plan: tuple[PlanStep, ...] | None
 
 
-def read(task: Task, result: Result) -> tuple[Recognised, tuple[Served, ...]]:
+def read(task: Task, result: Result) -> tuple[Recognised, tuple[StatedGoal, ...]]:
     """The recognition and what happens for each goal that is considered.
 
     Raises:
@@ -157,14 +157,14 @@ def _condition(task: Task, literals: tuple[str, ...]) -> Condition:
     return Condition(tuple(true), tuple(false))
 
 
-def _served(entry: _Fields, result: Result) -> Served:
+def _served(entry: _Fields, result: Result) -> StatedGoal:
     """One entry; steps and window are read as those of a result are."""
     data = result.to_dict() | {"plan": entry.raw("plan"), "window": entry.raw("window")}
     try:
         parsed = Result.from_dict(data)
     except InputError as error:
         raise MalformedError(f"goals: {error}") from None
-    return Served(
+    return StatedGoal(
         entry.text("name"),
         entry.number("probability"),
         entry.optional("human_plan", entry.texts),

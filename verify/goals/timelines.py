@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Condition, Deadline, PlanStep, Result, Task
-from verify.base.individual import Alone
-from verify.goals.reading import Served, weight
+from verify.base.individual import IndividualOptimum
+from verify.goals.reading import StatedGoal, weight
 from verify.rules.case import Case
 from verify.rules.registry import RULES
 
@@ -65,7 +65,7 @@ class Timeline:
 
 
 def timelines(
-    task: Task, result: Result, goals: Sequence[Condition], served: Sequence[Served], deadline: Deadline
+    task: Task, result: Result, goals: Sequence[Condition], served: Sequence[StatedGoal], deadline: Deadline
 ) -> list[Timeline]:
     """The timelines of an answer, with weights that add up to 1."""
     weights = [weight(entry.probability) for entry in served]
@@ -83,7 +83,7 @@ def timelines(
             objective=entry.cost,
             statistics={},
         )
-        found.append(Timeline(entry.name, share / total, Case(own, answer, Alone(own, deadline))))
+        found.append(Timeline(entry.name, share / total, Case(own, answer, IndividualOptimum(own, deadline))))
     return found
 
 

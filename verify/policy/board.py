@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from serendipity.model import Condition, Deadline, GroundAction, StateDelta, Task
 from verify.base.undecided import UndecidedError
-from verify.policy.distances import Distances, Edge, Goal, Moves, reaches_below
+from verify.policy.distances import Edge, GameDistances, Moves, PackedCondition, reaches_below
 
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))
@@ -59,17 +59,17 @@ class Board:
         self._relevant = _relevant(task, [*humans, *robots], deadline)
         self._human = [e for i in deadline.each(humans) if (e := self._edge(i, _UNIT, 1)) is not None]
         self._robot = [e for i in deadline.each(robots) if (e := self._edge(i, 1, 0)) is not None]
-        self.goal = Goal(_bits(task.goal.positive), _bits(task.goal.negative))
+        self.goal = PackedCondition(_bits(task.goal.positive), _bits(task.goal.negative))
         self.start = _bits(task.init) & self._relevant
         self._replies: dict[int, tuple[Reply, ...]] = {}
         mentioned = self.goal.pre | self.goal.neg
         for edge in deadline.each(self._human):
             mentioned |= edge.pre | edge.neg | edge.add | edge.delete
         self._his = mentioned
-        self._alone = Distances(self._human, self.goal, _MOST_ALONE, deadline)
+        self._alone = GameDistances(self._human, self.goal, _MOST_ALONE, deadline)
         together = [replace(edge, weight=edge.weight // _UNIT * _UNIT) for edge in deadline.each(self._human)]
         self._joint_moves = Moves([*together, *self._robot], deadline)
-        self._together: Distances | None = Distances(
+        self._together: GameDistances | None = GameDistances(
             [*together, *self._robot], self.goal, _MOST_TOGETHER, deadline
         )
         changed = 0
@@ -81,8 +81,8 @@ class Board:
             his_changes |= edge.add | edge.delete
         self.replies_are_dear = bool(changed & mentioned & ~his_changes)
         private = [_within(edge, self._his_only) for edge in deadline.each(together)]
-        goal = Goal(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
-        self._private: Distances | None = Distances(private, goal, _MOST_PRIVATE, deadline)
+        goal = PackedCondition(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
+        self._private: GameDistances | None = GameDistances(private, goal, _MOST_PRIVATE, deadline)
         self._ids = {name: i for i, name in enumerate(task.facts)}
 
     def _of(self, agent: int) -> list[int]:

@@ -11,7 +11,7 @@ from verify.base.undecided import UNDECIDED, during, why
 from verify.policy.board import NOTHING, Board, Costs
 from verify.policy.closed import BrokenError, Walk
 from verify.policy.ending import ends
-from verify.policy.figures import Bounds, figure_faults, header_faults
+from verify.policy.figures import StatedBounds, figure_faults, header_faults
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
@@ -125,7 +125,7 @@ class _Checker:
     def _bounded(self, board: Board) -> Claim:
         """A bound that comes without a proof: whether both together, without turns, pay as much."""
         try:
-            bounds = Bounds(self._result)
+            bounds = StatedBounds(self._result)
             if self._result.lower_bound != float(bounds.least_sum):
                 return Claim("lower_bound", "refuted", f"lower_bound: expected {float(bounds.least_sum):g}")
             if (

@@ -31,7 +31,7 @@ class Edge:
 
 
 @dataclass(frozen=True, slots=True)
-class Goal:
+class PackedCondition:
     """Facts that must hold, and that must not."""
 
     pre: int
@@ -74,7 +74,7 @@ def bits_of(mask: int) -> Iterator[int]:
         mask ^= bit
 
 
-class Distances:
+class GameDistances:
     """Least weights to the goal, for everything reachable from the states asked about.
 
     Args:
@@ -84,7 +84,7 @@ class Distances:
         deadline: asked for time.
     """
 
-    def __init__(self, edges: Sequence[Edge], goal: Goal, most: int, deadline: Deadline) -> None:
+    def __init__(self, edges: Sequence[Edge], goal: PackedCondition, most: int, deadline: Deadline) -> None:
         self._moves = Moves(edges, deadline)
         self._goal = goal
         self._most = most
@@ -140,7 +140,7 @@ class Distances:
 
 def reaches_below(
     moves: Moves,
-    goal: Goal,
+    goal: PackedCondition,
     start: int,
     limit: int,
     least: Callable[[int], int],

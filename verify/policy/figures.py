@@ -16,7 +16,7 @@ _OF_ANSWERS: Final = ("human_plan", "human_cost", "saving", "saving_alone", "cos
 """Fields that only an answer with a policy has, beside the policy."""
 
 
-class Bounds:
+class StatedBounds:
     """``statistics.bounds``: both sides of the value, as pairs of exact costs.
 
     Raises:
@@ -45,7 +45,7 @@ def header_faults(result: Result) -> Iterator[Fault]:
     if result.mode != result.options.mode:
         yield "replay", f"the mode is {result.mode}, but {result.options.mode} in the options"
     try:
-        bounds = Bounds(result)
+        bounds = StatedBounds(result)
     except ValueError as error:
         yield "replay", str(error)
         return
@@ -106,7 +106,7 @@ def _own_faults(task: Task, board: Board, result: Result, value: Costs) -> Itera
 
 
 def _bound_faults(result: Result, value: Costs) -> Iterator[Fault]:
-    bounds = Bounds(result)
+    bounds = StatedBounds(result)
     if bounds.upper != value:
         yield "cost", "statistics.bounds.upper is not the policy's value"
     if bounds.lower > value or (result.status == "optimal" and bounds.lower != value):

@@ -12,16 +12,16 @@ from typing import Final, Protocol
 from serendipity.model import Deadline, Step, UsageError, Window
 from verify.base.concurrency import applicable, conflicting
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import WINDOW, Found, Question
+from verify.base.subproblem import WINDOW, Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.programs.automata import AutomataEncoding
 from verify.programs.paper import PaperEncoding
-from verify.solvers.mip import SOLVERS, Model, Outcome, optimise
+from verify.solvers.mip import SOLVERS, Model, SolverOutcome, optimise
 
 State = frozenset[int]
 
 
-class Encoding(Protocol):
+class ProgramEncoding(Protocol):
     """What an encoding offers; ``model`` is None where there is provably no plan."""
 
     @property
@@ -35,7 +35,7 @@ class Encoding(Protocol):
         """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
 
 
-ENCODINGS: Final[dict[str, Callable[[Question], Encoding]]] = {
+ENCODINGS: Final[dict[str, Callable[[Subproblem], ProgramEncoding]]] = {
     "automata": AutomataEncoding,
     "paper": PaperEncoding,
 }
@@ -88,11 +88,11 @@ class Minimum:
     """
 
     status: str
-    found: Found | None = None
+    found: Solution | None = None
     bound: int | None = None
     reason: str = ""
 
-    def settled(self) -> Found | None:
+    def settled(self) -> Solution | None:
         """Some plan, best or not; None: there is provably none.
 
         Raises:
@@ -103,7 +103,7 @@ class Minimum:
         return self.found
 
 
-def minimise(question: Question, effort: Effort, plans: OptimalPlans) -> Minimum:
+def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
     """Answer a question.
 
     Args:
@@ -128,12 +128,12 @@ class _Rounds:
         bound: proved lower bound on the objective, or None.
     """
 
-    def __init__(self, question: Question, effort: Effort, plans: OptimalPlans) -> None:
+    def __init__(self, question: Subproblem, effort: Effort, plans: OptimalPlans) -> None:
         self._question = question
         self._effort = effort
         self._plans = plans
         self._cut: set[tuple[int, State]] = set()
-        self.best: Found | None = None
+        self.best: Solution | None = None
         self.bound: int | None = None
 
     def run(self) -> Minimum:
@@ -154,7 +154,7 @@ class _Rounds:
                 break
         return Minimum("none") if self.best is None else Minimum("found", self.best, self.best.objective)
 
-    def _is_best(self, encoding: Encoding, outcome: Outcome) -> bool:
+    def _is_best(self, encoding: ProgramEncoding, outcome: SolverOutcome) -> bool:
         """Whether the best plan so far is the best of all; else the program has learned something."""
         question, window, states = self._question, None, None
         if outcome.values is not None:
@@ -189,22 +189,22 @@ def _whole(bound: float | None, known: int | None) -> int | None:
     return up if known is None else max(up, known)
 
 
-def _better(a: Found | None, b: Found | None) -> Found | None:
+def _better(a: Solution | None, b: Solution | None) -> Solution | None:
     if a is None or b is None:
         return a or b
     return min(a, b, key=lambda found: (found.objective, found.cost))
 
 
-def _nothing_to_do(question: Question) -> Minimum:
+def _nothing_to_do(question: Subproblem) -> Minimum:
     """No epoch at all: the empty plan or none; it has no window."""
     task = question.task
     goals = task.goal.holds(task.init) and (not question.robots_goal or task.robot_goal.holds(task.init))
     if not goals or question.rule == WINDOW or (question.most or 0) < 0 or (question.most_cost or 0) < 0:
         return Minimum("none")
-    return Minimum("found", Found((), None, 0, 0), 0)
+    return Minimum("found", Solution((), None, 0, 0), 0)
 
 
-def replay(question: Question, steps: tuple[Step, ...]) -> list[State] | None:
+def replay(question: Subproblem, steps: tuple[Step, ...]) -> list[State] | None:
     """States ``s_0 .. s_T`` of a plan, or None if it is not executable or misses a goal."""
     task = question.task
     states = [task.init]
@@ -224,39 +224,39 @@ def replay(question: Question, steps: tuple[Step, ...]) -> list[State] | None:
     return states if reached else None
 
 
-def replans(question: Question) -> bool:
+def replans(question: Subproblem) -> bool:
     """Whether suffixes have to be optimal plans of the human's own (Def. 2.0a)."""
     options = question.options
     return question.rule == WINDOW and options.suffix == "replan" and options.preservation == "kernel"
 
 
 def _mended(
-    question: Question,
+    question: Subproblem,
     steps: tuple[Step, ...],
     window: Window | None,
     states: list[State],
     plans: OptimalPlans,
-) -> Found | None:
+) -> Solution | None:
     """The plan, its suffix replaced by an optimal one where it is none; None if none fits."""
     if not replans(question) or window is None or window.end > question.horizon:
-        return Found(steps, window, *question.measure(steps, window))
+        return Solution(steps, window, *question.measure(steps, window))
     suffix = best_suffix(question, states[window.end - 1], window.end, plans)
     if suffix is None:
         return None
     head = tuple(step for step in steps if step.epoch < window.end)
     tail = tuple(Step(window.end + k, i) for k, i in enumerate(suffix))
-    found = Found(head + tail, window, *question.measure(head + tail, window))
+    found = Solution(head + tail, window, *question.measure(head + tail, window))
     return found if question.most is None or found.objective <= question.most else None
 
 
-def _suffix_least(question: Question, state: State, xi2: int, plans: OptimalPlans) -> int | None:
+def _suffix_least(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> int | None:
     suffix = best_suffix(question, state, xi2, plans)
     if suffix is None:
         return None
     return sum(question.prices.team[i] + question.prices.talk[i] for i in suffix)
 
 
-def best_suffix(question: Question, state: State, xi2: int, plans: OptimalPlans) -> tuple[int, ...] | None:
+def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> tuple[int, ...] | None:
     """His optimal plan from ``state`` that is best for the objective and reaches all goals, if it fits."""
     worth = plans.worth(state)
     if worth is None or worth[1] > question.horizon - xi2 + 1:

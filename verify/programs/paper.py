@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Final
 
 from serendipity.model import Step, Window
-from verify.base.subproblem import EXACT, WINDOW, Question, in_plan
+from verify.base.subproblem import EXACT, WINDOW, Subproblem, in_plan
 from verify.base.undecided import during
 from verify.programs.automata.control import expected_states
 from verify.solvers.mip import BYTES_A_TERM, Model
@@ -21,7 +21,7 @@ _BYTES_A_COLUMN: Final = 750
 class PaperEncoding:
     """The reference encoding of a question; ``model`` is its program."""
 
-    def __init__(self, question: Question) -> None:
+    def __init__(self, question: Subproblem) -> None:
         """Build the program.  The horizon has to be at least 1."""
         self.question = question
         self.task = question.task

@@ -6,7 +6,7 @@ the integer programs.
 """
 
 from verify.rules.checker import Checker, check
-from verify.rules.registry import RULES, Rule
+from verify.rules.registry import RULES, NamedRule
 from verify.rules.report import CLAIMS, RuleReport, Violation
 
-__all__ = ["CLAIMS", "RULES", "Checker", "Rule", "RuleReport", "Violation", "check"]
+__all__ = ["CLAIMS", "RULES", "Checker", "NamedRule", "RuleReport", "Violation", "check"]

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from serendipity.model import PlanError, Result, Task
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.rules.replay import Replay, replay, replay_human
 
 
@@ -29,7 +29,7 @@ class Case:
 
     task: Task
     result: Result
-    alone: Alone
+    alone: IndividualOptimum
 
     @cached_property
     def human_plan(self) -> tuple[int, ...] | PlanError | None:

@@ -4,20 +4,20 @@ import time
 
 from serendipity.model import Deadline, Result, Task
 from serendipity.model.errors import LIMITS
-from verify.base.individual import Alone
+from verify.base.individual import IndividualOptimum
 from verify.base.undecided import UndecidedError, during, why
 from verify.rules.case import Case
-from verify.rules.registry import RULES, Rule
+from verify.rules.registry import RULES, NamedRule
 from verify.rules.report import CLAIMS, RuleReport, Violation
 
 
 class Checker:
     """Checks results for one task; its tables of the human alone are kept between calls."""
 
-    def __init__(self, task: Task, alone: Alone | None = None) -> None:
+    def __init__(self, task: Task, alone: IndividualOptimum | None = None) -> None:
         """``alone``: tables to share; None makes new ones."""
         self._task = task
-        self._alone = Alone(task) if alone is None else alone
+        self._alone = IndividualOptimum(task) if alone is None else alone
 
     def check(self, result: Result) -> RuleReport:
         """The verdict of every rule that applies to ``result``, as far as the limits go."""
@@ -38,12 +38,12 @@ class _Examination:
 
     def __init__(self, case: Case) -> None:
         self._case = case
-        self._examined: list[Rule] = []
+        self._examined: list[NamedRule] = []
         self._violations: dict[str, Violation] = {}
         self._unchecked = dict(_out_of_scope(case.result))
         self._undecided: dict[str, str] = {}
 
-    def check(self, rule: Rule) -> None:
+    def check(self, rule: NamedRule) -> None:
         """Check a rule, unless nothing depends on it any more."""
         claim = rule.claim
         if claim in ("cost", "window") and "replay" in self._violations:
@@ -78,7 +78,7 @@ def check(task: Task, result: Result, deadline: Deadline | None = None) -> RuleR
         result: the result, as ``plan`` returned it or as it was read from a file.
         deadline: what is not checked by then stays undecided.
     """
-    return Checker(task, Alone(task, deadline)).check(result)
+    return Checker(task, IndividualOptimum(task, deadline)).check(result)
 
 
 def _out_of_scope(result: Result) -> list[tuple[str, str]]:

@@ -2,6 +2,6 @@
 
 from verify.simulator.check import realised_claim
 from verify.simulator.person import Person
-from verify.simulator.run import Game, Moment, Played, play
+from verify.simulator.run import Moment, Play, Played, play
 
-__all__ = ["Game", "Moment", "Person", "Played", "play", "realised_claim"]
+__all__ = ["Moment", "Person", "Play", "Played", "play", "realised_claim"]

@@ -13,7 +13,7 @@ from verify.simulator.person import Person
 
 
 @dataclass(frozen=True, slots=True)
-class Deed:
+class PlayedEpoch:
     """An epoch as it turned out: what took place, and what the plan says and did not.
 
     Attributes:
@@ -52,7 +52,7 @@ class Played:
         cost: of what took place, for the team.
     """
 
-    deeds: tuple[Deed, ...]
+    deeds: tuple[PlayedEpoch, ...]
     goals_hold: bool
     cost: Fraction
 
@@ -109,9 +109,9 @@ def play(
     elif visible is None:
         task.variables_within(deadline)
         visible = surroundings(task, deadline.tick).visible
-    game = Game(task, options, person, visible)
+    game = Play(task, options, person, visible)
     last = max(orders, default=0)
-    now, deeds = game.start(human_plan), list[Deed]()
+    now, deeds = game.start(human_plan), list[PlayedEpoch]()
     while not game.done(now.state) and len(deeds) != horizon:
         deadline.check()
         before = now
@@ -126,7 +126,7 @@ def play(
     return Played(tuple(deeds), game.done(now.state), cost)
 
 
-class Game:
+class Play:
     """The rules of SPEC 6 for one task and one human.
 
     Args:
@@ -150,7 +150,7 @@ class Game:
         """Whether the goals hold."""
         return self.task.goal.holds(state) and self.task.robot_goal.holds(state)
 
-    def epoch(self, now: Moment, offers: Sequence[int]) -> tuple[Deed, Moment]:
+    def epoch(self, now: Moment, offers: Sequence[int]) -> tuple[PlayedEpoch, Moment]:
         """One epoch in which robots try the actions ``offers``, joint ones included."""
         return self.act(self.look(now), offers)
 
@@ -170,7 +170,7 @@ class Game:
             rho = tuple(self.person.plan(belief))
         return Look(Moment(now.state, belief, rho), best)
 
-    def act(self, look: Look, offers: Sequence[int]) -> tuple[Deed, Moment]:
+    def act(self, look: Look, offers: Sequence[int]) -> tuple[PlayedEpoch, Moment]:
         """Steps 2 to 4."""
         now = look.now
         offers = [self._as_possible(i, now.state) for i in sorted(offers)]
@@ -190,7 +190,7 @@ class Game:
         state = self._after(now.state, executed)
         blocks = self._stuck(state) and not self._stuck(now.state) and not self._stuck(alone)
         rho = now.rho[1:] if his is not None and joint is None else now.rho
-        deed = Deed(tuple(sorted(executed)), tuple(sorted(skipped)), blocks)
+        deed = PlayedEpoch(tuple(sorted(executed)), tuple(sorted(skipped)), blocks)
         return deed, Moment(state, belief, rho)
 
     def with_him(self, i: int) -> bool:

@@ -44,7 +44,7 @@ _CALLS: Final = {"highs": ("highspy", highs.minimise), "cbc": ("pulp", cbc.minim
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class SolverOutcome:
     """What a solver found out.
 
     Attributes:
@@ -70,7 +70,7 @@ def solver_version(solver: str) -> str:
     return f"CBC (PuLP {version('pulp')})"
 
 
-def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None = None) -> Outcome:
+def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None = None) -> SolverOutcome:
     """Minimise the model's objective, with one thread and a fixed seed.
 
     Args:
@@ -87,20 +87,20 @@ def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None =
     try:
         outcome = _optimise(model, solver, deadline)
     except LIMITS as limit:
-        outcome = Outcome("undecided", reason=_reason(limit_reason(limit), model))
+        outcome = SolverOutcome("undecided", reason=_reason(limit_reason(limit), model))
     except OSError as error:  # no process, no room for a temporary file
-        outcome = Outcome("undecided", reason=f"the solver could not be run: {error.strerror or error}")
+        outcome = SolverOutcome("undecided", reason=f"the solver could not be run: {error.strerror or error}")
     return replace(outcome, seconds=perf_counter() - started)
 
 
-def _optimise(model: Model, solver: str, deadline: Deadline) -> Outcome:
+def _optimise(model: Model, solver: str, deadline: Deadline) -> SolverOutcome:
     if not all(map(_true, _rows_without_terms(model, deadline))):
-        return Outcome("infeasible")
+        return SolverOutcome("infeasible")
     if _largest(model, deadline) > LARGEST_COEFFICIENT:
-        return Outcome("undecided", reason="costs need more digits than a solver's tolerance leaves")
+        return SolverOutcome("undecided", reason="costs need more digits than a solver's tolerance leaves")
     deadline.check()
     if not model.upper:
-        return Outcome("optimal", (), 0.0)
+        return SolverOutcome("optimal", (), 0.0)
     deadline.require(_BYTES * len(model.index))
     module, minimise = _CALLS[solver]
     left = deadline.left()
@@ -129,18 +129,18 @@ def _largest(model: Model, deadline: Deadline) -> int:
     return max(map(abs, deadline.each(chain(*numbers))), default=0)
 
 
-def _outcome(answer: Answer, model: Model, deadline: Deadline) -> Outcome:
+def _outcome(answer: Answer, model: Model, deadline: Deadline) -> SolverOutcome:
     if answer.status == "infeasible":
-        return Outcome("infeasible")
+        return SolverOutcome("infeasible")
     try:
         values = None if answer.values is None else _rounded(answer.values, model.integral, deadline)
     except LimitReachedError as limit:
-        return Outcome("undecided", None, answer.bound, _reason(limit.reason, model))
+        return SolverOutcome("undecided", None, answer.bound, _reason(limit.reason, model))
     if answer.status != "optimal":
-        return Outcome("undecided", values, answer.bound, _reason(answer.status, model))
+        return SolverOutcome("undecided", values, answer.bound, _reason(answer.status, model))
     if values is None:
-        return Outcome("undecided", None, answer.bound, "the solver's values are not integral")
-    return Outcome("optimal", values, answer.bound)
+        return SolverOutcome("undecided", None, answer.bound, "the solver's values are not integral")
+    return SolverOutcome("optimal", values, answer.bound)
 
 
 def _reason(status: str, model: Model) -> str:
@@ -159,4 +159,13 @@ def _rounded(values: Sequence[float], integral: Sequence[bool], deadline: Deadli
     return tuple(rounded)
 
 
-__all__ = ["LARGEST_COEFFICIENT", "SOLVERS", "Model", "Outcome", "Row", "Terms", "optimise", "solver_version"]
+__all__ = [
+    "LARGEST_COEFFICIENT",
+    "SOLVERS",
+    "Model",
+    "Row",
+    "SolverOutcome",
+    "Terms",
+    "optimise",
+    "solver_version",
+]

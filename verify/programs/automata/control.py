@@ -7,7 +7,7 @@ the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (SPEC 3.1), or ``fr
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verify.base.subproblem import ALONE, EXACT, FREE, Question, in_plan
+from verify.base.subproblem import ALONE, EXACT, FREE, Subproblem, in_plan
 
 Control = tuple[str, int, int]
 
@@ -38,7 +38,7 @@ class Leg:
 class HumanControl:
     """Control of one question; ``start``, :meth:`legs` by epoch, :meth:`accepts` at the end."""
 
-    def __init__(self, question: Question, expected: tuple[frozenset[int], ...] = ()) -> None:
+    def __init__(self, question: Subproblem, expected: tuple[frozenset[int], ...] = ()) -> None:
         """``expected[j]``: the facts of ``delta(I, pi_H[1..j])`` that the human's domain mentions."""
         self.question = question
         self.plan = question.human_plan
@@ -121,7 +121,7 @@ class HumanControl:
             yield Leg(control, OWN)
 
 
-def expected_states(question: Question) -> tuple[frozenset[int], ...]:
+def expected_states(question: Subproblem) -> tuple[frozenset[int], ...]:
     """``delta(I, pi_H[1..j])`` for each j, cut down to facts that the human's own domain mentions."""
     task, deadline = question.task, question.deadline
     mentioned = {*task.goal.positive, *task.goal.negative}

@@ -2,7 +2,7 @@
 
 from serendipity.model import GroundAction, Step, Window
 from verify.base.relevance import Relevant, relevant_part
-from verify.base.subproblem import WINDOW, Question
+from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
 from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
@@ -28,7 +28,7 @@ class AutomataEncoding:
         model: the integer program, or None where pruning alone proves that there is no plan.
     """
 
-    def __init__(self, question: Question) -> None:
+    def __init__(self, question: Subproblem) -> None:
         """Build the program.  The horizon has to be at least 1."""
         self.question = question
         self.deadline = question.deadline
@@ -147,7 +147,7 @@ class AutomataEncoding:
         return weights
 
 
-def _moves_by_value(question: Question, part: Relevant, group: frozenset[int]) -> bool:
+def _moves_by_value(question: Subproblem, part: Relevant, group: frozenset[int]) -> bool:
     """Whether exactly one fact of a group is true initially and each action keeps it so.
 
     Each action that changes the group needs and deletes one member and adds another, so

@@ -12,7 +12,7 @@ from typing import Final
 
 from serendipity.model import Deadline
 from verify.base.relevance import Relevant
-from verify.base.subproblem import Question
+from verify.base.subproblem import Subproblem
 from verify.programs.automata.control import ALL, OWN, SUFFIX, Control, HumanControl
 from verify.programs.automata.product import Automaton
 
@@ -86,7 +86,7 @@ class HumanNetwork(Network):
         automaton: Automaton,
         weights: list[int],
         control: HumanControl,
-        question: Question,
+        question: Subproblem,
         part: Relevant,
     ) -> None:
         super().__init__(automaton, [0])
@@ -177,7 +177,7 @@ def _dijkstra(
     return best
 
 
-def goal_states(question: Question, automaton: Automaton) -> set[int]:
+def goal_states(question: Subproblem, automaton: Automaton) -> set[int]:
     """Automaton states in which no literal of the goals is false."""
     task = question.task
     conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]

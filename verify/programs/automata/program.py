@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from typing import Final
 
 from serendipity.model import Condition, Step, Window
-from verify.base.subproblem import Question
+from verify.base.subproblem import Subproblem
 from verify.programs.automata.control import INSIDE
 from verify.programs.automata.network import WAIT
 from verify.programs.automata.setting import Setting
@@ -27,7 +27,7 @@ class Program:
     """The integer program of a pruned setting."""
 
     def __init__(
-        self, question: Question, setting: Setting, groups: Iterable[frozenset[int]], *, complete: bool
+        self, question: Subproblem, setting: Setting, groups: Iterable[frozenset[int]], *, complete: bool
     ) -> None:
         """With ``complete`` every relevant fact is represented, as ``suffixes.bound_suffix`` needs."""
         self.question = question
