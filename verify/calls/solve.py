@@ -11,10 +11,9 @@ from serendipity.model.collection import no_collection
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.undecided import UNDECIDED, why
+from verify.base.undecided import END_SHARE, UNDECIDED, why
 from verify.calls.answer import Answer, answer, calls
 from verify.calls.results import to_result
-from verify.certificate.certify import END_SHARE
 from verify.programs.minimise import Effort
 from verify.solvers.mip import solver_version
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from time import perf_counter
-from typing import Final
 
 from serendipity.model import (
     Certificate,
@@ -21,7 +20,7 @@ from serendipity.model.collection import no_collection
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.undecided import UNDECIDED, why
+from verify.base.undecided import END_SHARE, UNDECIDED, why
 from verify.calls.call import Call
 from verify.certificate.claims import Examiner
 from verify.certificate.humans import HumanExaminer
@@ -39,9 +38,6 @@ _REPLAYED = {
     "cost": "every figure is the sum of what it consists of",
     "window": "prefix, window and suffix are as the mode demands",
 }
-
-END_SHARE: Final = 0.05
-"""What of the time limit is kept for the end: dropping what was made takes time, too."""
 
 
 def certify(
