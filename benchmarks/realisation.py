@@ -16,7 +16,7 @@ from time import perf_counter, process_time
 
 import serendipity
 from serendipity import Result, Task
-from serendipity.simulation import HUMAN_MODELS
+from serendipity.facade.simulation import HUMAN_MODELS
 
 DISCOUNTS = "0,0.1,0.3,0.5,0.7,0.9"
 PLANNED = ("omniscient", *HUMAN_MODELS)

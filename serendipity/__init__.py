@@ -14,12 +14,14 @@ TYPE_CHECKING = False  # of `typing`, which the command line need not load befor
 if TYPE_CHECKING:
     from typing import Any
 
-    from serendipity.certify import check, verify
     from serendipity.explanation import Explanation, explain
-    from serendipity.goals import Recognition, recognise
-    from serendipity.interruptibility import interruptions
+    from serendipity.facade.certify import check, verify
+    from serendipity.facade.interruptibility import interruptions
+    from serendipity.facade.loading import load, load_agents, load_pddl
+    from serendipity.facade.planning import plan, plan_anytime
+    from serendipity.facade.session import Session
+    from serendipity.facade.simulation import simulate
     from serendipity.lint import Finding, TaskReport, check_task
-    from serendipity.loading import load, load_agents, load_pddl
     from serendipity.model import (
         Certificate,
         Deadline,
@@ -35,12 +37,10 @@ if TYPE_CHECKING:
         UsageError,
         Window,
     )
-    from serendipity.planning import plan, plan_anytime
+    from serendipity.recognition import Recognition, recognise
     from serendipity.reproduction import reproduce
     from serendipity.scenarios.examples import example
     from serendipity.scenarios.generate import generate_usar
-    from serendipity.session import Session
-    from serendipity.simulation import simulate
 
 __version__ = "0.1.0"
 
@@ -82,39 +82,39 @@ __all__ = [
 ]
 
 _HOMES = {
-    "load": "serendipity.loading",
-    "load_agents": "serendipity.loading",
-    "load_pddl": "serendipity.loading",
+    "load": "serendipity.facade.loading",
+    "load_agents": "serendipity.facade.loading",
+    "load_pddl": "serendipity.facade.loading",
     "example": "serendipity.scenarios.examples",
     "generate_usar": "serendipity.scenarios.generate",
-    "plan": "serendipity.planning",
-    "plan_anytime": "serendipity.planning",
-    "Session": "serendipity.session",
-    "simulate": "serendipity.simulation",
-    "check": "serendipity.certify",
+    "plan": "serendipity.facade.planning",
+    "plan_anytime": "serendipity.facade.planning",
+    "Session": "serendipity.facade.session",
+    "simulate": "serendipity.facade.simulation",
+    "check": "serendipity.facade.certify",
     "check_task": "serendipity.lint",
     "Finding": "serendipity.lint",
     "TaskReport": "serendipity.lint",
-    "verify": "serendipity.certify",
+    "verify": "serendipity.facade.certify",
     "reproduce": "serendipity.reproduction",
-    "interruptions": "serendipity.interruptibility",
+    "interruptions": "serendipity.facade.interruptibility",
     "explain": "serendipity.explanation",
     "Explanation": "serendipity.explanation",
-    "recognise": "serendipity.goals",
-    "Recognition": "serendipity.goals",
+    "recognise": "serendipity.recognition",
+    "Recognition": "serendipity.recognition",
 }
 """Where the public functions live; the public classes live in ``serendipity.model``."""
 
 _NEED_SIBLINGS = (
-    "serendipity.planning",
-    "serendipity.certify",
-    "serendipity.interruptibility",
-    "serendipity.loading",
+    "serendipity.facade.planning",
+    "serendipity.facade.certify",
+    "serendipity.facade.interruptibility",
+    "serendipity.facade.loading",
     "serendipity.explanation",
-    "serendipity.goals",
+    "serendipity.recognition",
     "serendipity.reproduction",
-    "serendipity.session",
-    "serendipity.simulation",
+    "serendipity.facade.session",
+    "serendipity.facade.simulation",
 )
 
 

@@ -8,9 +8,9 @@ from hypothesis import given
 from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_bounds
+from serendipity.facade.planning import plan
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
-from serendipity.planning import plan
 from tests.builders import task, usar
 from tests.strategies import strips_tasks, tasks
 

@@ -7,7 +7,7 @@ from hypothesis import given
 
 import serendipity
 from serendipity import Task, UsageError, Window
-from serendipity.interruptibility import Interruption, InterruptionReport, removal
+from serendipity.facade.interruptibility import Interruption, InterruptionReport, removal
 from tests import cases
 from tests.oracle import action_sets, optimal_human_plan
 from tests.oracle.epochs import after, holds

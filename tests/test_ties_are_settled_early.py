@@ -11,9 +11,9 @@ from hypothesis import given
 import serendipity
 from search import Outcome, least_over_ties, optimal_human_plans, solve
 from serendipity import UsageError
+from serendipity.facade.ties import Answered, combined, until_settled
 from serendipity.model import Condition, Options, Result, Task, Window
 from serendipity.model.deadline import Deadline
-from serendipity.ties import Answered, combined, until_settled
 from tests.builders import task as build
 from tests.builders import usar
 from tests.cases import case_4

@@ -9,7 +9,7 @@ import pytest
 import serendipity
 from search.engine import best_first
 from serendipity import LimitReachedError, Task
-from serendipity.interruptibility import Interruption, InterruptionReport
+from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result
 from serendipity.model.deadline import Deadline
 from tests.builders import task as build

@@ -10,9 +10,9 @@ import typer
 
 from serendipity import __version__
 from serendipity.cli import output
-from serendipity.cli.commands import Commands
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.help_examples import epilog
+from serendipity.cli.on_demand import Commands
 from serendipity.cli.stderr import tell
 from serendipity.model.errors import LimitReachedError, SerendipityError, limit_words
 

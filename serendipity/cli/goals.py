@@ -11,7 +11,7 @@ from serendipity.model.numbers import plain
 
 if TYPE_CHECKING:
     from serendipity.cli.render import Grid, Line
-    from serendipity.goals import Recognition
+    from serendipity.recognition import Recognition
 
 Goals = Annotated[
     Path | None,

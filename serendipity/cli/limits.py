@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from serendipity.limits import limits_from
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.limits import limits_from
 
 TimeLimit = Annotated[
     str | None,
@@ -34,7 +34,7 @@ def begin(time_limit: str | None, memory_limit: str | None, *modules: str) -> De
         UsageError: a limit is not a number of at least 0.
     """
     if time_limit is not None:
-        for name in ("serendipity.loading", *modules):
+        for name in ("serendipity.facade.loading", *modules):
             import_module(name)
     return limits_from(time_limit, memory_limit)
 

@@ -87,7 +87,7 @@ def as_json(value: dict[str, Any]) -> str:
     """A JSON object as text, indented; characters that can't be seen are escaped."""
     import json
 
-    from serendipity.printable import printable_json
+    from serendipity.writing.printable import printable_json
 
     return printable_json(json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False)) + "\n"
 
@@ -111,7 +111,7 @@ def write_answers(answers: list[Answer]) -> None:
     files = {answer.file: answer.encoded for answer in answers if answer.file is not None}
     together: Any = nullcontext()
     if files:
-        from serendipity.writing import written_together
+        from serendipity.writing.together import written_together
 
         together = written_together(files)
     try:

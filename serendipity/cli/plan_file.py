@@ -6,7 +6,7 @@ from itertools import groupby
 from serendipity.model import GroundAction, PlanStep, Result, Task
 from serendipity.model.actions import disables
 from serendipity.model.numbers import plain
-from serendipity.printable import printable
+from serendipity.writing.printable import printable
 
 
 def plan_file(task: Task, result: Result) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from serendipity.printable import printable
+from serendipity.writing.printable import printable
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

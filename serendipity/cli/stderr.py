@@ -2,7 +2,7 @@
 
 import sys
 
-from serendipity.printable import message
+from serendipity.writing.printable import message
 
 
 def tell(text: str) -> None:

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
-from serendipity.certify import check, verify
 from serendipity.crosscheck.calls import PlanCall
 from serendipity.crosscheck.laws import LAWS, Law
 from serendipity.crosscheck.refusals import may_be_refused
+from serendipity.facade.certify import check, verify
+from serendipity.facade.planning import options_from, plan
 from serendipity.model import Deadline, PlanError, Result, UsageError
-from serendipity.planning import options_from, plan
 from verify.calls.solve import solve
 
 

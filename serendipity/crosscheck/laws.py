@@ -10,12 +10,12 @@ from itertools import pairwise
 from random import Random
 from typing import Final
 
-from serendipity.certify import check, verify
 from serendipity.crosscheck.calls import PlanCall, random_options
 from serendipity.crosscheck.tasks import split
+from serendipity.facade.certify import check, verify
+from serendipity.facade.planning import options_from, plan, plan_anytime
+from serendipity.facade.session import Session
 from serendipity.model import Deadline, LimitReachedError, Options, PlanError, Result, Task, UsageError
-from serendipity.planning import options_from, plan, plan_anytime
-from serendipity.session import Session
 
 Law = Callable[[PlanCall, Result], Iterator[str]]
 

@@ -3,8 +3,8 @@
 from itertools import islice
 
 from serendipity.crosscheck.calls import PlanCall
+from serendipity.facade.planning import options_from
 from serendipity.model import INFINITE, Options, PlanError, UsageError
-from serendipity.planning import options_from
 from verify.base.optimal_plans import OptimalPlans
 
 

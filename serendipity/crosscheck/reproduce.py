@@ -7,7 +7,7 @@ from typing import Final
 from serendipity.crosscheck.calls import PlanCall
 from serendipity.crosscheck.judges import Disagreement
 from serendipity.pddl.write import task_files
-from serendipity.writing import write_together
+from serendipity.writing.together import write_together
 
 PLAN: Final = "plan.txt"
 """File of the human plan that is given."""

@@ -5,9 +5,9 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any, Final
 
+from serendipity.facade.planning import plan
 from serendipity.model import Deadline, LimitReachedError, Options, Result, Task
 from serendipity.model.task import canonical_name
-from serendipity.planning import plan
 
 PROVED: Final = ("optimal", "infeasible")
 """The statuses of answers that say how things are."""

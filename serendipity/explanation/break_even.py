@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.explanation.ask import Ask, cost_of, parts_of
-from serendipity.interruptibility import InterruptionReport
+from serendipity.facade.interruptibility import InterruptionReport
 
 STEP: Final = Fraction(1, 1000)
 """How far below and above a threshold the confirming calls are."""

@@ -9,11 +9,11 @@ from serendipity.explanation.break_even import Threshold, discount_threshold, wi
 from serendipity.explanation.misses import Miss, misses, removal_of
 from serendipity.explanation.moments import Moment, moments
 from serendipity.explanation.wording import sentences
-from serendipity.interruptibility import InterruptionReport, Removal, interruptions
-from serendipity.limits import limits_from
+from serendipity.facade.interruptibility import InterruptionReport, Removal, interruptions
+from serendipity.facade.planning import options_from
 from serendipity.model import Deadline, LimitReachedError, Result, Task, UsageError
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.planning import options_from
+from serendipity.model.limits import limits_from
 
 SCHEMA: Final = "serendipity.explanation/1"
 _MODES: Final = ("serendipity", "communication", "composite")

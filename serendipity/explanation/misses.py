@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from serendipity.explanation.ask import Ask
-from serendipity.interruptibility import InterruptionReport, Removal, removal
+from serendipity.facade.interruptibility import InterruptionReport, Removal, removal
 from serendipity.model import Result, Window
 
 RULES: Final = {

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.interruptibility import Interruption, InterruptionReport
+from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result, Window
 
 WHY: Final = {

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import Any, Final
 
-from serendipity.csv_text import as_csv
 from serendipity.reproduction.rows import COLUMNS
 from serendipity.reproduction.run import Reproduction
 from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
+from serendipity.writing.csv_text import as_csv
 
 SCHEMA: Final = "serendipity.reproduction/1"
 

@@ -5,10 +5,10 @@ from fractions import Fraction
 from math import floor
 from typing import Final
 
-from serendipity.printable import markup
 from serendipity.reproduction.charts import Labels, Points, bars, lines
 from serendipity.reproduction.run import Reproduction
 from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
+from serendipity.writing.printable import markup
 
 _STYLE: Final = """
 :root { color-scheme: light dark; }

@@ -6,8 +6,8 @@ from fractions import Fraction
 from statistics import fmean, median
 from typing import Any, Final
 
+from serendipity.facade.planning import plan
 from serendipity.model import Window
-from serendipity.planning import plan
 from serendipity.reproduction.published import TABLE_1, TABLE_2, TESTS
 from serendipity.reproduction.rows import Row
 from serendipity.reproduction.run import Reproduction

@@ -6,10 +6,10 @@ from pathlib import Path
 from time import perf_counter, time
 from typing import Final
 
+from serendipity.facade.planning import plan
 from serendipity.model import Deadline, Result, Task
 from serendipity.model.errors import LIMITS
 from serendipity.pddl import load
-from serendipity.planning import plan
 from serendipity.reproduction.rows import Row, exact_cost
 
 _TIED: Final = ("serendipity",)

@@ -8,7 +8,7 @@ from serendipity.model.errors import UsageError
 from serendipity.scenarios.building import Building, figure2, random_building
 from serendipity.scenarios.usar import Usar
 from serendipity.scenarios.usar_pddl import pddl_files
-from serendipity.writing import write_together
+from serendipity.writing.together import write_together
 
 _WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}
 """Sections III-B to III-D of the paper: where medkit 1 lies; all else is the same (SPEC 5)."""

@@ -7,7 +7,6 @@ from string import Template
 from typing import Any, Final
 
 from serendipity.model.numbers import plain
-from serendipity.printable import markup, printable
 from serendipity.show.drawing import Picture
 from serendipity.show.headline import headline, subtitle
 from serendipity.show.map_picture import MARGIN, map_picture, trails
@@ -16,6 +15,7 @@ from serendipity.show.scene import Frame, Scene
 from serendipity.show.svg import path, svg
 from serendipity.show.timeline_picture import COLUMN, cursor, lane_labels, timeline_picture
 from serendipity.show.tokens import Token, agent_key, tokens
+from serendipity.writing.printable import markup, printable
 
 _WIDE: Final = 1200.0
 _SMALLEST: Final = 0.46  # nearly all of a building of nine cells on a phone

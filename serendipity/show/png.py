@@ -4,8 +4,8 @@ import io
 from typing import TYPE_CHECKING, Any
 
 from serendipity.model import UsageError
-from serendipity.printable import printable
 from serendipity.show.drawing import Circle, Group, Line, Picture, Rect, Shape, Style, Text
+from serendipity.writing.printable import printable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Mapping
 
-from serendipity.printable import markup
 from serendipity.show.drawing import Circle, Group, Line, Picture, Point, Rect, Shape, Style, Text
+from serendipity.writing.printable import markup
 
 _FONT = "system-ui, 'DejaVu Sans', 'Segoe UI', Arial, sans-serif"
 

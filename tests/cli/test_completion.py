@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from serendipity.cli.commands import NAMES
+from serendipity.cli.on_demand import NAMES
 from serendipity.cli.output import FORMATS
 from serendipity.cli.progress import STYLES
 from serendipity.model.options import CHOICES

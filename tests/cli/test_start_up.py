@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from serendipity.cli.commands import NAMES
+from serendipity.cli.on_demand import NAMES
 
 SOLVERS = ("pulp", "highspy")
 

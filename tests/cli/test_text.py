@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 import serendipity
-from serendipity.cli.commands import NAMES
+from serendipity.cli.on_demand import NAMES
 from serendipity.cli.render import Grid, Line, rendered
 from serendipity.cli.text import plan_report
 from serendipity.model import Options, Result, Window

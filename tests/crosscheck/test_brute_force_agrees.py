@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.crosscheck import random_call
+from serendipity.facade.planning import options_from
 from serendipity.model import Options, UsageError
-from serendipity.planning import options_from
 from tests.oracle import best, optimal_human_plan
 from tests.oracle.reactions import best_reaction
 

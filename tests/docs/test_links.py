@@ -8,7 +8,7 @@ from types import ModuleType
 import pytest
 
 import serendipity
-from serendipity.cli.commands import NAMES
+from serendipity.cli.on_demand import NAMES
 from tests.docs.blocks import PAGES, ROOT
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")

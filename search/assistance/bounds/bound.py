@@ -7,7 +7,8 @@ one table.  Elsewhere a relaxation of it, see :mod:`search.assistance.bounds.rel
 from typing import Final
 
 from search.assistance.bounds.relaxed_provision import RelaxedProvision
-from search.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
+from search.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.assistance.distances.closure import Closure
 from search.assistance.game.game import INFINITE, Game
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal

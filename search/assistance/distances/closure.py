@@ -9,8 +9,9 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final
 
+from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
@@ -25,19 +26,6 @@ SMALL: Final = 3_000
 
 MEDIUM: Final = 200_000
 """States that are all looked at before only those near the goal are."""
-
-
-class ClosureTooLargeError(Exception):
-    """The closure of a state is larger than the limit."""
-
-
-class Arc(NamedTuple):
-    """A weighted transition: where it applies, what it keeps and puts, its weight."""
-
-    condition: PackedGoal
-    keep: int
-    put: int
-    weight: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,16 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
+from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
-
-if TYPE_CHECKING:
-    from search.assistance.distances.closure import Arc
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -65,7 +63,7 @@ class Layers:
 
     def __init__(
         self,
-        arcs: "Sequence[Arc]",
+        arcs: Sequence[Arc],
         goal: PackedGoal,
         fields: Sequence[int],
         start: int,
@@ -104,8 +102,6 @@ class Layers:
 
     def _too_many_unless(self, fits: bool) -> None:
         if not fits:
-            from search.assistance.distances.closure import ClosureTooLargeError
-
             raise ClosureTooLargeError
 
     def _test(self, condition: PackedGoal) -> tuple[int, int, list[tuple[int, int]]]:
@@ -113,7 +109,7 @@ class Layers:
         need = pack(condition.need) if condition.need >= 0 else -1
         return pack(condition.need_mask), need, [(pack(m), pack(v)) for m, v in condition.forbidden]
 
-    def _effect(self, arc: "Arc") -> tuple[int, int]:
+    def _effect(self, arc: Arc) -> tuple[int, int]:
         return self._compressed(arc.keep), self._compressed(arc.put)
 
     @staticmethod

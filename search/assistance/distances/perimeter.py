@@ -11,17 +11,15 @@ from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
 from itertools import product
 from math import prod
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from search.assistance.distances.arcs import Arc
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, LimitReachedError
-
-if TYPE_CHECKING:
-    from search.assistance.distances.closure import Arc
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
@@ -82,7 +80,7 @@ class PackedPlaces:
     """
 
     def __init__(
-        self, arcs: "Sequence[Arc]", fields: Sequence[int], values: Sequence[Sequence[int]], start: int
+        self, arcs: Sequence[Arc], fields: Sequence[int], values: Sequence[Sequence[int]], start: int
     ) -> None:
         self._arcs = arcs
         self._start = start
@@ -128,7 +126,7 @@ class PackedPlaces:
             after = sum(after for _, after in chosen)
             yield mask, after, sum(before for before, _ in chosen) - after
 
-    def steps(self, arcs: "Sequence[Arc]") -> int:
+    def steps(self, arcs: Sequence[Arc]) -> int:
         """How many steps backward have to be tried at each distance, over all values of the first axis."""
         top = self.axes[0]
         total = 0
@@ -188,7 +186,7 @@ def _pairs(axis: _PerimeterAxis, condition: PackedGoal, keep: int, put: int) -> 
                 yield axis.at[value], after
 
 
-def _changed_together(arcs: "Sequence[Arc]", fields: Sequence[int]) -> list[int]:
+def _changed_together(arcs: Sequence[Arc], fields: Sequence[int]) -> list[int]:
     """Masks of fields, those together that are linked by arcs that change two of them."""
     groups = list(fields)
     for changed in {sum(field for field in fields if field & ~keep) for keep in {arc.keep for arc in arcs}}:
@@ -209,7 +207,7 @@ class Perimeter:
         deadline: asked for time.
     """
 
-    def __init__(self, places: PackedPlaces, arcs: "Sequence[Arc]", goals: Array, deadline: Deadline) -> None:
+    def __init__(self, places: PackedPlaces, arcs: Sequence[Arc], goals: Array, deadline: Deadline) -> None:
         self._places = places
         self._deadline = deadline
         wide = places.item == _WIDE
@@ -246,7 +244,7 @@ class Perimeter:
             if not self._grow():
                 return None
 
-    def _backward(self, arcs: "Sequence[Arc]") -> list[tuple[int, list[_Back]]]:
+    def _backward(self, arcs: Sequence[Arc]) -> list[tuple[int, list[_Back]]]:
         """Actions by the bits of the busiest axis in the places that they lead to."""
         top = self._places.axes[0]
         mask = (1 << top.width) - 1 << top.shift
@@ -322,7 +320,7 @@ class Perimeter:
 
 
 def ball_around(
-    arcs: "Sequence[Arc]",
+    arcs: Sequence[Arc],
     goal: PackedGoal,
     fields: Sequence[int],
     values: Sequence[Sequence[int]],

@@ -6,7 +6,8 @@ a table over the rest is filled in where it is asked for.
 
 from typing import Final
 
-from search.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
+from search.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.assistance.distances.closure import Closure
 from search.assistance.distances.watched import Watched
 from search.human.individual_planner import IndividualPlanner
 from search.human.pattern_database import PatternDatabase

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import pytest
 
 import serendipity
-from serendipity.certify import verify
 from serendipity.crosscheck import PlanCall, random_call
+from serendipity.facade.certify import verify
 from serendipity.model import PlanError, UsageError
 from tests.builders import task as build
 from tests.cases import WORKED

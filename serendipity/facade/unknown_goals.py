@@ -10,20 +10,20 @@ from fractions import Fraction
 from typing import Any, Final
 
 from search.goals import Candidate, Expected, ServedGoal, explanations, solve_expected
-from serendipity.goals.candidates import (
+from serendipity.model import Options, PlanStep, Result, Step, Task, UsageError
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.numbers import Number
+from serendipity.model.task import HumanPlan
+from serendipity.recognition.candidates import (
     CandidateGoal,
     GoalsGiven,
     ObservedGiven,
     candidate_goals,
     observed_actions,
 )
-from serendipity.goals.recognise import posterior, strictness
-from serendipity.goals.recognition import Recognition
-from serendipity.model import Options, PlanStep, Result, Step, Task, UsageError
-from serendipity.model.deadline import Deadline
-from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.numbers import Number
-from serendipity.model.task import HumanPlan
+from serendipity.recognition.recognise import posterior, strictness
+from serendipity.recognition.recognition import Recognition
 
 Solve = Callable[[Task, tuple[str, ...] | None], Result]
 """Section 3 for a task, and ``pi_H`` or None to predict it."""

@@ -6,9 +6,9 @@ from typing import Final
 
 from search.simulation import Epoch, Simulated
 from search.simulation import simulate as play
-from serendipity.limits import limits_from
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, InputError, UsageError
+from serendipity.model.limits import limits_from
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.result import PlanStep, Result

@@ -60,7 +60,7 @@ class _OnDemand(Mapping[str, Any]):
 
 def _command(name: str) -> Any:
     function = name.replace("-", "_")
-    module = import_module(f"serendipity.cli.{function}")
+    module = import_module(f"serendipity.cli.commands.{function}")
     group = getattr(module, "app", None)
     if group is not None:
         return get_command(group)

@@ -42,11 +42,11 @@ def solve(
     verbose: output.Verbose = 0,
 ) -> int:
     """Answer as `plan` does, by integer programming alone: slower, and independent of the search."""
-    from serendipity.planning import options_from
+    from serendipity.facade.planning import options_from
     from verify.calls.solve import solve as by_program
 
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.certify")
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.certify")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = options_from(
         plan_options.given(

@@ -51,7 +51,7 @@ def explain(
 ) -> int:
     """Explain an answer: what changes, why then, from which discount on; or what stands in the way."""
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.explanation", "serendipity.certify")
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.explanation", "serendipity.facade.certify")
     named = list(files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)

@@ -25,7 +25,9 @@ def verify(
 ) -> int:
     """Check a result of `plan --format json` claim by claim, independently of the search."""
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.certify", "verify.certificate.certify")
+    deadline = limits.begin(
+        time_limit, memory_limit, "serendipity.facade.certify", "verify.certificate.certify"
+    )
     named, answer, result = read_result(files, "verify")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     try:

@@ -12,8 +12,8 @@ from serendipity.cli import output, progress
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.render import Grid, Line, rendered
-from serendipity.csv_text import as_csv
 from serendipity.model import InputError, Task, UsageError
+from serendipity.writing.csv_text import as_csv
 
 if TYPE_CHECKING:
     from serendipity.benchmark import Sample, Timing

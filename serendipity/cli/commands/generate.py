@@ -8,7 +8,7 @@ import typer
 from serendipity.cli.choices import choices
 from serendipity.cli.help_examples import epilog
 from serendipity.cli.output import say
-from serendipity.printable import printable
+from serendipity.writing.printable import printable
 
 app = typer.Typer(
     name="generate",

@@ -9,23 +9,23 @@ from typing import TYPE_CHECKING, Any, Final
 
 from search import Outcome, least_over_ties, optimal_human_plans, solve
 from search.simulation import solve_for_human
-from serendipity.gap import Gap, news
-from serendipity.limits import limits_from
+from serendipity.facade.gap import Gap, news
+from serendipity.facade.simulation import realised
+from serendipity.facade.ties import Answered, combined, until_settled
 from serendipity.model.actions import GroundAction
 from serendipity.model.collection import no_collection
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
+from serendipity.model.limits import limits_from
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.result import PlanStep, Result
 from serendipity.model.task import HumanPlan, Task
 from serendipity.model.visibility import Visible
-from serendipity.simulation import realised
-from serendipity.ties import Answered, combined, until_settled
 
 if TYPE_CHECKING:
-    from serendipity.goals import GoalsGiven, ObservedGiven
+    from serendipity.recognition import GoalsGiven, ObservedGiven
 
 _ANSWER_SHARE: Final = 0.05
 """What of the time limit is kept for the end: dropping what the search has made takes time, too."""
@@ -73,7 +73,7 @@ def plan(
         if human_plan is not None:
             raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
         # Loaded only here, before time counts: who knows the goal has nothing to do with it.
-        from serendipity.goals.planning import plan_for_goals
+        from serendipity.facade.unknown_goals import plan_for_goals
 
         chosen = options_from(options)
         limits = limits_from(chosen.time_limit, chosen.memory_limit, deadline, cancelled)
@@ -150,7 +150,7 @@ def _answers(
     chosen = options_from(options)
     if chosen.mode == "assistance":
         # Loaded only here, before time counts: the other modes have nothing to do with it.
-        from serendipity.assistance import assistance_answers, load_arrays
+        from serendipity.facade.assistance import assistance_answers, load_arrays
 
         if chosen.time_limit is not None:
             load_arrays()

@@ -7,11 +7,11 @@ from typing import Any, Final
 
 from search.interruptions import Interruptions, WindowOutcome
 from search.interruptions import interruptions as search_windows
-from serendipity.limits import limits_from
+from serendipity.facade.planning import options_from
 from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
 from serendipity.model.collection import no_collection
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.planning import options_from
+from serendipity.model.limits import limits_from
 
 SCHEMA: Final = "serendipity.interruptions/1"
 

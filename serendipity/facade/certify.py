@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator
 from time import perf_counter
 from typing import Final
 
-from serendipity.limits import limits_from
 from serendipity.model import Certificate, Claim, Deadline, InputError, Result, Task
 from serendipity.model.collection import no_collection
+from serendipity.model.limits import limits_from
 from verify.base.obligations import complete
 from verify.rules import RuleReport
 from verify.rules import check as check_rules

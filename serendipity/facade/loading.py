@@ -11,8 +11,8 @@ from typing import Final
 
 from search import prepare
 from serendipity import pddl
-from serendipity.limits import limits_from
 from serendipity.model.deadline import Deadline
+from serendipity.model.limits import limits_from
 from serendipity.model.task import Task
 from serendipity.pddl.files import PathArgument
 from serendipity.pddl.layouts import Pair

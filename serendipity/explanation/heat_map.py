@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Final
 
-from serendipity.interruptibility import Interruption, InterruptionReport
+from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.show.drawing import Group, Picture, Rect, Shape, Style, Text
 from serendipity.show.palette import INK, PAPER, WALL
 

@@ -13,7 +13,7 @@ from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.stderr import is_terminal, tell
 from serendipity.model import UsageError
 from serendipity.model.options import limit_of
-from serendipity.printable import message
+from serendipity.writing.printable import message
 
 if TYPE_CHECKING:
     from serendipity.reproduction import Reproduction

@@ -38,7 +38,7 @@ def recognise(
 ) -> int:
     """How probable each goal is, given what the human has done so far."""
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.goals")
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.recognition")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     given = plan_options.given(observed=observed, beta=beta)
     with progress.working("recognising", quiet=quiet), limits.during("weighing the goals"):

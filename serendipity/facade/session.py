@@ -5,11 +5,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from search import at_state
+from serendipity.facade.planning import plan, plan_anytime
 from serendipity.model.actions import Condition, GroundAction, conflicting
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.result import Result
 from serendipity.model.task import Task, canonical_name
-from serendipity.planning import plan, plan_anytime
 
 
 class Session:

@@ -21,7 +21,7 @@ _WRITE_SHARE: Final = {"text": 0.05, "json": 0.2}
 
 if TYPE_CHECKING:
     from serendipity.cli.render import Grid, Line
-    from serendipity.interruptibility import InterruptionReport
+    from serendipity.facade.interruptibility import InterruptionReport
 
 
 def interruptions(
@@ -55,7 +55,7 @@ def interruptions(
     output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.interruptibility")
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.interruptibility")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = plan_options.given(
         discount=discount,
@@ -91,7 +91,7 @@ def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str:
 
 
 def _drawn(report: "InterruptionReport", suffix: str) -> str | bytes:
-    from serendipity.heat_map import heat_map
+    from serendipity.explanation.heat_map import heat_map
 
     picture = heat_map(report)
     if suffix == ".png":

@@ -148,15 +148,15 @@ def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, c
 
 def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str]:
     """What is going to be loaded."""
-    modules = ["serendipity.planning", "serendipity.certify"]
+    modules = ["serendipity.facade.planning", "serendipity.facade.certify"]
     if mode == "assistance":
         modules += [
-            "serendipity.assistance",
+            "serendipity.facade.assistance",
             "search.assistance.distances.layers",
             "search.assistance.distances.perimeter",
         ]
     if goals is not None:
-        modules.append("serendipity.goals.planning")
+        modules.append("serendipity.facade.unknown_goals")
     return [*modules, "verify.certificate.certify"] if certify else modules
 
 

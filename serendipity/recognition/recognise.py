@@ -5,18 +5,18 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from search.goals import Likelihood, explanations
-from serendipity.goals.candidates import (
+from serendipity.model import Deadline, Task, UsageError, exact
+from serendipity.model.collection import no_collection
+from serendipity.model.limits import limits_from
+from serendipity.model.numbers import Number
+from serendipity.recognition.candidates import (
     CandidateGoal,
     GoalsGiven,
     ObservedGiven,
     candidate_goals,
     observed_actions,
 )
-from serendipity.goals.recognition import GoalPosterior, Recognition
-from serendipity.limits import limits_from
-from serendipity.model import Deadline, Task, UsageError, exact
-from serendipity.model.collection import no_collection
-from serendipity.model.numbers import Number
+from serendipity.recognition.recognition import GoalPosterior, Recognition
 
 
 def recognise(

@@ -6,9 +6,9 @@ from fractions import Fraction
 from os import PathLike
 from typing import Any
 
-from serendipity.goals.files import Entry, read_goals, read_observed
 from serendipity.model import Condition, InputError, Task, UsageError, exact
 from serendipity.model.task import canonical_name
+from serendipity.recognition.files import Entry, read_goals, read_observed
 
 GoalsGiven = str | PathLike[str] | Iterable[Mapping[str, Any]]
 """A file of goals, or its JSON form: ``[{"name": ..., "goal": [literals], "prior": ...}]``."""

@@ -1,7 +1,0 @@
-"""Which goal the human has, from what he has done, and help that fits every goal he may have (SPEC 8)."""
-
-from serendipity.goals.candidates import CandidateGoal, GoalsGiven, ObservedGiven
-from serendipity.goals.recognise import recognise
-from serendipity.goals.recognition import GoalPosterior, Recognition
-
-__all__ = ["CandidateGoal", "GoalPosterior", "GoalsGiven", "ObservedGiven", "Recognition", "recognise"]

@@ -1,0 +1,7 @@
+"""Which goal the human has, from what he has done, and help that fits every goal he may have (SPEC 8)."""
+
+from serendipity.recognition.candidates import CandidateGoal, GoalsGiven, ObservedGiven
+from serendipity.recognition.recognise import recognise
+from serendipity.recognition.recognition import GoalPosterior, Recognition
+
+__all__ = ["CandidateGoal", "GoalPosterior", "GoalsGiven", "ObservedGiven", "Recognition", "recognise"]
