@@ -1,7 +1,7 @@
 """Silent assistance on the published problems: ``python -m benchmarks.assistance [FOLDER] [options]``.
 
 Prints a table (problem, ties, status, lower and upper value as ``human, supporter``, CPU
-seconds with loading), whether the values stand in their order (SPEC 7), and a summary by
+seconds with loading), whether the values stand in their order (semantics 7), and a summary by
 domain.  The order: both together without turns <= optimistic <= fixed, and optimistic <=
 expected <= robust; where a value is not proved its bounds must not contradict it.  *Together*
 is the bound that the search prunes with; with ``--composite SECONDS`` it is also worked out

@@ -1,4 +1,4 @@
-"""For each single window: the least the human pays, and the least the team pays (SPEC 3.2).
+"""For each single window: the least the human pays, and the least the team pays (semantics 3.2).
 
 One search per window and objective, in the space of ``search.spaces.fixed_window``.  What the
 human pays comes first in the one objective and what the team pays in the other, so either
@@ -68,7 +68,7 @@ def interruptions(
     deadline: Deadline | None = None,
     on_progress: Callable[[int, int], None] | None = None,
 ) -> Interruptions | None:
-    """The report of SPEC 3.2, or None where the human has no plan alone.
+    """The report of semantics 3.2, or None where the human has no plan alone.
 
     Args:
         task: the task.
@@ -112,7 +112,7 @@ def _examined(
 
 
 def _idle_key(context: SearchContext, plan: HumanPlan) -> int:
-    """The key of ``pi_H`` with robots idle, which fits every window (SPEC 3.1)."""
+    """The key of ``pi_H`` with robots idle, which fits every window (semantics 3.1)."""
     if context.task.robot_goal:
         return INFINITE_KEY
     return sum(option.weight for _, option in context.followed(plan))

@@ -1,4 +1,4 @@
-"""From a task and options to answers: which space, from which incumbent (SPEC 3)."""
+"""From a task and options to answers: which space, from which incumbent (semantics 3)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -51,7 +51,7 @@ def solve(
 
 
 def optimal_human_plan(task: Task) -> HumanPlan | None:
-    """The canonical optimal plan of the human alone, or None (SPEC 1)."""
+    """The canonical optimal plan of the human alone, or None (semantics 1)."""
     graph = optimal_human_plans(task)
     return None if graph is None else graph.canonical()
 
@@ -124,7 +124,7 @@ def _individual(context: SearchContext, plan: HumanPlan) -> Outcome:
 
 
 def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
-    """``T`` (SPEC 2, 3.5)."""
+    """``T`` (semantics 2, 3.5)."""
     if options.horizon is not None:
         shortest = 0 if plan is None else len(plan)
         if isinstance(options.horizon, int) and options.horizon < shortest:
@@ -206,7 +206,7 @@ class _Call:
                 self._pursue_robot_goal(plan)
         self.idle = replace(self.baseline, key=self.baseline.key + self._window_of_nothing())
         # With a goal of the robots' own, leaving him alone is what a plan with a window is
-        # compared with, but it is not itself one that fits every window (SPEC 3.1).
+        # compared with, but it is not itself one that fits every window (semantics 3.1).
         if not (self.options.windowed and self.task.robot_goal):
             self.best = replace(self.idle)
 
@@ -224,7 +224,7 @@ class _Call:
         self.baseline = found  # what savings are counted from has to be the least there is
 
     def _window_of_nothing(self) -> int:
-        """Doing nothing fits every window; its best is the shortest and latest (SPEC 3.1)."""
+        """Doing nothing fits every window; its best is the shortest and latest (semantics 3.1)."""
         if not self.options.windowed or not self.plan or self.epochs is None:
             return 0
         if self.baseline.key == INFINITE_KEY:
@@ -237,7 +237,7 @@ class _Call:
         return self.context.bound(self.context.packed.init) + window
 
     def _improve_alone(self) -> None:
-        """A given plan may not be optimal: what the human gains by himself (SPEC 1)."""
+        """A given plan may not be optimal: what the human gains by himself (semantics 1)."""
         if not self.given or self.plan is None:
             return
         optimum = self.context.alone.key(self.context.packed.init)

@@ -69,7 +69,7 @@ def usar(
     delivered: bool = True,
     triage_everywhere: bool = True,
 ) -> Task:
-    """A task with the USAR schemas (SPEC 5), one ``move``, unit costs.
+    """A task with the USAR schemas (semantics 5), one ``move``, unit costs.
 
     Args:
         edges: undirected connections, e.g. ``"a-b-c b-s"``; a chain is several.

@@ -1,4 +1,4 @@
-"""The hand-checkable tasks of SPEC 9, by number; more than one test feeds on them."""
+"""The hand-checkable tasks of semantics 9, by number; more than one test feeds on them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -110,7 +110,7 @@ def case_10() -> Task:
 
 @dataclass(frozen=True, slots=True)
 class Worked:
-    """One figure of SPEC 9: a call and its answer."""
+    """One figure of semantics 9: a call and its answer."""
 
     task: Callable[[], Task]
     options: Mapping[str, object]

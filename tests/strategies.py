@@ -166,7 +166,7 @@ def tasks() -> st.SearchStrategy[Task]:
 
 @st.composite
 def calls(draw: st.DrawFn, *, modes: tuple[str, ...] = MODES, ties: bool = True) -> Call:
-    """A task, a mode and every option that SPEC 3 gives it, often with a given human plan.
+    """A task, a mode and every option that semantics 3 gives it, often with a given human plan.
 
     Args:
         modes: drawn from.

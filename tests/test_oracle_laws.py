@@ -1,4 +1,4 @@
-"""Laws of SPEC 3 that the oracle's answers obey on random calls."""
+"""Laws of semantics 3 that the oracle's answers obey on random calls."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -11,7 +11,7 @@ from tests.strategies import Call, calls
 
 @given(calls(modes=("serendipity",), ties=False))
 def test_weight_0_costs_what_composite_costs(call: Call) -> None:
-    """With K = 0 the window [1, T+1) fits every plan (SPEC 3.1); a given plan need not be beaten."""
+    """With K = 0 the window [1, T+1) fits every plan (semantics 3.1); a given plan need not be beaten."""
     if call.human_plan is not None:
         return
     free = call.options.but(window_weight=0, max_window=None, max_cost=None, preservation="kernel")
@@ -24,7 +24,7 @@ def test_weight_0_costs_what_composite_costs(call: Call) -> None:
 
 @given(calls(modes=("communication",), ties=False))
 def test_free_communication_is_composite(call: Call) -> None:
-    """With weight 0 and no prefix to keep (SPEC 3.4)."""
+    """With weight 0 and no prefix to keep (semantics 3.4)."""
     talk = call.options.but(communication_weight=0, keep_prefix=False)
     communication = best(call.task, talk, call.human_plan)
     composite = best(call.task, talk.but(mode="composite"), call.human_plan)

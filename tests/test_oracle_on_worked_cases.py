@@ -1,4 +1,4 @@
-"""The brute-force oracle gives the figures of SPEC 9."""
+"""The brute-force oracle gives the figures of semantics 9."""
 
 from fractions import Fraction
 

@@ -1,4 +1,4 @@
-"""The planner gives the figures of SPEC 9 and of the paper's own examples (SPEC 5)."""
+"""The planner gives the figures of semantics 9 and of the paper's own examples (semantics 5)."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Actions of one name are variants of one PDDL action: in ``pi_H`` is what has a name of it (SPEC 3.4)."""
+"""Actions of one name are variants of one PDDL action; ``pi_H`` holds whatever has a name of it (semantics 3.4)."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What counts as an opportunity (SPEC 1, 3.1), and that the verifier means the same by it."""
+"""What counts as an opportunity (semantics 1, 3.1), and that the verifier means the same by it."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Silent assistance, solved exactly (SPEC 7).
+"""Silent assistance, solved exactly (semantics 7).
 
 Glossary: *prime* - the human, who does not know that he is helped; *supporter* - the
 robot; *choice* - a state with the supporter to move; *reply* - one with the prime to

@@ -1,4 +1,4 @@
-"""From a task and options to the answer of mode ``assistance`` (SPEC 7)."""
+"""From a task and options to the answer of mode ``assistance`` (semantics 7)."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,7 @@
 """The best-first loop that serves every mode: a mode is a space and a bound.
 
 Keys are those of ``search.packed.cost_vector``: one comparison orders objective, cost, window,
-start and length at once, so the first proof is already the answer of SPEC 3.1.
+start and length at once, so the first proof is already the answer of semantics 3.1.
 """
 
 from collections.abc import Iterable, Iterator

@@ -1,4 +1,4 @@
-"""Goals that are not known: what explains observations, and help that fits every candidate (SPEC 8)."""
+"""Goals that are not known: what explains observations, and help that fits every candidate (semantics 8)."""
 
 from search.goals.observed import Likelihood, explanations
 from search.goals.outcome import Candidate, Expected, ServedGoal

@@ -45,7 +45,7 @@ def shared_packing(
 
 
 def timeline(context: SharedContext, candidate: Candidate, horizon: int) -> GoalTimeline:
-    """The rules of SPEC 3.1 for one candidate, under the options of its tables."""
+    """The rules of semantics 3.1 for one candidate, under the options of its tables."""
     options = context.options
     return GoalTimeline(
         packed=context.packed,

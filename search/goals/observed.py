@@ -129,7 +129,7 @@ class _Search:
         into: dict[_At, list[tuple[int, _At, int]]],
         distance: dict[_At, int],
     ) -> HumanPlan:
-        """From the start the smallest action that continues an optimal plan (SPEC 1)."""
+        """From the start the smallest action that continues an optimal plan (semantics 1)."""
         onward: dict[_At, list[tuple[int, _At]]] = {}
         pending, seen = list(ends), set(ends)
         while pending:

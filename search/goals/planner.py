@@ -1,7 +1,7 @@
 """One robots' plan for all candidate goals: least expected cost, every human plan kept intact.
 
 The robots commit to a sequence of action sets of their own, whatever the goal is.  Beside it
-each candidate has a timeline of its own (rules 1-3 of SPEC 3.1, with its own window); a joint
+each candidate has a timeline of its own (rules 1-3 of semantics 3.1, with its own window); a joint
 action with the human takes place on the timelines that want it, if its robots are idle in
 their own sequence then.  Given the sequence, timelines are independent of each other, so their
 best completions add up: the search is over sequences only, best first, and exact.

@@ -51,7 +51,7 @@ class Situation:
 
 @dataclass(frozen=True, slots=True)
 class GoalTimeline:
-    """Rules 1-3 of SPEC 3.1 for one candidate.
+    """Rules 1-3 of semantics 3.1 for one candidate.
 
     Attributes:
         encoding: the packed task, the same for all candidates.
@@ -119,7 +119,7 @@ class GoalTimeline:
         """The best timeline after the last epoch; ties go to the plan that is left alone."""
         left = None
         if last.follows is not None and self.goal.holds(last.follows.state):
-            # Leaving him alone counts as the shortest and latest window (SPEC 3.1).
+            # Leaving him alone counts as the shortest and latest window (semantics 3.1).
             left = Ended(last.follows.key + self._untouched, last.follows, 0, ())
         if left is None or (last.ended is not None and last.ended.key < left.key):
             return last.ended

@@ -1,6 +1,6 @@
 """The human by himself: his optimal cost from a state, and all his optimal plans.
 
-*Optimal* means least cost, then fewest actions (SPEC 1); both are in the key.
+*Optimal* means least cost, then fewest actions (semantics 1); both are in the key.
 Costs are cached on the facts that his own actions mention, so a state costs one
 search per projection, and a search also fills in the states along its result.
 """
@@ -36,7 +36,7 @@ class PlanGraph:
         self.generated = generated
 
     def canonical(self) -> tuple[int, ...]:
-        """The plan that takes the smallest action at each step (SPEC 1)."""
+        """The plan that takes the smallest action at each step (semantics 1)."""
         return next(self.plans())
 
     def plans(self) -> Iterator[tuple[int, ...]]:
@@ -234,7 +234,7 @@ class IndividualPlanner:
         return PlanGraph(start, edges, len(expanded), sum(map(len, expanded.values())))
 
     def _one_a_name(self, steps: list[tuple[int, int]]) -> list[tuple[int, int]]:
-        """The first step of each name: variants of one action make no different plan (SPEC 1)."""
+        """The first step of each name: variants of one action make no different plan (semantics 1)."""
         names = [self._actions[action].name for action, _ in steps]
         return [step for step, name, last in zip(steps, names, ["", *names], strict=False) if name != last]
 
@@ -274,7 +274,7 @@ def _memory(packed: PackedTask) -> Memory:
 
 
 def canonical(alone: IndividualPlanner | PricedPlanner, state: int) -> tuple[int, ...]:
-    """The canonical optimal plan (SPEC 1) from a packed state that has one."""
+    """The canonical optimal plan (semantics 1) from a packed state that has one."""
     graph = alone.plans(state)
     assert graph is not None, "asked for plans where there are none"
     return graph.canonical()

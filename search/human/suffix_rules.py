@@ -1,4 +1,4 @@
-"""What the human does after the window, by himself (SPEC 3.1 rule 3, 3.3)."""
+"""What the human does after the window, by himself (semantics 3.1 rule 3, 3.3)."""
 
 from typing import Protocol
 

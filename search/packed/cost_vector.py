@@ -1,6 +1,6 @@
 """Order of answers as one integer: additive, and compared lexicographically.
 
-SPEC 3.1 orders answers by objective, cost, window length, later start, number of
+semantics 3.1 orders answers by objective, cost, window length, later start, number of
 actions.  Every component is a sum over the steps of a plan, so all five are bit
 fields of a single int: adding keys adds components, comparing keys compares the
 components in that order.
@@ -220,7 +220,7 @@ def own_weights(packed: PackedTask) -> list[int]:
     """Undiscounted costs by their index, in a unit that no option changes.
 
     Cost (in the least unit of the task's costs) and number of actions are the two fields of
-    an int: what the human prefers by himself (SPEC 1).  :meth:`Weights.of_own` makes keys of sums.
+    an int: what the human prefers by himself (semantics 1).  :meth:`Weights.of_own` makes keys of sums.
     """
     scale = _own_scale(packed)
     return [(int(cost * scale) << _ACTIONS_BITS) + 1 for cost in packed.costs]

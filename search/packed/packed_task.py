@@ -2,7 +2,7 @@
 
 An action is then two masks to test and two to apply, whatever the number of
 facts.  Only facts that some useful action or a goal can ask for are packed;
-conflicts between actions are still judged on their declared effects (SPEC 2).
+conflicts between actions are still judged on their declared effects (semantics 2).
 
 *Leader* is the agent under whom an op is looked up: the human if he takes part.
 """
@@ -236,7 +236,7 @@ class PackedTask:
         return place < len(self.useful) and self.useful[place] == action_id
 
     def compatible(self, first: int, second: int, strict: bool) -> bool:
-        """Whether two actions may share an epoch (SPEC 2)."""
+        """Whether two actions may share an epoch (semantics 2)."""
         key = (first, second, strict)
         answer = self._compatible.get(key)
         if answer is None:
@@ -317,12 +317,12 @@ def pack_plainly(task: Task, deadline: Deadline) -> PackedTask:
 
 
 def pack_fully(task: Task, deadline: Deadline) -> PackedTask:
-    """The encoding that also holds every fact of the human's own domain (SPEC 3.3)."""
+    """The encoding that also holds every fact of the human's own domain (semantics 3.3)."""
     return task.derived(_with_human_facts, deadline)
 
 
 def human_facts(task: Task) -> frozenset[int]:
-    """Ids of the facts that the human's own domain mentions (SPEC 3.3)."""
+    """Ids of the facts that the human's own domain mentions (semantics 3.3)."""
     mentioned = {*task.goal.positive, *task.goal.negative}
     for i in task.human_actions:
         action = task.actions[i]

@@ -1,4 +1,4 @@
-"""What the agents can do in one epoch, all of them at once (SPEC 2).
+"""What the agents can do in one epoch, all of them at once (semantics 2).
 
 Ops are looked up under their leader by the value of one field, the one that most
 of the leader's actions ask for (a position, as a rule).
@@ -78,7 +78,7 @@ class Successors:
         encoding: the packed task.
         weight: key increment of an op.
         deadline: asked for time; sets of several robots' actions can be many.
-        strict: strict interference (SPEC 2).
+        strict: strict interference (semantics 2).
         idle: robots do nothing.
     """
 

@@ -217,7 +217,7 @@ class DecoupledSuccessors(Successors):
         walks: the robots' walks, foldable.
         weight: key increment of an op.
         deadline: asked for time.
-        strict: strict interference (SPEC 2).
+        strict: strict interference (semantics 2).
     """
 
     def __init__(

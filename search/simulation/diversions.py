@@ -1,4 +1,4 @@
-"""Joint actions that contribute to no goal, and still change what a human who replans does (SPEC 6)."""
+"""Joint actions that contribute to no goal, and still change what a human who replans does (semantics 6)."""
 
 from search.packed.packed_task import PackedTask, pack
 from serendipity.model.deadline import Deadline

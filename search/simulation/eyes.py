@@ -1,4 +1,4 @@
-"""What the human comes to believe when he looks up (SPEC 6).
+"""What the human comes to believe when he looks up (semantics 6).
 
 A belief of his may hold two values of one variable, or none: he saw that the kit has
 left the room, but not where it went.  So for him only the variables that nobody

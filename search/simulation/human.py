@@ -1,4 +1,4 @@
-"""The human's state machine: what he decides when he looks up (SPEC 6, steps 1 and 2)."""
+"""The human's state machine: what he decides when he looks up (semantics 6, steps 1 and 2)."""
 
 from collections.abc import Collection
 from dataclasses import dataclass

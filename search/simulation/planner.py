@@ -1,4 +1,4 @@
-"""The best help that happens, with a human who replans on sight (SPEC 6)."""
+"""The best help that happens, with a human who replans on sight (semantics 6)."""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -88,7 +88,7 @@ def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Out
 
 
 def _epochs(task: Task, options: Options, plan: HumanPlan) -> int:
-    """``T`` (SPEC 2, 3.5)."""
+    """``T`` (semantics 2, 3.5)."""
     if not isinstance(options.horizon, int):
         if not plan and not task.robot_goal.holds(task.init):
             raise UsageError(

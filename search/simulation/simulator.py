@@ -1,4 +1,4 @@
-"""Plays a composite plan against a human who replans, epoch by epoch (SPEC 6)."""
+"""Plays a composite plan against a human who replans, epoch by epoch (semantics 6)."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Robots' action sequences, with the human simulated (SPEC 6, optimising under a model).
+"""Robots' action sequences, with the human simulated (semantics 6, optimising under a model).
 
 A node is an epoch, the true state, and the human's mind: what he expects to see and
 what he means to do.  He does not wait for anybody, but in equal state and mind an

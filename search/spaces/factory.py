@@ -1,4 +1,4 @@
-"""Puts a windowed space together from the options (SPEC 3.1, 3.3, 3.4)."""
+"""Puts a windowed space together from the options (semantics 3.1, 3.3, 3.4)."""
 
 from collections.abc import Callable, Sequence
 

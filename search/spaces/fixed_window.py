@@ -1,4 +1,4 @@
-"""The search space of plans that fit one given window, under any weights (SPEC 3.2)."""
+"""The search space of plans that fit one given window, under any weights (semantics 3.2)."""
 
 from collections.abc import Callable, Iterator, Sequence
 

@@ -1,4 +1,4 @@
-"""Communication and composite planning: no prefix, no window (SPEC 3.4, Def. 1.1)."""
+"""Communication and composite planning: no prefix, no window (semantics 3.4, Def. 1.1)."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""Serendipity: a prefix that leaves the human alone, a window, a suffix (SPEC 3.1).
+"""Serendipity: a prefix that leaves the human alone, a window, a suffix (semantics 3.1).
 
 Nodes are (phase, epoch, packed state).  In the prefix the human follows ``pi_H``
 (or, where the robot may announce itself, does any actions of ``pi_H``); a window
@@ -97,7 +97,7 @@ class Unscheduled:
 
 
 class AnyOfPlan(Unscheduled):
-    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (SPEC 3.4)."""
+    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (semantics 3.4)."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""Options and texts where the human's goal is not known (SPEC 8)."""
+"""Options and texts where the human's goal is not known (semantics 8)."""
 
 from collections.abc import Iterator
 from pathlib import Path

@@ -7,7 +7,7 @@ from serendipity.model.numbers import plain
 
 
 def totals_line(result: Result) -> str:
-    """Both totals of SPEC 7, and what the human pays alone."""
+    """Both totals of semantics 7, and what the human pays alone."""
     paid = ", ".join(f"{agent} pays {plain(cost)}" for agent, cost in result.agent_costs.items())
     mean = " on average" if result.options.ties == "expected" else ""
     alone = "" if result.human_cost is None else f"; alone {result.human} pays {plain(result.human_cost)}"

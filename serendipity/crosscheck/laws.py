@@ -142,7 +142,7 @@ def _differences(where: str, found: Result, expected: Result) -> Iterator[str]:
 
 
 def _same_rank(task: Task, found: Result, expected: Result) -> Result:
-    """``found``, with the plan that was expected where its own is another one of the same rank (SPEC 3.1).
+    """``found``, with the expected plan where its own is another one of the same rank (semantics 3.1).
 
     A session keeps variables that a fresh call doesn't find, which may decide between the two.
     """
@@ -195,7 +195,7 @@ def _comparable(call: PlanCall) -> bool:
 
 
 def _rank(answer: Result) -> float | None:
-    """The objective, as if doing nothing had a window of one epoch (SPEC 3.1)."""
+    """The objective, as if doing nothing had a window of one epoch (semantics 3.1)."""
     if answer.objective is None or answer.window is not None or not answer.human_plan:
         return answer.objective
     options: Options = answer.options

@@ -86,7 +86,7 @@ class Parts:
         return (1 - options.discount) * self.robots
 
     def objective(self, options: Options) -> Fraction:
-        """Cost, communication and window (SPEC 3.1, 3.4)."""
+        """Cost, communication and window (semantics 3.1, 3.4)."""
         return self.human + self.discounted(options) + self.announced + options.window_weight * self.length
 
 

@@ -1,4 +1,4 @@
-"""The facade over silent assistance (SPEC 7): answers of the game as results."""
+"""The facade over silent assistance (semantics 7): answers of the game as results."""
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction

@@ -65,7 +65,7 @@ def _by_rules(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]
     if result.mode == "assistance":
         from verify.policy import check_policy
 
-        # a walk through the policy's states, as far as it gets within a moment (SPEC 7)
+        # a walk through the policy's states, as far as it gets within a moment (semantics 7)
         return check_policy(task, result, deadline.within(_A_MOMENT), replay_only=True)
     return _claims(result, check_rules(task, result, deadline))
 

@@ -1,4 +1,4 @@
-"""Which interruptions would help the human: every window, and the best that is possible in it (SPEC 3.2)."""
+"""Which interruptions would help the human: every window, with the best possible in it (semantics 3.2)."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -84,7 +84,7 @@ class Interruption:
 
 @dataclass(frozen=True, slots=True)
 class InterruptionReport:
-    """The report of SPEC 3.2.
+    """The report of semantics 3.2.
 
     Attributes:
         human: his name.

@@ -51,14 +51,14 @@ def plan(
     Args:
         task: the task.
         human_plan: names of the actions that the human is going to do; None predicts
-            an optimal plan of his (SPEC 1).
+            an optimal plan of his (semantics 1).
         visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
             ``human_model="local"`` sees; None for what is where he is.
         cancelled: set from another thread, it ends the call like a time limit.
         deadline: one that other work shares, such as loading the task; it holds beside
             ``time_limit`` and ``memory_limit``, which are of this call alone.
         goals: goals that the human may have, instead of the task's, as :func:`recognise` takes
-            them: the least expected cost over their posterior is wanted (SPEC 8).
+            them: the least expected cost over their posterior is wanted (semantics 8).
         observed: what he has done from the initial state on, for the posterior.
         beta: of the posterior.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
@@ -194,7 +194,7 @@ def _depends_on_ties(options: Options) -> bool:
 
 
 def _over_ties(call: _Call) -> Result:
-    """The task solved once for each optimal ``pi_H`` (SPEC 1)."""
+    """The task solved once for each optimal ``pi_H`` (semantics 1)."""
     options = call.options
     try:
         graph = optimal_human_plans(call.task, call.deadline)
@@ -265,7 +265,7 @@ def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | No
 
 
 def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
-    """The verdicts of SPEC 6; none without a plan.
+    """The verdicts of semantics 6; none without a plan.
 
     They may go a little beyond the time limit, so that an answer at the limit has them too.
     """
@@ -296,7 +296,7 @@ class _Prices:
         self._known: dict[tuple[int, bool], Fraction] = {}
 
     def of(self, action: GroundAction) -> Fraction:
-        """The undiscounted cost with the human, the discounted one else (SPEC 1)."""
+        """The undiscounted cost with the human, the discounted one else (semantics 1)."""
         kind = id(action.cost), self._task.human in action.participants
         price = self._known.get(kind)
         if price is None:

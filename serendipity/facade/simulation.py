@@ -1,4 +1,4 @@
-"""The facade over the simulator: a plan played against a human who replans (SPEC 6)."""
+"""The facade over the simulator: a plan played against a human who replans (semantics 6)."""
 
 from collections.abc import Iterator
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""One answer from the answers for each of the human's optimal plans (SPEC 1).
+"""One answer from the answers for each of the human's optimal plans (semantics 1).
 
 Figures are compared and added up as the search found them, exactly; only the result has floats.
 """

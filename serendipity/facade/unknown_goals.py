@@ -1,4 +1,4 @@
-"""Planning where the human's goal is not known: answers of ``plan(goals=..., observed=...)`` (SPEC 8).
+"""Planning where the human's goal is not known: answers of ``plan(goals=..., observed=...)`` (semantics 8).
 
 Epoch 1 is the first epoch of the human's plans, and observations are actions of those plans:
 his current plan for a goal is the canonical optimal plan from ``I`` that embeds them.

@@ -84,7 +84,7 @@ class GroundAction:
 
     @property
     def key(self) -> tuple[str, ...]:
-        """``(name, arguments...)``: the string order of canonical choices (SPEC 1)."""
+        """``(name, arguments...)``: the string order of canonical choices (semantics 1)."""
         return tuple(self.name.split())
 
     @property
@@ -98,7 +98,7 @@ class GroundAction:
 
 
 def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
-    """Whether two different actions can't share an epoch (SPEC 2, eq. 5, 6, 10).
+    """Whether two different actions can't share an epoch (semantics 2, eq. 5, 6, 10).
 
     They can't if an agent takes part in both, if both delete a fact, or if one
     deletes what the other adds; with ``strict`` also if one deletes or negates a

@@ -74,7 +74,7 @@ class InputError(SerendipityError):
 class PlanError(InputError):
     """A given human plan is not applicable, misses the goal or is not his alone.
 
-    Remedy: correct the action that the message names (SPEC section 1).
+    Remedy: correct the action that the message names (docs/semantics.md section 1).
 
     Args:
         message: what was found and what was expected.

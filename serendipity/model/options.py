@@ -1,4 +1,4 @@
-"""Every option that changes what an answer means (SPEC 3), validated in one place."""
+"""Every option that changes what an answer means (semantics 3), validated in one place."""
 
 import math
 from dataclasses import dataclass, field, fields, replace
@@ -55,8 +55,8 @@ class Options:
         max_cost: reject dearer plans: a number, ``"human"`` for cost(pi_H), or None.
         communication_weight: cost per unit of the human's actions that are not in pi_H.
         keep_prefix: the paper's second (7b), in communication mode.
-        human_model: what the human does (SPEC 6).
-        ties: over the human's optimal plans (SPEC 1), or over his choices (SPEC 7).
+        human_model: what the human does (semantics 6).
+        ties: over the human's optimal plans (semantics 1), or over his choices (semantics 7).
         max_ties: the most optimal human plans that are enumerated, at most :data:`MAX_TIES`.
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
@@ -123,7 +123,7 @@ class Options:
 
     @property
     def strict(self) -> bool:
-        """Whether interference is strict (SPEC 2)."""
+        """Whether interference is strict (semantics 2)."""
         return self.interference == "strict"
 
     @property

@@ -7,7 +7,7 @@ from serendipity.model.errors import UsageError
 
 @dataclass(frozen=True, slots=True, order=True)
 class Window:
-    """The half-open interval of epochs ``[start, end)`` (xi1, xi2 of the paper; SPEC 3.1).
+    """The half-open interval of epochs ``[start, end)`` (xi1, xi2 of the paper; semantics 3.1).
 
     Raises:
         UsageError: not ``1 <= start < end``.

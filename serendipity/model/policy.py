@@ -1,4 +1,4 @@
-"""A closed-loop policy of the supporter in silent assistance (SPEC 7), with its certificate."""
+"""A closed-loop policy of the supporter in silent assistance (semantics 7), with its certificate."""
 
 from dataclasses import dataclass
 from fractions import Fraction

@@ -27,7 +27,7 @@ def canonical_name(text: str) -> str:
 
 @dataclass(frozen=True)
 class Task:
-    """A multi-agent planning task with one human (Def. 1.0, 1.1; SPEC 1).
+    """A multi-agent planning task with one human (Def. 1.0, 1.1; semantics 1).
 
     Attributes:
         name: for people.
@@ -120,7 +120,7 @@ class Task:
         self._derived.clear()
 
     def team_cost(self, action: GroundAction, discount: Fraction) -> Fraction:
-        """What an action costs the team: full with the human, else discounted (SPEC 1)."""
+        """What an action costs the team: full with the human, else discounted (semantics 1)."""
         return action.cost if self.human in action.participants else action.cost * (1 - discount)
 
     def replay_alone(self, plan: HumanPlan) -> list[frozenset[int]]:

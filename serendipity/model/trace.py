@@ -67,7 +67,7 @@ class TraceEpoch:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """A plan played against a human who replans (SPEC 6).
+    """A plan played against a human who replans (semantics 6).
 
     Attributes:
         human: his name.

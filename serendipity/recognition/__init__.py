@@ -1,4 +1,4 @@
-"""Which goal the human has, from what he has done, and help that fits every goal he may have (SPEC 8)."""
+"""Which goal the human has, from what was seen, and help that fits every goal there may be (semantics 8)."""
 
 from serendipity.recognition.candidates import CandidateGoal, GoalsGiven, ObservedGiven
 from serendipity.recognition.recognise import recognise

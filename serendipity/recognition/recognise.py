@@ -1,4 +1,4 @@
-"""The posterior over the human's goals (SPEC 8, after Ramirez and Geffner 2010)."""
+"""The posterior over the human's goals (semantics 8, after Ramirez and Geffner 2010)."""
 
 import math
 from collections.abc import Sequence

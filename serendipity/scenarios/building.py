@@ -38,7 +38,7 @@ class Building:
 
 
 def figure2() -> Building:
-    """The building of the paper's Figure 2: 21 locations, 20 connections, a tree (SPEC 5)."""
+    """The building of the paper's Figure 2: 21 locations, 20 connections, a tree (semantics 5)."""
     halls = [f"hall{i}" for i in range(1, 9)]
     rooms = [f"room{i}" for i in range(1, 14)]
     doors = {

@@ -11,14 +11,14 @@ from serendipity.scenarios.usar_pddl import pddl_files
 from serendipity.writing.together import write_together
 
 _WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}
-"""Sections III-B to III-D of the paper: where medkit 1 lies; all else is the same (SPEC 5)."""
+"""Sections III-B to III-D of the paper: where medkit 1 lies; all else is the same (semantics 5)."""
 
 PRESETS: Final = ("figure2", *_WORKED_EXAMPLES)
 """``figure2``: the building, positions by the seed; the others: worked examples in it."""
 
 
 def worked_example(name: str) -> Usar:
-    """One of the paper's examples in Figure 2: commx in room13, the robot in room4 (SPEC 5)."""
+    """One of the paper's examples in Figure 2: commx in room13, the robot in room4 (semantics 5)."""
     return Usar(
         name=f"usar-{name}",
         building=figure2(),

@@ -29,7 +29,7 @@ def replay(task: Task, result: Result) -> tuple[Moment, ...]:
     for step in result.plan:
         by_epoch[step.epoch].append(step)
     moments = [Moment(0, (), task.init)]
-    turns = result.mode == "assistance"  # they act one after the other (SPEC 7)
+    turns = result.mode == "assistance"  # they act one after the other (semantics 7)
     for epoch in range(1, max(by_epoch, default=0) + 1):
         state = before = moments[-1].state
         actions = []

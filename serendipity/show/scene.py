@@ -176,7 +176,7 @@ class _Builder:
         self.task = task
         self.places = places
         self.window = range(0) if result.window is None else range(result.window.start, result.window.end)
-        own = result.mode != "assistance"  # there nobody's cost is discounted (SPEC 7)
+        own = result.mode != "assistance"  # there nobody's cost is discounted (semantics 7)
         self.discount = result.options.discount if own else Fraction(0)
 
     def frames(self, moments: Sequence[Moment], former: Sequence[Moment], last: int) -> tuple[Frame, ...]:

@@ -1,4 +1,4 @@
-"""Silent assistance by brute force (SPEC 7): every state, every policy; no bound, no cleverness."""
+"""Silent assistance by brute force (semantics 7): every state, every policy; no bound, no cleverness."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The values of mode ``assistance`` equal those of brute force, and stand in their order (SPEC 7)."""
+"""The values of mode ``assistance`` equal those of brute force, and stand in their order (semantics 7)."""
 
 from fractions import Fraction
 

@@ -1,4 +1,4 @@
-"""When the time is up: bounds that hold, and a policy that is worth its upper one (SPEC 7)."""
+"""When the time is up: bounds that hold, and a policy that is worth its upper one (semantics 7)."""
 
 from collections.abc import Iterable
 

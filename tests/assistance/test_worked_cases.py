@@ -1,4 +1,4 @@
-"""SPEC 9, cases 5 and 6, and what mode ``assistance`` refuses."""
+"""semantics 9, cases 5 and 6, and what mode ``assistance`` refuses."""
 
 import json
 from fractions import Fraction

@@ -125,7 +125,7 @@ def test_help_that_pays_at_every_discount() -> None:
 
 
 def test_case_2_ties_go_to_the_cheaper_plan() -> None:
-    """K = 0.75 is where a long window has the objective of a short one (SPEC 9, case 2)."""
+    """K = 0.75 is where a long window has the objective of a short one (semantics 9, case 2)."""
     task = cases.case_2()
     assert serendipity.explain(task, discount="0.5", window_weight="0.75").answer.cost == 7
     found = serendipity.explain(task, discount="0.5", window_weight="0.8")

@@ -1,4 +1,4 @@
-"""Brute force for SPEC 8: every robots' plan, beside it every timeline of every goal."""
+"""Brute force for semantics 8: every robots' plan, beside it every timeline of every goal."""
 
 from collections.abc import Sequence
 from dataclasses import replace

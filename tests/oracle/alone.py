@@ -1,4 +1,4 @@
-"""The human alone: (cost, length) of his optimal plans from any state (SPEC 1)."""
+"""The human alone: (cost, length) of his optimal plans from any state (semantics 1)."""
 
 import heapq
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""The optimum of a call, in every mode (SPEC 3)."""
+"""The optimum of a call, in every mode (semantics 3)."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -41,7 +41,7 @@ class Candidate:
     window: Window | None
 
     def order(self) -> tuple[int, int, int, int, int]:
-        """Ties of SPEC 3.1: objective, cost, shorter window, later xi1, fewer actions."""
+        """Ties of semantics 3.1: objective, cost, shorter window, later xi1, fewer actions."""
         length, start = (0, 0) if self.window is None else (len(self.window), self.window.start)
         return (self.objective, self.label[1], length, -start, self.label[2])
 
@@ -139,7 +139,7 @@ class Solver:
         return Candidate(baseline, baseline[1] + self._units(self.options.window_weight), window)
 
     def _baseline(self) -> Label | None:
-        """What doing nothing costs: ``pi_H`` alone, or with robots that reach ``G_R`` (SPEC 3.1)."""
+        """What doing nothing costs: ``pi_H`` alone, or with robots that reach ``G_R`` (semantics 3.1)."""
         plan = self.human_plan
         if plan is None:
             return None
@@ -156,7 +156,7 @@ class Solver:
         return min(self._goal_labels(layer), key=lambda label: label[1:], default=None)
 
     def _helps(self, found: Candidate, baseline: Label | None) -> bool:
-        """Whether it is an opportunity (SPEC 1, 3.1): cheaper than without robots."""
+        """Whether it is an opportunity (semantics 1, 3.1): cheaper than without robots."""
         if self.human_plan is None:
             return False
         idle = self._idle(baseline)
@@ -240,14 +240,14 @@ class Solver:
     # -- enumeration
 
     def _whole(self) -> Iterator[Candidate]:
-        """All composite plans within T, or without an end (SPEC 3.4)."""
+        """All composite plans within T, or without an end (semantics 3.4)."""
         epochs = None if self.horizon == "inf" else int(self.horizon or 0)
         layer = _advanced({self.task.init: (NOTHING,)}, self._moves("free", 0), epochs)
         for label in self._goal_labels(layer):
             yield Candidate(label, label[0], None)
 
     def _windows(self) -> Iterator[Candidate]:
-        """All windows and all plans that fit them (SPEC 3.1)."""
+        """All windows and all plans that fit them (semantics 3.1)."""
         plan = self.human_plan or ()
         last = int(self.horizon or 0)
         suffix = suffix_rule(self.task, self.options, plan, self.alone, self._price)
@@ -307,7 +307,7 @@ class Solver:
         return his == (() if fixed is None else (fixed,))
 
     def _price(self, i: int) -> Label:
-        """Objective, cost and count of one action: SPEC 1 and Def. 3.2."""
+        """Objective, cost and count of one action: semantics 1 and Def. 3.2."""
         action = self.task.actions[i]
         if self.task.human not in action.participants:
             cost = self._units(action.cost * (1 - self.options.discount))

@@ -1,4 +1,4 @@
-"""One epoch: conditions, effects and all applicable action sets (SPEC 2)."""
+"""One epoch: conditions, effects and all applicable action sets (semantics 2)."""
 
 from collections.abc import Iterable, Iterator
 

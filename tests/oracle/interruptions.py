@@ -1,4 +1,4 @@
-"""The interruptibility report by brute force (SPEC 3.2)."""
+"""The interruptibility report by brute force (semantics 3.2)."""
 
 from fractions import Fraction
 

@@ -1,4 +1,4 @@
-"""Brute force under a human model (SPEC 6): every sequence of robots' actions is played.
+"""Brute force under a human model (semantics 6): every sequence of robots' actions is played.
 
 Equal (state, belief, plan) after an epoch are merged, keeping the least (cost, actions).
 """

@@ -1,4 +1,4 @@
-"""What the human does after the window (SPEC 3.1 rule 3, SPEC 3.3)."""
+"""What the human does after the window (semantics 3.1 rule 3, semantics 3.3)."""
 
 from collections.abc import Callable
 from fractions import Fraction

@@ -26,6 +26,6 @@ def room2() -> Scene:
 
 @pytest.fixture(scope="session")
 def no_map() -> Scene:
-    """SPEC 9, case 10: two robots lift something, nobody is anywhere."""
+    """semantics 9, case 10: two robots lift something, nobody is anywhere."""
     task = cases.case_10()
     return build_scene(task, serendipity.plan(task, discount="0.5", horizon=2))

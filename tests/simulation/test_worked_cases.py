@@ -1,4 +1,4 @@
-"""The verdicts that SPEC 9 and SPEC 6 state about humans who replan."""
+"""The verdicts that semantics 9 and semantics 6 state about humans who replan."""
 
 from collections.abc import Callable, Set
 from dataclasses import replace

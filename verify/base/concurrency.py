@@ -1,4 +1,4 @@
-"""What may happen in one epoch (SPEC 2), in the verifier's own words.
+"""What may happen in one epoch (semantics 2), in the verifier's own words.
 
 The model says the same for the planner; an error there must not hide here.
 """
@@ -12,7 +12,7 @@ def applicable(action: GroundAction, state: frozenset[int]) -> bool:
 
 
 def clash(a: GroundAction, b: GroundAction, *, strict: bool) -> int | None:
-    """A fact over which two actions conflict (eq. 5, 6), or None; ``strict`` as in SPEC 2."""
+    """A fact over which two actions conflict (eq. 5, 6), or None; ``strict`` as in semantics 2."""
     clashes = set(a.delete) & set(b.delete) | set(a.delete) & set(b.add) | set(a.add) & set(b.delete)
     if strict:
         clashes |= set(a.delete) & set(b.pre) | set(a.add) & set(b.neg)

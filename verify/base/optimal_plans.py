@@ -1,6 +1,6 @@
 """The human's optimal plans from any state, robots idle: predictions of ``pi_H``, replanning.
 
-*Optimal* is least cost, then fewest actions (SPEC 1).
+*Optimal* is least cost, then fewest actions (semantics 1).
 """
 
 from collections.abc import Iterator
@@ -33,7 +33,7 @@ class OptimalPlans:
         return self._alone.optimum(state)
 
     def canonical(self) -> HumanPlan | None:
-        """``pi_H`` as SPEC 1 predicts it; None if he can't reach his goal."""
+        """``pi_H`` as semantics 1 predicts it; None if he can't reach his goal."""
         return next(self.plans(), None)
 
     def plans(self) -> Iterator[HumanPlan]:

@@ -13,7 +13,7 @@ from math import lcm
 from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
 
 FREE, WINDOW, EXACT, ALONE = "free", "window", "exact", "alone"
-"""Rules for the human: anything (SPEC 3.4), a window (3.1), exactly ``pi_H``, his own actions only."""
+"""Rules for the human: anything (semantics 3.4), a window (3.1), exactly ``pi_H``, his own actions only."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,7 @@ class Prices:
 
     Attributes:
         scale: units per unit of the domain's cost.
-        team: cost of each action to the team, discounted (SPEC 1).
+        team: cost of each action to the team, discounted (semantics 1).
         talk: what each action adds to the objective for communication (Def. 3.2).
         epoch: ``K``: what an epoch of the window adds to the objective.
     """

@@ -1,4 +1,4 @@
-"""The integer program as a planner: the whole answer to a call (SPEC 3)."""
+"""The integer program as a planner: the whole answer to a call (semantics 3)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ class Answer:
     Attributes:
         call: the call.
         found: the plan of least objective, or None where ``pi_H`` (or nothing) is the answer.
-        opportunity: whether it is an opportunity (SPEC 3.1).
+        opportunity: whether it is an opportunity (semantics 3.1).
     """
 
     call: Call
@@ -83,7 +83,7 @@ def best_plan(call: Call, *, robots: bool = True) -> Solution | None:
 
 
 def is_help(call: Call, score: Score) -> bool:
-    """Whether a plan of this objective and cost beats what there is without robots (SPEC 1, 3.1)."""
+    """Whether a plan of this objective and cost beats what there is without robots (semantics 1, 3.1)."""
     idle, alone = idle_cost(call), unaided(call)
     return (idle is None or score[1] < idle) and (alone is None or score < alone)
 

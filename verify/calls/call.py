@@ -12,7 +12,7 @@ from verify.exhaustive.baseline_without_horizon import cheapest_following
 from verify.programs.minimise import Effort, Minimum, minimise
 
 Score = tuple[int, int]
-"""Objective and cost in units: the order of SPEC 3.1 as far as it is proved."""
+"""Objective and cost in units: the order of semantics 3.1 as far as it is proved."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Call:
 
     @cached_property
     def horizon(self) -> int | str:
-        """``T`` (SPEC 2, 3.1, 3.5).
+        """``T`` (semantics 2, 3.1, 3.5).
 
         Raises:
             UsageError: it is missing or shorter than ``pi_H``.
@@ -56,7 +56,7 @@ class Call:
 
     @property
     def needs_pi_h(self) -> bool:
-        """Whether there is no answer without a plan of the human's: nothing to preserve (SPEC 3.5)."""
+        """Whether there is no answer without a plan of the human's: nothing to preserve (semantics 3.5)."""
         return self.options.windowed or self.options.mode == "individual"
 
     @property
@@ -100,7 +100,7 @@ class Call:
 
     @cached_property
     def baseline(self) -> int | None:
-        """Cost of doing nothing for the human, in units; None if that is impossible (SPEC 3.1, 3.5).
+        """Cost of doing nothing for the human, in units; None if that is impossible (semantics 3.1, 3.5).
 
         Raises:
             UndecidedError: it could not be proved.

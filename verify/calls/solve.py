@@ -1,4 +1,4 @@
-"""``serendipity solve``: the integer program answers from scratch, in every mode of SPEC 3."""
+"""``serendipity solve``: the integer program answers from scratch, in every mode of semantics 3."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -79,7 +79,7 @@ def _solve(task: Task, options: Options, given: HumanPlan | None, effort: Effort
 
 
 def over_ties(answers: list[Answer], ties: str) -> Result:
-    """One result from the answers for all optimal ``pi_H`` (SPEC 1)."""
+    """One result from the answers for all optimal ``pi_H`` (semantics 1)."""
     results = [to_result(each) for each in answers]
     listed: list[dict[str, Any]] = [
         {"human_plan": list(r.human_plan or ()), "cost": r.cost, "opportunity": r.opportunity}

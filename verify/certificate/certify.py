@@ -54,7 +54,7 @@ def certify(
     """Examine every claim of a result.
 
     ``optimal`` stands for: no plan that the mode and its options allow has a lower objective,
-    or the same objective at a lower cost.  The ties beyond (SPEC 3.1) are not examined.
+    or the same objective at a lower cost.  The ties beyond (semantics 3.1) are not examined.
 
     Args:
         task: the task that was asked.
@@ -182,7 +182,7 @@ class _Certifier:
             yield Claim("lower_bound", "refuted", str(violation), seconds=report.seconds)
 
     def _about_pi_h(self) -> str:
-        """Whether ``pi_H`` is what SPEC 1 predicts; anything else must have been given."""
+        """Whether ``pi_H`` is what semantics 1 predicts; anything else must have been given."""
         try:
             return self._kind_of_pi_h()
         except UNDECIDED:

@@ -1,4 +1,4 @@
-"""Claims about the best help that happens with a human who replans (SPEC 6)."""
+"""Claims about the best help that happens with a human who replans (semantics 6)."""
 
 from fractions import Fraction
 from functools import cached_property

@@ -1,4 +1,4 @@
-"""The best that happens with a human who replans (SPEC 6): all that could cost less is played.
+"""The best that happens with a human who replans (semantics 6): all that could cost less is played.
 
 Layer by layer over the epochs, the robots try every set of actions that may share an epoch,
 and the verifier's simulator says what comes of it.  Two things keep it small: nothing is

@@ -1,4 +1,4 @@
-"""Whether an answer over all of the human's optimal plans is made of the right answers (SPEC 1, ``ties``)."""
+"""Whether an answer over all optimal plans of the human is made of the right answers (semantics 1, ``ties``)."""
 
 from dataclasses import dataclass
 from fractions import Fraction

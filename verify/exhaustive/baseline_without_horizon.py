@@ -1,4 +1,4 @@
-"""What doing nothing for the human costs without a horizon, where robots have goals (SPEC 3.1).
+"""What doing nothing for the human costs without a horizon, where robots have goals (semantics 3.1).
 
 He executes ``pi_H`` exactly, an action an epoch; robots, without him, reach ``G_R`` at the
 same time or after its end.  A clock that stops at that end is part of the state.

@@ -1,4 +1,4 @@
-"""Answers for goals that are not known (SPEC 8), checked goal by goal and as a whole."""
+"""Answers for goals that are not known (semantics 8), checked goal by goal and as a whole."""
 
 from verify.goals.check import check_goals
 

@@ -1,4 +1,4 @@
-"""The posterior over goals, worked out once more (SPEC 8, after Ramirez and Geffner 2010).
+"""The posterior over goals, worked out once more (semantics 8, after Ramirez and Geffner 2010).
 
 Observations are compiled into the task, as the authors did: a counter says how many of them
 have been matched, so ``cost(G, O)`` and ``cost(G, not O)`` are optima of ordinary tasks.

@@ -1,4 +1,4 @@
-"""The claims of an answer for several goals (SPEC 8)."""
+"""The claims of an answer for several goals (semantics 8)."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Each goal's timeline against the rules of section 3.1, and all of them together (SPEC 8)."""
+"""Each goal's timeline against the rules of section 3.1, and all of them together (semantics 8)."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -103,7 +103,7 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
 
 
 def together_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
-    """Robots do the same whatever the goal is, and no considered plan is broken (SPEC 8)."""
+    """Robots do the same whatever the goal is, and no considered plan is broken (semantics 8)."""
     human = result.human
     for step in result.plan or ():
         if human in step.agents:
@@ -128,7 +128,7 @@ def _deviations(lines: Sequence[Timeline]) -> Iterator[str]:
 
 
 def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
-    """Expectations are sums over the goals; without an opportunity robots idle (SPEC 8)."""
+    """Expectations are sums over the goals; without an opportunity robots idle (semantics 8)."""
     cost = mean(lines, [line.case.cost for line in lines])
     alone = mean(lines, [line.alone for line in lines])
     epochs = mean(lines, [Fraction(line.epochs) for line in lines])

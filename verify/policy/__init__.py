@@ -1,4 +1,4 @@
-"""Checks policies of silent assistance (SPEC 7) by their own rules; nothing of the search is used.
+"""Checks policies of silent assistance (semantics 7) by their own rules; nothing of the search is used.
 
 A policy is *closed* if it says what to do after whatever the human may optimally do,
 *consistent* if each value is what one round and the values after it make (a Bellman

@@ -1,4 +1,4 @@
-"""The game of SPEC 7 for the checker: states are bit sets of the facts that matter to the goal."""
+"""The game of semantics 7 for the checker: states are bit sets of the facts that matter to the goal."""
 
 from collections.abc import Iterable
 from dataclasses import replace

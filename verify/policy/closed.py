@@ -7,7 +7,7 @@ from verify.policy.reading import Listed, combine, plus, show
 
 
 class BrokenError(Exception):
-    """A rule of SPEC 7 that the policy breaks; its text names the rule.
+    """A rule of semantics 7 that the policy breaks; its text names the rule.
 
     Args:
         claim: ``replay`` or ``cost``.

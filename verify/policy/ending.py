@@ -11,7 +11,7 @@ Choices = dict[int, list[list[int]]]
 
 
 def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool:
-    """Whether some policy has a value in ``I`` (SPEC 7: one whose runs end).
+    """Whether some policy has a value in ``I`` (semantics 7: one whose runs end).
 
     Raises:
         UndecidedError: there are too many states.

@@ -1,4 +1,4 @@
-"""Whether the figures around a policy follow from it, and its bounds are written down (SPEC 7)."""
+"""Whether the figures around a policy follow from it, and its bounds are written down (semantics 7)."""
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction

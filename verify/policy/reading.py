@@ -34,7 +34,7 @@ def read_decisions(board: Board, policy: Policy) -> dict[int, Listed]:
 
 
 def combine(ties: str, values: list[Costs]) -> Costs:
-    """The value of a state in which the human chooses (SPEC 7)."""
+    """The value of a state in which the human chooses (semantics 7)."""
     if ties == "robust":
         return max(values)
     if ties == "expected":

@@ -1,4 +1,4 @@
-"""The paper's integer program, equations (1)-(14), with the errata of SPEC 4.
+"""The paper's integer program, equations (1)-(14), with the errata of semantics 4.
 
 One method for each constraint family, named after its equation.  ``x[a, t]``: action a in
 epoch t; ``y[f, t]``: fact f after it; ``begins[t]``, ``ends[t]``: whether xi1, xi2 is t.

@@ -96,7 +96,7 @@ class Case:
                 yield epoch, i
 
     def price(self, action: int) -> Fraction:
-        """Cost to the team: undiscounted if the human takes part (SPEC 1)."""
+        """Cost to the team: undiscounted if the human takes part (semantics 1)."""
         cost = self.task.actions[action].cost
         return cost if self.his(action) else cost * (1 - self.result.options.discount)
 

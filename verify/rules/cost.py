@@ -1,4 +1,4 @@
-"""Rules on figures: costs, objective, savings, and what follows from them (SPEC 1, 3)."""
+"""Rules on figures: costs, objective, savings, and what follows from them (semantics 1, 3)."""
 
 from fractions import Fraction
 

@@ -1,4 +1,4 @@
-"""Rules on the execution of a plan (SPEC 1, 2)."""
+"""Rules on the execution of a plan (semantics 1, 2)."""
 
 from collections.abc import Callable
 

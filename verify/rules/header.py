@@ -31,7 +31,7 @@ def human_plan_valid(case: Case) -> Found | None:
 
 
 def horizon(case: Case) -> Found | None:
-    """``T``: as asked for, else ``|pi_H|``; never shorter, nor than the human's own answer (SPEC 2)."""
+    """``T``: as asked for, else ``|pi_H|``; never shorter, nor than the human's own answer (semantics 2)."""
     result = case.result
     asked, said = result.options.horizon, result.horizon
     if result.status == "unknown" and said is None:
@@ -99,7 +99,7 @@ def infeasible_because(result: Result) -> str:
 
 
 def infeasible(case: Case) -> Found | None:
-    """``pi_H`` itself is an answer unless the robots have goals (SPEC 3.1, 3.5)."""
+    """``pi_H`` itself is an answer unless the robots have goals (semantics 3.1, 3.5)."""
     result = case.result
     if result.status == "infeasible" and case.human_plan is not None and not case.robots_goal:
         return Found("infeasible, though doing nothing is an answer: pi_H")

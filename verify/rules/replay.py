@@ -1,4 +1,4 @@
-"""Replays a reported plan with sets, epoch by epoch (SPEC 2)."""
+"""Replays a reported plan with sets, epoch by epoch (semantics 2)."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

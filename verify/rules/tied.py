@@ -1,4 +1,4 @@
-"""Rules on answers that speak for all of the human's optimal plans at once (SPEC 1, ``ties``)."""
+"""Rules on answers that speak for all of the human's optimal plans at once (semantics 1, ``ties``)."""
 
 import math
 from collections.abc import Mapping

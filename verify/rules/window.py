@@ -1,4 +1,4 @@
-"""Rules on windows, prefix and suffix (SPEC 3.1, 3.3, 3.4)."""
+"""Rules on windows, prefix and suffix (semantics 3.1, 3.3, 3.4)."""
 
 from collections.abc import Iterable
 

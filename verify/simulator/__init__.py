@@ -1,4 +1,4 @@
-"""A small simulator of the human who replans (SPEC 6), independent of ``search``."""
+"""A small simulator of the human who replans (semantics 6), independent of ``search``."""
 
 from verify.simulator.check import realised_claim
 from verify.simulator.person import Person

@@ -1,4 +1,4 @@
-"""Claims about a human who replans, certified by playing the plan once more (SPEC 6)."""
+"""Claims about a human who replans, certified by playing the plan once more (semantics 6)."""
 
 from collections.abc import Iterator
 from fractions import Fraction

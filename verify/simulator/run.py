@@ -1,4 +1,4 @@
-"""SPEC 6, step by step: what becomes of a plan with a human who replans."""
+"""semantics 6, step by step: what becomes of a plan with a human who replans."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -127,7 +127,7 @@ def play(
 
 
 class Play:
-    """The rules of SPEC 6 for one task and one human.
+    """The rules of semantics 6 for one task and one human.
 
     Args:
         task: the task.

@@ -1,4 +1,4 @@
-"""The game of silent assistance (SPEC 7), packed: who may do what, and what it costs.
+"""The game of silent assistance (semantics 7), packed: who may do what, and what it costs.
 
 A *value* is one integer, ``prime * unit + supporter``: adding values adds both costs,
 comparing them compares lexicographically.  Costs are scaled to integers.

@@ -44,7 +44,7 @@ class Fate:
 
 
 def corpus(count: int) -> Iterator[PlanCall]:
-    """SPEC 9, calls made by hand, ``count`` random ones, the paper's examples; tasks are made afresh."""
+    """semantics 9, calls made by hand, ``count`` random ones, the paper's examples; tasks are made afresh."""
     for worked in WORKED:
         options = {name: str(value) for name, value in worked.options.items()}
         yield PlanCall(worked.task(), options, worked.human_plan)

@@ -1,7 +1,7 @@
 """What the human may do in which epoch: his control automaton, one for each rule.
 
 A control state is a short text-and-numbers tuple; the first entry says in which part of
-the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (SPEC 3.1), or ``free``.
+the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (semantics 3.1), or ``free``.
 """
 
 from collections.abc import Iterator

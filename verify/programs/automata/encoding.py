@@ -70,7 +70,7 @@ class AutomataEncoding:
         """Whether a suffix may turn out not to be his optimal plan, or that plan not to fit.
 
         With equal positive costs of his own actions a cheaper plan is a shorter one, so
-        that what the program finds cheapest is optimal and fits (SPEC 3.1, rule 3).
+        that what the program finds cheapest is optimal and fits (semantics 3.1, rule 3).
         """
         question = self.question
         if (
