@@ -9,7 +9,7 @@ from typing import Any, Final, TypeVar
 from search import prepare
 from serendipity.benchmark.answer import Answer
 from serendipity.benchmark.contenders import CONTENDERS, Contender
-from serendipity.model.errors import UsageError
+from serendipity.model.errors import DisagreementError, UsageError
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.task import Task
 
@@ -83,7 +83,8 @@ def measure(
         time_limit: seconds for each call.
 
     Raises:
-        UsageError: a mode or contender is unknown, or two that proved an answer disagree.
+        UsageError: a mode or contender is unknown.
+        DisagreementError: two that proved an answer disagree.
     """
     chosen = {name: _known(name, CONTENDERS, "contenders") for name in contenders}
     kinds = {name: _known(name, MODES, "modes") for name in modes}
@@ -163,4 +164,6 @@ def _compare(found: list[Timing]) -> None:
     if len(set(costs.values())) > 1:
         told = ", ".join(f"{name} {cost}" for name, cost in costs.items())
         call = found[0]
-        raise UsageError(f"{call.task}, {call.mode} at {call.discount}: the proved optima differ: {told}")
+        raise DisagreementError(
+            f"{call.task}, {call.mode} at {call.discount}: the proved optima differ: {told}"
+        )

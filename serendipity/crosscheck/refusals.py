@@ -24,7 +24,7 @@ def may_be_refused(call: PlanCall) -> bool:
 
 
 def _lacks_horizon(call: PlanCall, options: Options, length: int | None) -> bool:
-    """semantics 2, 3.5; ``length`` is that of ``pi_H``, None where there is none."""
+    """Semantics 2, 3.5; ``length`` is that of ``pi_H``, None where there is none."""
     if options.horizon is not None:
         return options.horizon != INFINITE and length is not None and int(options.horizon) < length
     if length is None:

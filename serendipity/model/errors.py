@@ -14,6 +14,13 @@ class UsageError(SerendipityError):
     """
 
 
+class DisagreementError(SerendipityError):
+    """Two methods have proved different answers to one call, so a proof is wrong.
+
+    Remedy: report it, with the task and the options that the message names.
+    """
+
+
 class LimitReachedError(SerendipityError):
     """The limit on time or memory came, or the caller cancelled, before there was an answer.
 

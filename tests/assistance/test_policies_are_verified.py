@@ -11,7 +11,7 @@ import serendipity
 from serendipity import Result, Task
 from serendipity.model import Deadline, Decision, Options, Policy
 from tests.assistance.strategies import games
-from tests.cases import case_5, case_6
+from tests.support.cases import case_5, case_6
 from verify.policy import check_policy
 
 TIES = ("optimistic", "fixed", "robust", "expected")

@@ -21,8 +21,8 @@ from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LimitReachedError
 from tests.assistance.oracle import by_rounds, explore
 from tests.assistance.strategies import games
-from tests.builders import task
-from tests.cases import case_5, case_6
+from tests.support.builders import task
+from tests.support.cases import case_5, case_6
 
 TIES = ("optimistic", "fixed", "robust", "expected")
 

@@ -12,7 +12,7 @@ from serendipity import Task, example, load_agents, plan
 from serendipity.benchmark import fast_downward
 from serendipity.model import Options
 from serendipity.pddl.write import composite_files
-from tests.strategies import tasks
+from tests.support.strategies import tasks
 
 DISCOUNTS = ("0", "0.5", "0.9")
 

@@ -17,6 +17,7 @@ from serendipity.benchmark import (
 )
 from serendipity.benchmark.answer import Answer
 from serendipity.model import Options
+from serendipity.model.errors import DisagreementError
 
 
 class Scripted:
@@ -48,7 +49,7 @@ def test_a_slow_call_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_proved_answers_that_differ_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(UsageError, match=r"search 1\.0, other 2\.0"):
+    with pytest.raises(DisagreementError, match=r"search 1\.0, other 2\.0"):
         timings(monkeypatch, search=Scripted(2), other=Scripted(2, cost=2.0))
 
 

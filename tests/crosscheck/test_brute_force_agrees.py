@@ -9,8 +9,8 @@ import serendipity
 from serendipity.crosscheck import random_call
 from serendipity.facade.planning import options_from
 from serendipity.model import Options, UsageError
-from tests.oracle import best, optimal_human_plan
-from tests.oracle.reactions import best_reaction
+from tests.support.oracle import best, optimal_human_plan
+from tests.support.oracle.reactions import best_reaction
 
 
 def _float(value: Fraction | None) -> float | None:

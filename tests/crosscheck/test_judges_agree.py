@@ -22,8 +22,8 @@ from serendipity.crosscheck import (
     write_case,
 )
 from serendipity.crosscheck import judges as judging
-from tests.builders import task as build
-from tests.cases import case_4
+from tests.support.builders import task as build
+from tests.support.cases import case_4
 
 seeds = st.integers(0, 10**9)
 

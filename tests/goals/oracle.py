@@ -7,8 +7,8 @@ from itertools import product
 
 from search.goals import Candidate
 from serendipity.model import GroundAction, Options, Task
-from tests.oracle import Alone
-from tests.oracle.epochs import State, after, compatible, holds, usable
+from tests.support.oracle import Alone
+from tests.support.oracle.epochs import State, after, compatible, holds, usable
 
 Worth = tuple[Fraction, Fraction]
 """Objective and cost."""

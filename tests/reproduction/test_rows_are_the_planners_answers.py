@@ -13,8 +13,8 @@ from serendipity.pddl.write import write_pddl
 from serendipity.reproduction import COLUMNS, Progress, Reproduction, reproduce
 from serendipity.reproduction.formats import rows_as_csv
 from serendipity.reproduction.tables import table_1
-from tests.builders import task as build
 from tests.reproduction.conftest import PRESETS
+from tests.support.builders import task as build
 
 MODES = ("individual", "serendipity", "communication")
 DISCOUNTS = ("0.6", "0.9")

@@ -10,10 +10,10 @@ from serendipity.model import Condition, InputError, PlanStep, Window
 from serendipity.show import Scene, build_scene
 from serendipity.show.headline import headline
 from serendipity.show.places import Whereabouts
-from tests import cases
-from tests.builders import task
-from tests.cases import WORKED, Worked
 from tests.show.conftest import ground
+from tests.support import cases
+from tests.support.builders import task
+from tests.support.cases import WORKED, Worked
 
 
 @pytest.mark.parametrize("worked", WORKED, ids=str)

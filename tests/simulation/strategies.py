@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from serendipity.model import Condition, HumanPlan, Options, Step, Task, surroundings
 from serendipity.model.actions import State
 from serendipity.model.visibility import Visible
-from tests.oracle import Alone, human_plans
-from tests.oracle.epochs import after, usable
-from tests.strategies import tasks
+from tests.support.oracle import Alone, human_plans
+from tests.support.oracle.epochs import after, usable
+from tests.support.strategies import tasks
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,8 @@ from hypothesis import given
 
 from search import Outcome
 from search.simulation import simulate, solve_for_human
-from tests.oracle.reactions import best_reaction
 from tests.simulation.strategies import Reaction, reactions
+from tests.support.oracle.reactions import best_reaction
 
 MODELS = ["observant", "local"]
 

@@ -2,7 +2,7 @@
 
 import serendipity
 from serendipity.model import Task, surroundings
-from tests.builders import task
+from tests.support.builders import task
 
 
 def _named(built: Task, *names: str) -> frozenset[int]:

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from serendipity.model import Condition, Options, PlanStep, Policy, Result, Task, Window
-from tests.builders import task as build
-from tests.cases import CASE_3_PLAN, case_2, case_3, case_4, case_7, case_8, case_9, case_10
+from tests.support.builders import task as build
+from tests.support.cases import CASE_3_PLAN, case_2, case_3, case_4, case_7, case_8, case_9, case_10
 from tests.verify.results import moved, result, step, with_steps
 from tests.verify.valid import (
     CASE_2_PI_H,

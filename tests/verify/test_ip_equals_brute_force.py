@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 
 from serendipity.model import Options, Result, UsageError
-from tests.cases import WORKED, Worked
-from tests.oracle import Optimum, best
-from tests.strategies import Call, calls
+from tests.support.cases import WORKED, Worked
+from tests.support.oracle import Optimum, best
+from tests.support.strategies import Call, calls
 from verify.calls.solve import solve
 
 

@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model import Deadline, Options, Task
-from tests.builders import task as build
-from tests.cases import case_4
-from tests.oracle import best, human_plans
-from tests.oracle.epochs import action_sets, after
-from tests.strategies import tasks
+from tests.support.builders import task as build
+from tests.support.cases import case_4
+from tests.support.oracle import best, human_plans
+from tests.support.oracle.epochs import action_sets, after
+from tests.support.strategies import tasks
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import FREE, WINDOW, Subproblem, prices

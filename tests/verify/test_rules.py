@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model import Options, Task
-from tests.oracle import Alone as OracleAlone
-from tests.oracle.epochs import after
-from tests.strategies import tasks
+from tests.support.oracle import Alone as OracleAlone
+from tests.support.oracle.epochs import after
+from tests.support.strategies import tasks
 from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
 from verify import check

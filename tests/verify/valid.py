@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from serendipity.model import Condition, Result, Task
-from tests.builders import task as build
-from tests.cases import case_2, case_4, case_9, case_10
+from tests.support.builders import task as build
+from tests.support.cases import case_2, case_4, case_9, case_10
 from tests.verify.results import result
 
 CASE_4_PI_H = (

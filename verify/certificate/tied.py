@@ -1,4 +1,4 @@
-"""Whether an answer over all optimal plans of the human is made of the right answers (semantics 1, ``ties``)."""
+"""Whether an answer over all optimal plans of the human has the right answers in it (semantics 1)."""
 
 from dataclasses import dataclass
 from fractions import Fraction

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from serendipity.crosscheck import PlanCall
-from tests.builders import task as build
-from tests.cases import case_1, case_4
+from tests.support.builders import task as build
+from tests.support.cases import case_1, case_4
 
 
 def hand_made() -> Iterator[PlanCall]:

@@ -1,0 +1,1 @@
+"""Tests of ``serendipity.facade`` and of what the package shows."""

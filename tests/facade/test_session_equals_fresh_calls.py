@@ -1,0 +1,86 @@
+"""A session answers what a fresh call on the same state answers, and keeps the human's plan."""
+
+import threading
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+
+import serendipity
+from serendipity import Session, Task, UsageError
+from tests.support.cases import case_1, case_2
+from tests.support.strategies import tasks
+
+
+def _fresh(session: Session, **options: object) -> serendipity.Result:
+    task = session.task
+    untouched = Task(
+        task.name, task.agents, task.human, task.facts, task.init, task.goal, task.actions, task.robot_goal
+    )
+    return serendipity.plan(untouched, human_plan=session.human_plan, **options)
+
+
+def _same(one: serendipity.Result, other: serendipity.Result) -> bool:
+    return replace(one, statistics={}) == replace(other, statistics={})
+
+
+@pytest.mark.parametrize("case", [case_1, case_2])
+def test_following_the_answer_epoch_by_epoch(case: object) -> None:
+    options = {"discount": 0.9, "window_weight": 0}
+    session = Session(case(), **options)  # type: ignore[operator]
+    result = session.plan()
+    plan = result.plan or ()
+    for epoch in range(1, max(step.epoch for step in plan) + 1):
+        session.execute([step.action for step in plan if step.epoch == epoch])
+        assert _same(session.plan(), _fresh(session, **options))
+    assert session.task.goal.holds(session.task.init)
+    assert session.plan().cost == 0
+
+
+@given(tasks())
+def test_after_any_epoch_it_equals_a_fresh_call(task: Task) -> None:
+    options = {"mode": "composite", "horizon": "inf", "discount": 0.5}
+    for action in [action for action in task.actions if action.applicable(task.init)][:3]:
+        session = Session(task, **options)
+        session.plan()
+        session.execute([action.name])
+        assert _same(session.plan(), _fresh(session, **options))
+
+
+def test_a_fact_that_changes_and_a_new_goal() -> None:
+    session = Session(case_1(), discount=0.9)
+    assert session.plan().cost == 8.4
+    session.change({"at k2 r2": False, "at k2 r": True})
+    nearer = session.plan()
+    assert nearer.cost is not None
+    assert nearer.cost < 8.4
+    assert _same(nearer, _fresh(session, discount=0.9))
+    session.set_goal(["at h s"])
+    assert session.plan().cost == 6
+    with pytest.raises(UsageError, match="there is no fact 'at h nowhere'"):
+        session.set_goal(["at h nowhere"])
+    with pytest.raises(UsageError, match="not applicable"):
+        session.execute(["move h d g"])
+
+
+def test_his_plan_goes_on_behind_his_action() -> None:
+    session = Session(case_1(), discount=0.6)
+    predicted = session.plan().human_plan
+    assert predicted is not None
+    session.execute([predicted[0]])
+    assert session.human_plan == predicted[1:]
+    session.execute(["move h a1 a0"])
+    assert session.human_plan is None
+
+
+def test_cancelled_calls_return_the_incumbent() -> None:
+    cancelled = threading.Event()
+    answers = serendipity.plan_anytime(case_2(), discount=0.5, window_weight=0, cancelled=cancelled)
+    first = next(answers)
+    cancelled.set()
+    *_, last = answers
+    assert first.cost == 9
+    assert last.status == "feasible"
+    assert last.lower_bound is not None
+    assert last.objective is not None
+    assert last.lower_bound <= last.objective

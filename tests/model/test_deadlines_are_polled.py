@@ -1,0 +1,39 @@
+"""A deadline ends long loops, and counts what a process of ours has in memory."""
+
+import os
+
+import pytest
+
+from serendipity.model import Deadline, LimitReachedError
+from serendipity.model.memory import resident
+from tests.support.cases import case_4
+from tests.support.countdown import Countdown
+
+
+@pytest.mark.parametrize("count", [0, 1, 64, 65, 1000])
+def test_every_item_comes_and_every_64th_is_a_look(count: int) -> None:
+    deadline = Countdown(10**6, lambda: LimitReachedError("time-limit"))
+    assert list(deadline.each(range(count))) == list(range(count))
+    assert 10**6 - deadline.left_over[0] == -(-count // 64)
+
+
+def test_a_loop_without_end_ends() -> None:
+    endless = iter(int, 1)
+    with pytest.raises(LimitReachedError, match="the time limit came first"):
+        sum(Deadline(0.05).each(endless))
+
+
+@pytest.mark.skipif(resident(os.getpid()) is None, reason="another process's memory is known on Linux")
+def test_memory_of_a_process_that_works_for_us_counts() -> None:
+    used = (resident() or 0) / 2**20
+    Deadline(memory_limit=3 * used).check_child(os.getpid())
+    with pytest.raises(LimitReachedError, match="memory is used up"):
+        Deadline(memory_limit=1.5 * used).check_child(os.getpid())
+
+
+def test_variables_are_found_under_a_deadline_once() -> None:
+    task = case_4()
+    with pytest.raises(LimitReachedError):
+        task.variables_within(Deadline(0))
+    assert task.variables_within(Deadline()) == case_4().variables
+    assert task.variables_within(Deadline(0)) is task.variables

@@ -1,0 +1,1 @@
+"""Tests of ``search``, through the calls that it answers."""

@@ -1,0 +1,74 @@
+"""What a result tells about how it got better: ``statistics["gap"]``."""
+
+import json
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from hypothesis import given
+
+from search import solve
+from search.engine import best_first
+from serendipity import Result, plan, plan_anytime
+from serendipity.model import Options
+from serendipity.model.deadline import Deadline
+from tests.support.cases import case_2
+from tests.support.strategies import Call, calls
+
+FREE: list[dict[str, Any]] = [
+    {"mode": "communication", "discount": "0.9"},
+    {"mode": "composite", "discount": "0.5", "horizon": "inf"},
+]
+
+
+@pytest.mark.parametrize(
+    "options", [*FREE, {"discount": "0.5", "window_weight": 0}, {"human_model": "local"}], ids=str
+)
+def test_it_ends_with_the_answer(options: dict[str, Any]) -> None:
+    result = plan(case_2(), **options)
+    gap = result.statistics["gap"]
+    assert (gap[-1]["objective"], gap[-1]["lower_bound"]) == (result.objective, result.lower_bound)
+    assert [entry["seconds"] for entry in gap] == sorted(entry["seconds"] for entry in gap)
+    assert gap[-1]["seconds"] <= result.statistics["elapsed_seconds"]
+    assert all(before != after for before, after in pairwise(gap))
+    assert Result.from_dict(json.loads(json.dumps(result.to_dict()))).statistics["gap"] == gap
+
+
+@pytest.mark.parametrize("options", FREE, ids=str)
+def test_each_answer_has_what_was_known_by_then(options: dict[str, Any]) -> None:
+    answers = list(plan_anytime(case_2(), **options))
+    assert len(answers) > 1
+    for answer in answers:
+        gap = answer.statistics["gap"]
+        assert (gap[-1]["objective"], gap[-1]["lower_bound"]) == (answer.objective, answer.lower_bound)
+    gap = answers[-1].statistics["gap"]
+    for before, after in pairwise(gap):
+        assert after["objective"] <= before["objective"]
+        assert after["lower_bound"] >= before["lower_bound"]
+
+
+@given(calls(modes=("serendipity", "communication", "composite"), ties=False))
+def test_reported_bounds_hold(call: Call) -> None:
+    """With a report at every node, no bound is above the optimum, and none falls."""
+    options = replace(call.options, time_limit=None)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(best_first.Progress, "due", lambda *_: True)
+        outcomes = list(solve(call.task, options, human_plan=call.human_plan, deadline=Deadline()))
+    last = outcomes[-1]
+    bounds = [o.lower_bound for o in outcomes if o.lower_bound is not None]
+    if last.status == "optimal":
+        assert last.objective is not None
+        assert all(bound <= last.objective for bound in bounds)
+    if not options.windowed:
+        assert bounds == sorted(bounds)
+
+
+def test_bounds_are_reported_while_no_better_plan_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search that proves its first answer by raising the bound tells so on the way."""
+    options = Options(mode="communication", discount="0.9")  # type: ignore[arg-type]
+    quiet = list(solve(case_2(), options))
+    monkeypatch.setattr(best_first.Progress, "due", lambda *_: True)
+    told = list(solve(case_2(), options))
+    assert len(told) > len(quiet)
+    assert (told[-1].cost, told[-1].status) == (quiet[-1].cost, quiet[-1].status)

@@ -1,0 +1,37 @@
+"""A human's plan may have more steps than Python's stack has room for."""
+
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity import Task
+from tests.support.builders import task as build
+
+STEPS = 1_100
+"""More than Python allows calls inside each other, which is 1,000."""
+
+
+def corridor() -> Task:
+    """A walk of so many steps, which no robot can make shorter."""
+    steps = {f"go{i} h": f"p{i} -> p{i + 1} !p{i}" for i in range(STEPS)}
+    return build(goal=f"p{STEPS}", init="p0", actions={**steps, "wave r": "-> waved"})
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"suffix": "subplan", "window_weight": 0},
+        {"preservation": "state"},
+        {"human_model": "observant"},
+        {"human_model": "local"},
+        {"ties": "robust"},
+    ],
+    ids=str,
+)
+def test_planning_beside_a_long_plan(options: dict[str, Any]) -> None:
+    """It ended with a RecursionError, as soon as the plan was played against a human who replans."""
+    result = serendipity.plan(corridor(), discount="0.9", **options)
+    assert (result.status, result.cost) == ("optimal", STEPS)
+    assert all(result.realised.values())

@@ -1,0 +1,71 @@
+"""The planner gives the figures of semantics 9 and of the paper's own examples (semantics 5)."""
+
+import pytest
+
+import serendipity
+from serendipity import UsageError, Window
+from tests.support.cases import WORKED, Worked, case_4, case_8
+
+ROOMS = {
+    # medkit1 in: {(mode, discount): (cost, window start)}
+    "room2": {
+        ("serendipity", "0.6"): (12.6, 6),
+        ("serendipity", "0.9"): (11.4, 6),
+        ("serendipity", "0.5"): (13.0, None),
+        ("communication", "0.6"): (12.6, None),
+        ("communication", "0.9"): (11.4, None),
+    },
+    "room7": {
+        ("serendipity", "0.6"): (13.0, None),
+        ("serendipity", "0.9"): (13.0, None),
+        ("serendipity", "1"): (13.0, None),
+        ("communication", "0.6"): (12.6, None),
+        ("communication", "0.9"): (11.4, None),
+    },
+    "room5": {
+        ("serendipity", "0.6"): (13.0, None),
+        ("serendipity", "0.9"): (11.5, 5),
+        ("communication", "0.9"): (11.4, None),
+    },
+}
+
+
+@pytest.mark.parametrize("worked", [pytest.param(w, id=str(w)) for w in WORKED])
+def test_worked_case(worked: Worked) -> None:
+    result = serendipity.plan(worked.task(), human_plan=worked.human_plan, **worked.options)
+    assert result.cost == (None if worked.cost is None else float(worked.cost))
+    assert result.window == (None if worked.window is None else Window(*worked.window))
+    assert result.opportunity == worked.opportunity
+    assert result.status == ("infeasible" if worked.cost is None else "optimal")
+
+
+def test_case_4_expected_is_the_mean_over_his_plans() -> None:
+    result = serendipity.plan(case_4(), discount=0.9, ties="expected")
+    assert result.cost == 7.1
+    assert sorted(answer["cost"] for answer in result.statistics["ties"]) == [6.2, 8.0]
+
+
+def test_case_8_communication_needs_a_horizon() -> None:
+    with pytest.raises(UsageError, match="horizon"):
+        serendipity.plan(case_8(), mode="communication")
+
+
+@pytest.mark.parametrize(
+    ("room", "mode", "discount"), [(r, *key) for r, rows in ROOMS.items() for key in rows]
+)
+def test_paper_example(room: str, mode: str, discount: str) -> None:
+    cost, start = ROOMS[room][mode, discount]
+    result = serendipity.plan(serendipity.example(room), mode=mode, discount=discount)
+    assert result.cost == cost
+    assert result.human_cost == 13.0
+    assert result.opportunity == (cost < 13)
+    if start is not None:
+        assert result.window == Window(start, start + 1)
+
+
+def test_paper_example_iii_c_hands_over_in_hall4_at_epoch_6() -> None:
+    result = serendipity.plan(serendipity.example("room2"), discount=0.6)
+    assert result.plan is not None
+    (joint,) = [step for step in result.plan if len(step.agents) == 2]
+    assert joint.epoch == 6
+    assert joint.action == "hand_over robot commx mk2 hall4"

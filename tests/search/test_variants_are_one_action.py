@@ -1,0 +1,87 @@
+"""Actions of one name are variants of one PDDL action; ``pi_H`` has what has a name of it (semantics 3.4)."""
+
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity import Task
+from serendipity.model import Options, Result, Window
+from tests.support.builders import task as build
+from verify.calls.solve import solve
+
+
+def _door() -> Task:
+    """He planned to open with the key; once the robot has unlocked, opening takes no key."""
+    return build(
+        goal="inside",
+        actions={
+            "fetch h": "-> key",
+            "open h": "key -> inside @ 3 | unlocked -> inside @ 3",
+            "unlock r": "-> unlocked @ 0.5",
+        },
+    )
+
+
+def _switch() -> Task:
+    """What the planned action does depends on the robot: conditional effects."""
+    return build(
+        goal="lit",
+        actions={
+            "walk h": "-> there",
+            "press h": "there power !lit -> pressed lit | there !power !lit -> pressed",
+            "crank h": "pressed -> lit @ 5",
+            "plug r": "-> power",
+        },
+    )
+
+
+def _both(task: Task, **options: Any) -> Result:
+    """The planner's answer, once both encodings and the certificate have agreed to it."""
+    answer = serendipity.plan(task, **options)
+    figures = ("status", "cost", "objective", "opportunity", "saving")
+    for encoding in ("automata", "paper"):
+        other = solve(task, Options(**options), encoding=encoding)
+        assert [getattr(answer, name) for name in figures] == [getattr(other, name) for name in figures]
+    assert serendipity.verify(task, answer).verdict == "proved"
+    return answer
+
+
+@pytest.mark.parametrize(("task", "cost"), [(_door(), 3.5), (_switch(), 3.0)], ids=["or", "when"])
+def test_another_variant_of_what_was_planned_costs_no_communication(task: Task, cost: float) -> None:
+    """Who planned to open and opens did not change their mind."""
+    answer = _both(task, mode="communication", communication_weight=1)
+    assert answer.opportunity
+    assert answer.cost == answer.objective == cost
+
+
+def test_nor_does_it_leave_a_prefix_of_planned_actions() -> None:
+    """With the second (7b) he may enter before the window, whatever opens the door to him."""
+    task = build(
+        goal="inside",
+        actions={
+            "fetch h": "-> key @ 4",
+            "enter h": "key -> hall | unlocked -> hall",
+            "go h": "key hall -> inside | unlocked hall -> inside",
+            "unlock r": "-> unlocked @ 0.5",
+        },
+    )
+    answer = _both(task, mode="communication", keep_prefix=True, communication_weight=1, suffix="subplan")
+    assert (answer.cost, answer.objective, answer.window) == (2.5, 1002.5, Window(3, 4))
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
+def test_plans_of_equal_names_are_one(ties: str) -> None:
+    """Two of these plans differ in which key is used, and not in name; the mean counted both."""
+    task = build(
+        init="gold silver",
+        goal="inside",
+        actions={
+            "open h": "gold -> inside @ 3 | silver -> inside @ 3",
+            "push h": "-> inside @ 3",
+            "pull r": "-> inside @ 1",
+        },
+    )
+    answer = _both(task, ties=ties, max_ties=2, max_cost=3, discount="0.5")
+    assert answer.statistics["optimal_plans"] == 2
+    assert [entry["human_plan"] for entry in answer.statistics["ties"]] == [["open h"], ["push h"]]

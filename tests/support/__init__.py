@@ -1,0 +1,1 @@
+"""What tests are made of: tasks, random calls, brute force, deadlines that run out."""

@@ -1,0 +1,31 @@
+"""The import contracts speak of every room that there is: a new one has to be given its place."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+_SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+CONTRACTS = {contract["name"]: contract for contract in _SETTINGS["tool"]["importlinter"]["contracts"]}
+
+
+def children(package: str) -> set[str]:
+    """The modules and packages directly inside a package."""
+    folder = ROOT / package.replace(".", "/")
+    found = {path.stem for path in folder.glob("*.py")} | {
+        path.parent.name for path in folder.glob("*/__init__.py")
+    }
+    return {f"{package}.{name}" for name in found if not name.startswith("_")}
+
+
+@pytest.mark.parametrize("package", ["search", "search.assistance", "verify", "serendipity"])
+def test_every_room_has_a_layer(package: str) -> None:
+    layers = CONTRACTS[f"rooms of {package}"]["layers"]
+    named = {name.strip() for layer in layers for name in layer.split("|")}
+    assert {name for name in named if name.startswith(f"{package}.")} == children(package)
+
+
+def test_search_and_verify_import_the_model_only() -> None:
+    forbidden = CONTRACTS["of serendipity, search and verify import the model only"]["forbidden_modules"]
+    assert set(forbidden) == children("serendipity") - {"serendipity.model"}
