@@ -71,6 +71,7 @@ COMMANDS = {
     "plan verify": "plan {task} --discount 0.9 --verify",
     "plan assistance": "plan {alone} --mode assistance",
     "assistance robust": "plan {alone} --mode assistance --ties robust --format json",
+    "check-task": "check-task {task}",
     "explain": "explain {task} --discount 0.9",
     "interruptions": "interruptions {task} --discount 0.9 --format json",
     "recognise": "recognise {task} --goals {goals}",

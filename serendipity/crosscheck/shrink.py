@@ -49,7 +49,8 @@ def _smaller_tasks(task: Task) -> Iterator[Task]:
     for goal in _smaller_conditions(task.robot_goal):
         yield replace(task, robot_goal=goal)
     for i, action in enumerate(task.actions):
-        for name in ("pre", "neg", "add", "delete"):
+        variants = len(task.named[action.name]) > 1  # whose effects are those of one PDDL action
+        for name in ("pre", "neg") if variants else ("pre", "neg", "add", "delete"):
             facts = getattr(action, name)
             for f in facts:
                 less = replace(action, **{name: tuple(g for g in facts if g != f)})  # type: ignore[arg-type]

@@ -6,9 +6,10 @@ import pytest
 
 import serendipity
 from serendipity import Task
-from serendipity.model import Options, Result, Window
+from serendipity.model import Deadline, Options, PlanStep, Result, Window
 from tests.support.builders import task as build
 from verify.calls.solve import solve
+from verify.rules.replay import replay
 
 
 def _door() -> Task:
@@ -85,3 +86,16 @@ def test_plans_of_equal_names_are_one(ties: str) -> None:
     answer = _both(task, ties=ties, max_ties=2, max_cost=3, discount="0.5")
     assert answer.statistics["optimal_plans"] == 2
     assert [entry["human_plan"] for entry in answer.statistics["ties"]] == [["open h"], ["push h"]]
+
+
+def test_a_name_means_the_variant_that_fits_beside_the_others() -> None:
+    """It meant the first that is applicable, which may conflict with what the human does."""
+
+    def office(light: str) -> Task:
+        return build(init="at0 lamp", goal="at1 lit", actions={"go h": "at0 -> at1 !at0", "light r": light})
+
+    steps = [PlanStep(1, ("h",), "go h", 1.0), PlanStep(1, ("r",), "light r", 1.0)]
+    one, either = office("at0 -> lit"), office("at0 -> lit | lamp -> lit")
+    assert replay(one, steps, Deadline(), strict=True).fault is not None
+    for order in (steps, steps[::-1]):
+        assert replay(either, order, Deadline(), strict=True).fault is None

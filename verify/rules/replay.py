@@ -1,6 +1,6 @@
 """Replays a reported plan with sets, epoch by epoch (semantics 2)."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from serendipity.model import Deadline, GroundAction, PlanError, PlanStep, Task
@@ -56,16 +56,11 @@ def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict:
     states: dict[int, State] = {0: task.init}
     state = task.init
     for epoch in deadline.each(sorted(by_epoch)):
-        chosen: list[int] = []
-        for step in by_epoch[epoch]:
-            action, fault = _resolve(task, step, state)
-            if fault is None:
-                fault = _conflict(task, chosen, action, step, strict=strict)
-            if fault is not None:
-                return Replay(sets, states, fault)
-            chosen.append(action)
+        chosen, fault = _epoch(task, by_epoch[epoch], state, deadline, strict=strict)
+        if fault is not None:
+            return Replay(sets, states, fault)
         state = _after(state, [task.actions[i] for i in chosen])
-        sets[epoch], states[epoch] = tuple(chosen), state
+        sets[epoch], states[epoch] = chosen, state
     return Replay(sets, states, None)
 
 
@@ -92,28 +87,65 @@ def replay_human(task: Task, names: Iterable[str], deadline: Deadline) -> tuple[
     return tuple(plan)
 
 
-def _resolve(task: Task, step: PlanStep, state: State) -> tuple[int, Fault | None]:
-    """The action that a step names; several may share the name."""
+def _epoch(
+    task: Task, steps: Sequence[PlanStep], state: State, deadline: Deadline, *, strict: bool
+) -> tuple[tuple[int, ...], Fault | None]:
+    """The actions of one epoch: of several with one name the first that fits beside the others."""
+    variants: list[tuple[int, ...]] = []
+    conflict: Fault | None = None
+    for step in steps:
+        ids, fault = _resolve(task, step, state)
+        if fault is not None:
+            return (), conflict or fault
+        conflict = conflict or _conflict(task, [found[0] for found in variants], ids[0], step, strict=strict)
+        variants.append(ids)
+    chosen: Iterator[tuple[int, ...]] = iter([()])
+    for step, ids in zip(steps, variants, strict=True):
+        chosen = _beside(task, chosen, step, ids, deadline, strict=strict)
+    first = next(chosen, None)
+    return ((), conflict) if first is None else (first, None)
+
+
+def _beside(
+    task: Task,
+    chosen: Iterator[tuple[int, ...]],
+    step: PlanStep,
+    ids: tuple[int, ...],
+    deadline: Deadline,
+    *,
+    strict: bool,
+) -> Iterator[tuple[int, ...]]:
+    """What was chosen for the steps before, with each variant of this step that fits."""
+    for before in chosen:
+        for i in deadline.each(ids):
+            if _conflict(task, before, i, step, strict=strict) is None:
+                yield (*before, i)
+
+
+def _resolve(task: Task, step: PlanStep, state: State) -> tuple[tuple[int, ...], Fault | None]:
+    """The actions that a step may mean, which share its name and are applicable: at least one."""
     ids = task.named.get(step.action, ())
     if not ids:
-        return -1, Fault("unknown-action", "the task has no such action", step.epoch, step.action)
+        return (), Fault("unknown-action", "the task has no such action", step.epoch, step.action)
     listed = {i for i in ids if _agents(task, i) == sorted(step.agents)}
     if not listed:
         expected = ", ".join(_agents(task, ids[0]))
         message = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
-        return -1, Fault("wrong-agents", message, step.epoch, step.action)
-    for i in sorted(listed):
-        if applicable(task.actions[i], state):
-            return i, None
+        return (), Fault("wrong-agents", message, step.epoch, step.action)
+    fitting = tuple(i for i in sorted(listed) if applicable(task.actions[i], state))
+    if fitting:
+        return fitting, None
     message = f"precondition: {_unmet(task, min(listed), state)}"
-    return -1, Fault("precondition", message, step.epoch, step.action)
+    return (), Fault("precondition", message, step.epoch, step.action)
 
 
 def _agents(task: Task, action: int) -> list[str]:
     return sorted(task.agents[i] for i in task.actions[action].participants)
 
 
-def _conflict(task: Task, chosen: list[int], action: int, step: PlanStep, *, strict: bool) -> Fault | None:
+def _conflict(
+    task: Task, chosen: Sequence[int], action: int, step: PlanStep, *, strict: bool
+) -> Fault | None:
     """Whether an action can't join those of its epoch (eq. 5, 6, 10)."""
     new = task.actions[action]
     for other in (task.actions[i] for i in chosen):
