@@ -216,7 +216,13 @@ def _over_ties(call: _Call) -> Result:
             least=lambda: least_over_ties(call.task, options, graph, call.deadline),
         )
     )
-    result = combined(answers, options.ties, everyone=len(answers) == count, limit=_limit(call.deadline))
+    result = combined(
+        answers,
+        options.ties,
+        bounded=not call.task.robot_goal,
+        everyone=len(answers) == count,
+        limit=_limit(call.deadline),
+    )
     measured = {"elapsed_seconds": call.deadline.elapsed(), "optimal_plans": count}
     return replace(result, statistics={**result.statistics, **measured})
 

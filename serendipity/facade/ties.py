@@ -52,7 +52,12 @@ def until_settled(
 
 
 def combined(
-    answers: list[Answered], ties: str, *, everyone: bool = True, limit: str | None = None
+    answers: list[Answered],
+    ties: str,
+    *,
+    bounded: bool = True,
+    everyone: bool = True,
+    limit: str | None = None,
 ) -> Result:
     """The answer under ``ties``; ``statistics["ties"]`` has those that it was made of.
 
@@ -62,6 +67,7 @@ def combined(
     Args:
         answers: at least one, as :func:`until_settled` gives them.
         ties: ``robust``, ``optimistic`` or ``expected``.
+        bounded: whether each optimal plan has an answer at all, as without goals of the robots' own.
         everyone: whether there is an answer for each optimal plan.
         limit: the reason of an answer that is unknown since a limit came before everyone's.
     """
@@ -74,11 +80,13 @@ def combined(
         }
         for _, result in answers
     ]
-    chosen = _chosen(answers, ties, everyone=everyone, limit=limit)
+    chosen = _chosen(answers, ties, bounded=bounded, everyone=everyone, limit=limit)
     return replace(chosen, statistics={**chosen.statistics, "ties": listed})
 
 
-def _chosen(answers: list[Answered], ties: str, *, everyone: bool, limit: str | None) -> Result:
+def _chosen(
+    answers: list[Answered], ties: str, *, bounded: bool, everyone: bool, limit: str | None
+) -> Result:
     without = [answer.result for answer in answers if answer.outcome.cost is None]
     impossible = next((result for result in without if result.status == "infeasible"), None)
     if impossible is not None:
@@ -88,6 +96,8 @@ def _chosen(answers: list[Answered], ties: str, *, everyone: bool, limit: str | 
         return without[0]
     # What is not proved may yet cost less, or more: a smaller window may be worth it.
     late = any(map(_is_late, answers))
+    if late and not bounded and (without or not everyone):  # one that is missing may have no plan
+        return _unknown(answers[-1].result, limit)
     bounds = [answer.outcome.lower_bound or Fraction(0) for answer in answers]
     if ties != "expected":
         chosen = _extreme(planned, ties)

@@ -142,6 +142,13 @@ def test_what_is_missing_may_cost_less_than_the_least() -> None:
     assert combined(answers, "expected", everyone=False).status == "unknown"
 
 
+def test_what_is_missing_may_have_no_plan_where_robots_have_goals() -> None:
+    """The answer was feasible, and with more time the call was infeasible."""
+    answers = [*_some(6.0), _answered("unknown")]
+    found = combined(answers, "optimistic", bounded=False, everyone=False, limit="time-limit")
+    assert (found.status, found.reason) == ("unknown", "time-limit")
+
+
 def test_a_mean_of_some_answers_is_none() -> None:
     """The answer to the last plan looked at stood for all, and was cheaper than their mean."""
     answers = [*_some(8), _answered("feasible", 6, bound=5)]

@@ -1,8 +1,0 @@
-(define (problem random)
-  (:domain grounded)
-  (:init
-    (= (total-cost) 0)
-  )
-  (:goal (and (f2)))
-  (:metric minimize (total-cost))
-)

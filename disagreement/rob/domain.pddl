@@ -1,6 +1,0 @@
-(define (domain grounded)
-  (:requirements :strips :negative-preconditions :action-costs)
-  (:predicates
-  )
-  (:functions (total-cost))
-)
