@@ -73,6 +73,27 @@ def test_a_program_that_a_presolve_called_infeasible() -> None:
     assert {JUDGES[name](call, Deadline()).cost for name in ("search", "automata", "paper", "cbc")} == {1.0}
 
 
+def test_a_program_whose_presolve_lost_the_best_plan() -> None:
+    """HiGHS 1.13.1 with all of its presolve finds no plan below 8 in the paper's program."""
+    task = build(
+        agents="hum rob",
+        human="hum",
+        init="at0 ready",
+        goal="at3",
+        actions={
+            "carry hum rob": "at0 -> at2 !at0",
+            "open0 rob": "-> open0 !ready @ 2",
+            "stroll0 hum": "at0 -> at1 @ 2",
+            "stroll2 hum": "at2 -> at3 !at2 @ 3",
+            "walk0 hum": "at0 -> at1 !at0 @ 2",
+            "walk1 hum": "at1 -> at2 @ 3",
+            "walk2 hum": "at2 -> at3 !at2 @ 3",
+        },
+    )
+    call = PlanCall(task, {"mode": "composite", "interference": "strict"})
+    assert {JUDGES[name](call, Deadline()).cost for name in JUDGES} == {4.0}
+
+
 def _blind(call: PlanCall, deadline: Deadline) -> Result:
     """A judge that overlooks every opportunity."""
     answer = JUDGES["search"](call, deadline)

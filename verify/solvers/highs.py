@@ -41,7 +41,7 @@ def minimise(model: Model, deadline: Deadline) -> Answer:
         left = deadline.left()
         short = left is not None and left < _SHORT
         end = _end(deadline) if short else time() + _MOMENT
-        answer = Answer(**worker.minimise(tables, end, presolve=model.presolve))
+        answer = Answer(**worker.minimise(tables, end, presolve=False))  # nothing to trust but the solver
         if short or answer.status != "time-limit":
             return answer
     return _apart(tables, deadline, presolve=model.presolve)
