@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.model import Certificate, Claim
+from serendipity.model import Certificate, Claim, Result
 from tests.verify.edits.corpus import Good, corpus
 from verify.base.obligations import BEST, NEEDED, complete, kind_of, needed
 
@@ -62,3 +62,33 @@ def test_the_page_shows_the_table() -> None:
         lines.append(f"| {kind} | " + " | ".join(cells) + " |")
     assert "\n".join(lines) in _PAGE.read_text()
     assert BEST in _PAGE.read_text()
+
+
+@pytest.mark.parametrize(
+    ("mode", "bound", "verdict"),
+    [
+        ("serendipity", 0.0, "proved"),
+        ("serendipity", 12.0, "proved"),
+        ("serendipity", 2000.0, "refuted"),
+        ("composite", 0.0, "proved"),
+        ("composite", 2000.0, "refuted"),
+        ("individual", 13.0, "proved"),
+        ("individual", 13.5, "refuted"),
+    ],
+)
+def test_a_bound_without_an_answer_is_a_claim(mode: str, bound: float, verdict: str) -> None:
+    """It was left undecided, for breaking a rule that it does not break."""
+    task = serendipity.example("room2")
+    answer = serendipity.plan(task, mode=mode)
+    unknown = Result(
+        mode,
+        "unknown",
+        answer.human,
+        answer.options,
+        human_plan=answer.human_plan,
+        human_cost=answer.human_cost,
+        horizon=answer.horizon,
+        lower_bound=bound,
+        reason="time-limit",
+    )
+    assert serendipity.verify(task, unknown).verdict == verdict

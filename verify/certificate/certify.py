@@ -145,7 +145,7 @@ class _Certifier:
         wanted = [name for name in needed(self.result) if name not in (*BY_RULES, "realised")]
         if report.stopped is not None:
             yield from (Claim(name, "undecided", report.stopped) for name in wanted)
-        elif report.ok and self.result.status != "unknown":
+        elif report.ok and wanted:
             yield from self._solved_claims(wanted)
         else:
             refuted = {violation.claim for violation in report.violations}
@@ -277,11 +277,12 @@ class _Certifier:
             right = result.cost is None
             return "proved" if right else "refuted", "the goal can't be reached alone"
         least = float(worth[0])
-        right = result.status == "unknown" or result.cost == least
-        right = right and (result.lower_bound is None or result.lower_bound <= least)
-        if result.human_plan is not None:
-            given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
-            right = right and result.saving_alone == float(given - worth[0])
+        right = result.lower_bound is None or result.lower_bound <= least
+        if result.status != "unknown":
+            right = right and result.cost == least
+            if result.human_plan is not None:
+                given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
+                right = right and result.saving_alone == float(given - worth[0])
         return "proved" if right else "refuted", f"the least cost alone is {least:.12g}"
 
     def _ties(self, wanted: list[str]) -> Iterator[Claim]:
