@@ -18,31 +18,13 @@ from search.assistance.solvers import astar as shortest
 from search.assistance.solvers import lao_star as branching
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
-from serendipity.model.errors import LimitReachedError
 from tests.assistance.oracle import by_rounds, explore
 from tests.assistance.strategies import games
 from tests.support.builders import task
 from tests.support.cases import case_5, case_6
+from tests.support.countdown import Countdown
 
 TIES = ("optimistic", "fixed", "robust", "expected")
-
-
-class Hourglass(Deadline):
-    """Has time for so many questions."""
-
-    def __init__(self, questions: int) -> None:
-        super().__init__()
-        self._left = questions
-
-    def check(self) -> None:
-        """See :class:`Deadline`."""
-        self._left -= 1
-        if self._left < 0:
-            raise LimitReachedError("time-limit")
-
-    def tick(self) -> None:
-        """See :class:`Deadline`; every question counts."""
-        self.check()
 
 
 @pytest.mark.parametrize("ties", TIES)
@@ -59,7 +41,7 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
         if not tables:
             patch.setattr(ball, "MAX_BITS", -1)
             patch.setattr(bound, "MAX_JOINT_STATES", 0)
-        *_, answer = assist(game, options, Hourglass(questions))
+        *_, answer = assist(game, options, Countdown(questions))
     if answer.status in ("optimal", "infeasible"):
         assert (answer.status, answer.upper) == (full.status, full.upper)
     elif full.upper is not None:
@@ -72,7 +54,7 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
 def test_doing_nothing_is_an_answer_as_soon_as_his_own_plan_is_known(case, ties: str) -> None:
     options = Options(mode="assistance", ties=ties)
     *_, full = assist(case(), options, Deadline())
-    answers = [last(assist(case(), options, Hourglass(questions))) for questions in range(400)]
+    answers = [last(assist(case(), options, Countdown(questions))) for questions in range(400)]
     known = [answer for answer in answers if answer.status != "unknown"]
     assert (answers[0].status, answers[-1].status) == ("unknown", "optimal")
     assert answers[-len(known) :] == known  # more time never leaves less

@@ -12,7 +12,7 @@ from tests.support.countdown import Countdown
 
 @pytest.mark.parametrize("count", [0, 1, 64, 65, 1000])
 def test_every_item_comes_and_every_64th_is_a_look(count: int) -> None:
-    deadline = Countdown(10**6, lambda: LimitReachedError("time-limit"))
+    deadline = Countdown(10**6)
     assert list(deadline.each(range(count))) == list(range(count))
     assert 10**6 - deadline.left_over[0] == -(-count // 64)
 

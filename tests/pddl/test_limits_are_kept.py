@@ -6,31 +6,17 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity import Deadline, LimitReachedError, SerendipityError, Task, UsageError, pddl
+from serendipity import LimitReachedError, SerendipityError, Task, UsageError, pddl
 from serendipity.pddl import forget_parsed
 from serendipity.pddl.instantiate import Instantiator
 from tests.pddl.texts import OFFICE, YARD, action, domain, names, one, pair, problem
+from tests.support.countdown import Countdown
 
 PLACES = " ".join(f"w{i}" for i in range(9))
 TOOLS = " ".join(f"t{i}" for i in range(62))
 OBJECTS = f"h r - agent {PLACES} - place {TOOLS} - tool"
 TWELVE = [f"?x{i}" for i in range(12)]
 MENDED = "(p) (mended ?w - place) (have ?t - tool)"
-
-
-class Counting(Deadline):
-    """A deadline that comes when it is asked for the n-th time."""
-
-    def __init__(self, looks: int) -> None:
-        super().__init__()
-        self.looks = [looks]  # shared with deadlines for parts of the work
-
-    def check(self) -> None:
-        self.looks[0] -= 1
-        if self.looks[0] < 0:
-            raise LimitReachedError("time-limit")
-
-    tick = check
 
 
 def shop(folder: Path, condition: str, effect: str = "(p)", goal: str = "(p)") -> Task:
@@ -152,7 +138,7 @@ def test_the_deadline_may_come_anywhere() -> None:
     while True:
         forget_parsed()
         try:
-            task = pddl.load(YARD, deadline=Counting(looks))
+            task = pddl.load(YARD, deadline=Countdown(looks))
             break
         except LimitReachedError as error:
             assert error.reason == "time-limit"
@@ -165,11 +151,11 @@ def test_the_deadline_may_come_anywhere() -> None:
 def test_preparing_is_under_the_limit_too(tmp_path: Path) -> None:
     files = large(tmp_path, 7)
     assert len(serendipity.load_pddl(*files, human="h", robots=["r"]).actions) == 2 * 7**4
-    limits = Counting(10**9)
+    limits = Countdown(10**9)
 
     def stop(doing: str) -> None:
         if doing.startswith("preparing"):
-            limits.looks[0] = 0
+            limits.left_over[0] = 0
 
     with pytest.raises(LimitReachedError, match=r"reading the task \(preparing 4,802 ground actions\)"):
         serendipity.load_pddl(*files, human="h", robots=["r"], deadline=limits, on_progress=stop)
@@ -194,7 +180,7 @@ def test_limits_have_to_be_numbers(limits: dict[str, float]) -> None:
 
 
 def test_every_loader_takes_a_deadline() -> None:
-    limits = Counting(0)
+    limits = Countdown(0)
     example = serendipity.example
     for load in (
         lambda: serendipity.load(YARD, deadline=limits),

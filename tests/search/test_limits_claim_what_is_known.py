@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity import Task
-from serendipity.model import LimitReachedError, Result
+from serendipity.model import Result
 from tests.search.test_time_may_run_out_anywhere import answers
 from tests.support.builders import task as build
 from tests.support.countdown import Countdown
@@ -129,10 +129,10 @@ def test_savings_are_counted_from_the_least_that_doing_nothing_costs() -> None:
     )
     for looks in range(60):
         used = replace(task)  # by a call that left some of what it found
-        early = Countdown(looks, lambda: LimitReachedError("time-limit"))
+        early = Countdown(looks)
         serendipity.plan(used, deadline=early, horizon=4)
         for more in range(60):
-            late = Countdown(more, lambda: LimitReachedError("time-limit"))
+            late = Countdown(more)
             answer = serendipity.plan(used, deadline=late, horizon=4)
             assert serendipity.check(task, answer).refuted is None
             if answer.status == "optimal":

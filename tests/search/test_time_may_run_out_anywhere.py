@@ -14,6 +14,7 @@ from serendipity.model import Result
 from serendipity.model.deadline import Deadline
 from tests.support.builders import task as build
 from tests.support.cases import case_2, case_4
+from tests.support.countdown import Countdown
 
 T = TypeVar("T")
 
@@ -40,20 +41,6 @@ CALLS: list[dict[str, Any]] = [
 TIME = LimitReachedError("time-limit")
 
 
-class Countdown(Deadline):
-    """A deadline that runs out at a given look at it; ticks are looks, too."""
-
-    looks = 0
-    error: Exception = TIME
-
-    def check(self) -> None:
-        type(self).looks -= 1
-        if self.looks < 0:
-            raise self.error
-
-    tick = check
-
-
 def endings(
     call: Callable[[Deadline], T], error: Exception = TIME, *, each: bool = False
 ) -> list[T | LimitReachedError]:
@@ -63,15 +50,14 @@ def endings(
     further and further apart.
     """
     found: list[T | LimitReachedError] = []
-    Countdown.error = error
     looks = 0
     while True:
-        Countdown.looks = looks
+        deadline = Countdown(looks, lambda: error)
         try:
-            found.append(call(Countdown()))
+            found.append(call(deadline))
         except LimitReachedError as limit:
             found.append(limit)
-        if Countdown.looks >= 0:
+        if not deadline.ran_out:
             return found
         looks = looks + 1 if each else max(looks + 1, looks * 9 // 8)
 

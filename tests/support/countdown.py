@@ -2,7 +2,12 @@
 
 from collections.abc import Callable
 
-from serendipity.model import Deadline
+from serendipity.model import Deadline, LimitReachedError
+
+
+def time_is_up() -> Exception:
+    """What a deadline raises whose time is up."""
+    return LimitReachedError("time-limit")
 
 
 class Countdown(Deadline):
@@ -14,7 +19,9 @@ class Countdown(Deadline):
         once: whether the looks after that one are free, as memory may be again.
     """
 
-    def __init__(self, looks: int, limit: Callable[[], Exception], *, once: bool = False) -> None:
+    def __init__(
+        self, looks: int, limit: Callable[[], Exception] = time_is_up, *, once: bool = False
+    ) -> None:
         super().__init__()
         self._limit = limit
         self._once = once

@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import serendipity
-from serendipity.model import Condition, Deadline, LimitReachedError, Options, Result, Task
+from serendipity.model import Condition, Options, Result, Task
 from tests.goals.test_worked_cases import workshop
 from tests.support.builders import task as build
 from tests.support.cases import CASE_3_PLAN, case_3, case_4, case_5, case_6, case_8, case_9, case_10
+from tests.support.countdown import Countdown
 from verify.calls.solve import solve
 
 
@@ -24,21 +25,6 @@ class Good:
     task: Task
     result: Result
     asked: dict[str, Any]
-
-
-class Looks(Deadline):
-    """A deadline that comes after so many looks at it."""
-
-    def __init__(self, looks: int) -> None:
-        super().__init__()
-        self.looks = [looks]  # shared by the copies of a call
-
-    def check(self) -> None:
-        self.looks[0] -= 1
-        if self.looks[0] < 0:
-            raise LimitReachedError("time-limit")
-
-    tick = check
 
 
 def two_steps() -> Task:
@@ -97,7 +83,7 @@ def _goals(p: object, z: object) -> list[dict[str, object]]:
 
 
 def _found(looks: int, task: Task, **asked: Any) -> Result:
-    return serendipity.plan(replace(task), deadline=Looks(looks), **asked)
+    return serendipity.plan(replace(task), deadline=Countdown(looks), **asked)
 
 
 def _early(task: Task, status: str, *, bounded: bool = False, **asked: Any) -> Result:
