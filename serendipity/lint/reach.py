@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
+from collections.abc import Set as AbstractSet
 
 from serendipity.model import Condition, Deadline, GroundAction, Task
 
@@ -9,29 +10,26 @@ Fact = tuple[int, bool]
 """A fact, and whether it is true."""
 
 
-def unreachable(
-    task: Task, goal: Condition, actions: Sequence[GroundAction], deadline: Deadline
-) -> tuple[Fact, ...]:
-    """The literals of a goal that no sequence of some actions makes true, each by itself.
+def missing(goal: Condition, reached: AbstractSet[Fact]) -> tuple[Fact, ...]:
+    """The literals of a goal that were not reached."""
+    return tuple(literal for literal in _literals(goal) if literal not in reached)
+
+
+def reachable(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -> set[Fact]:
+    """The literals that some sequence of the actions makes true, each by itself, and maybe more.
 
     Made true once, a literal stays so, beside its opposite; so what is not reached here can't
     be reached at all, and what is may still be out of reach.
     """
-    reached = _reached(task, actions, deadline)
-    wanted = [(fact, True) for fact in goal.positive] + [(fact, False) for fact in goal.negative]
-    return tuple(literal for literal in wanted if literal not in reached)
-
-
-def _reached(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -> set[Fact]:
     reached = {(fact, fact in task.init) for fact in range(len(task.facts))}
     waiting: defaultdict[Fact, list[GroundAction]] = defaultdict(list)
     pending = list(actions)
     while pending:
         deadline.tick()
         action = pending.pop()
-        missing = next((literal for literal in _needs(action) if literal not in reached), None)
-        if missing is not None:
-            waiting[missing].append(action)
+        lacking = next((literal for literal in _needs(action) if literal not in reached), None)
+        if lacking is not None:
+            waiting[lacking].append(action)
             continue
         for literal in _makes(action):
             if literal not in reached:

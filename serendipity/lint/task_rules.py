@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from serendipity.lint.reach import Fact, relevant, unreachable
+from serendipity.lint.reach import Fact, missing, reachable, relevant
 from serendipity.lint.report import Finding
 from serendipity.model import Deadline, Task
 
@@ -23,19 +23,17 @@ def _goals(task: Task, deadline: Deadline) -> Iterator[Finding]:
         yield Finding("warning", "goal-missing", f"{human} has no goal, so there is nothing to help with")
     elif task.goal.holds(task.init):
         yield Finding("warning", "goal-holds", f"{human}'s goal holds from the beginning")
+    together = reachable(task, task.actions, deadline)
     for whose, goal in ((f"{human}'s goal", task.goal), ("the robots' goal", task.robot_goal)):
-        never = unreachable(task, goal, task.actions, deadline)
+        never = missing(goal, together)
         if never:
             text = f"{whose} can't be reached by all agents together: {_listed(task, never)}"
             yield Finding("error", "goal-unreachable", text)
-    yield from _alone(task, deadline)
-
-
-def _alone(task: Task, deadline: Deadline) -> Iterator[Finding]:
+    if missing(task.goal, together):
+        return
     own = [task.actions[i] for i in task.human_actions]
-    alone = unreachable(task, task.goal, own, deadline)
-    if alone and not unreachable(task, task.goal, task.actions, deadline):
-        human = task.agents[task.human]
+    alone = missing(task.goal, reachable(task, own, deadline))
+    if alone:
         text = f"{human} can't reach the goal alone: {_listed(task, alone)}; there is no plan to preserve"
         yield Finding("warning", "goal-needs-help", text)
 
