@@ -91,19 +91,20 @@ def _epoch(
     task: Task, steps: Sequence[PlanStep], state: State, deadline: Deadline, *, strict: bool
 ) -> tuple[tuple[int, ...], Fault | None]:
     """The actions of one epoch: of several with one name the first that fits beside the others."""
-    variants: list[tuple[int, ...]] = []
-    conflict: Fault | None = None
+    firsts: list[int] = []
+    chosen: Iterator[tuple[int, ...]] = iter([()])
+    fault: Fault | None = None
     for step in steps:
         ids, fault = _resolve(task, step, state)
         if fault is not None:
-            return (), conflict or fault
-        conflict = conflict or _conflict(task, [found[0] for found in variants], ids[0], step, strict=strict)
-        variants.append(ids)
-    chosen: Iterator[tuple[int, ...]] = iter([()])
-    for step, ids in zip(steps, variants, strict=True):
+            break
         chosen = _beside(task, chosen, step, ids, deadline, strict=strict)
-    first = next(chosen, None)
-    return ((), conflict) if first is None else (first, None)
+        firsts.append(ids[0])
+    found = next(chosen, None) if fault is None else None
+    if found is not None:
+        return found, None
+    conflicts = (_conflict(task, firsts[:k], i, steps[k], strict=strict) for k, i in enumerate(firsts))
+    return (), next(filter(None, conflicts), fault)
 
 
 def _beside(
