@@ -57,12 +57,9 @@ class Ask:
         """Which limit kept an answer from being proved, as ``Result.reason`` has it."""
         if answer.reason is not None:
             return answer.reason
-        try:
-            self.deadline.check()
-        except LimitReachedError as limit:
-            return limit.reason
         # A call ends a little before its limit, and gives back what it took.
-        return "memory-limit" if self.deadline.left() is None else "time-limit"
+        likely = "memory-limit" if self.deadline.left() is None else "time-limit"
+        return self.deadline.reached() or likely
 
 
 @dataclass(frozen=True, slots=True)

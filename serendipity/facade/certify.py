@@ -4,12 +4,13 @@ from collections.abc import Iterable, Iterator
 from time import perf_counter
 from typing import Final
 
-from serendipity.model import Certificate, Claim, Deadline, InputError, Result, Task
+from serendipity.model import Certificate, Claim, Deadline, Result, Task
 from serendipity.model.collection import no_collection
 from serendipity.model.limits import limits_from
 from verify.base.obligations import complete
 from verify.rules import RuleReport
 from verify.rules import check as check_rules
+from verify.rules.header import require_same_task
 
 _REPLAYED: Final = {
     "replay": "every step follows the rules and the goals hold at the end",
@@ -48,7 +49,7 @@ def check(
     start = perf_counter()
     limits = limits_from(time_limit, None, deadline)
     result = result.checked()
-    _require_same_task(task, result)
+    require_same_task(task, result)
     with no_collection():
         claims = complete(result, _by_rules(task, result, limits), by_rules=True)
     return Certificate(claims, perf_counter() - start)
@@ -105,17 +106,6 @@ def verify(
     from verify.certificate.certify import certify  # loads the solvers
 
     return certify(task, result, encoding=encoding, solver=solver, deadline=limits)
-
-
-def _require_same_task(task: Task, result: Result) -> None:
-    human = task.agents[task.human]
-    if result.human != human:
-        raise InputError(f"result: is for another task: its human is '{result.human}', not '{human}'")
-    stranger = next((name for name in result.human_plan or () if name not in task.named), None)
-    if stranger is not None:
-        raise InputError(
-            f"result: is for another task: this one has no action '{stranger}' of its human plan"
-        )
 
 
 def _claims(result: Result, report: RuleReport) -> Iterator[Claim]:

@@ -221,19 +221,10 @@ def _over_ties(call: _Call) -> Result:
         options.ties,
         bounded=not call.task.robot_goal,
         everyone=len(answers) == count,
-        limit=_limit(call.deadline),
+        limit=call.deadline.reached(),
     )
     measured = {"elapsed_seconds": call.deadline.elapsed(), "optimal_plans": count}
     return replace(result, statistics={**result.statistics, **measured})
-
-
-def _limit(deadline: Deadline) -> str | None:
-    """The limit that has come, or None."""
-    try:
-        deadline.check()
-    except LIMITS as limit:
-        return limit_reason(limit)
-    return None
 
 
 def _to_result(call: _Call, outcome: Outcome, gap: Sequence[dict[str, float | None]] = ()) -> Result:

@@ -11,7 +11,7 @@ from copy import copy
 from itertools import islice
 from typing import Final, TypeVar
 
-from serendipity.model.errors import LimitReachedError, UsageError
+from serendipity.model.errors import LIMITS, LimitReachedError, UsageError, limit_reason
 from serendipity.model.memory import available, resident
 
 T = TypeVar("T")
@@ -110,6 +110,14 @@ class Deadline:
             raise LimitReachedError("cancelled")
         if self._most is not None:
             self._check_memory(self._most)
+
+    def reached(self) -> str | None:
+        """The limit that has come, as ``Result.reason`` has it; None while there is time and memory."""
+        try:
+            self.check()
+        except LIMITS as limit:
+            return limit_reason(limit)
+        return None
 
     def require(self, size: float) -> None:
         """Return if ``size`` bytes more fit, into the limit or, without one, into what the machine has left.

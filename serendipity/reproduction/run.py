@@ -9,7 +9,7 @@ from pathlib import Path
 from time import time
 from typing import Final
 
-from serendipity.model import Deadline, LimitReachedError, Options, UsageError
+from serendipity.model import Deadline, Options, UsageError
 from serendipity.model.numbers import Number
 from serendipity.reproduction.journal import Journal
 from serendipity.reproduction.pool import in_processes, in_turn, on_dask
@@ -113,7 +113,7 @@ def reproduce(
             done += 1
             helped += sum(row.opportunity for row in record.rows)
             report(Progress(done, len(tasks), helped))
-            if _is_over(whole):
+            if whole.reached() is not None:
                 break
     rows = tuple(known.get(_key(task, call)) or unknown(task.test, call) for task in tasks for call in calls)
     return Reproduction(
@@ -163,14 +163,6 @@ def _limits(time_limit: float | None, memory_limit: float | None, whole: Deadlin
     left = whole.left()
     until = None if left is None else time() + left
     return Limits(options.time_limit, options.memory_limit, until)
-
-
-def _is_over(deadline: Deadline) -> bool:
-    try:
-        deadline.check()
-    except LimitReachedError:
-        return True
-    return False
 
 
 def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:

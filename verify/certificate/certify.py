@@ -9,7 +9,6 @@ from serendipity.model import (
     Claim,
     Deadline,
     HumanPlan,
-    InputError,
     PlanError,
     Result,
     Step,
@@ -29,6 +28,7 @@ from verify.goals import check_goals
 from verify.policy import check_policy
 from verify.programs.minimise import Effort
 from verify.rules import Checker, RuleReport
+from verify.rules.header import require_same_task
 from verify.rules.replay import replay, replay_human
 from verify.simulator import realised_claim
 from verify.solvers.mip import solver_version
@@ -89,7 +89,7 @@ def _certify(
 ) -> Certificate:
     started = perf_counter()
     result = result.checked()
-    _require_same_task(task, result)
+    require_same_task(task, result)
     if result.mode == "assistance":
         claims = complete(result, check_policy(task, result, deadline))
         return Certificate(claims, perf_counter() - started)
@@ -104,17 +104,6 @@ def _certify(
     else:
         claims = _Certifier(task, result, effort).claims(human_plan)
     return Certificate(complete(result, claims), perf_counter() - started, version, encoding, effort.size)
-
-
-def _require_same_task(task: Task, result: Result) -> None:
-    human = task.agents[task.human]
-    if result.human != human:
-        raise InputError(f"result: is for another task: its human is '{result.human}', not '{human}'")
-    stranger = next((name for name in result.human_plan or () if name not in task.named), None)
-    if stranger is not None:
-        raise InputError(
-            f"result: is for another task: this one has no action '{stranger}' of its human plan"
-        )
 
 
 class _Certifier:

@@ -1,8 +1,24 @@
-"""Rules on what a result says about its call: mode, human, ``pi_H``, horizon, status."""
+"""Rules on what a result says about its call: task, mode, human, ``pi_H``, horizon, status."""
 
-from serendipity.model import INFINITE, PlanError, Result
+from serendipity.model import INFINITE, InputError, PlanError, Result, Task
 from verify.base.obligations import is_mean
 from verify.rules.case import Case, Found
+
+
+def require_same_task(task: Task, result: Result) -> None:
+    """Return if a result may be about a task.
+
+    Raises:
+        InputError: its human, or an action of its ``pi_H``, is not of the task.
+    """
+    human = task.agents[task.human]
+    if result.human != human:
+        raise InputError(f"result: is for another task: its human is '{result.human}', not '{human}'")
+    stranger = next((name for name in result.human_plan or () if name not in task.named), None)
+    if stranger is not None:
+        raise InputError(
+            f"result: is for another task: this one has no action '{stranger}' of its human plan"
+        )
 
 
 def mode_and_human(case: Case) -> Found | None:
