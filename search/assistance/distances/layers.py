@@ -20,6 +20,9 @@ _MAX_WEIGHT: Final = 1 << 48
 _SORTING: Final = 24
 """Bytes for each element of what is concatenated, sorted and gathered, at the least."""
 
+_AT_ONCE: Final = 1 << 18
+"""States that are sorted within some 20 ms, the same ones found in several ways counted as often."""
+
 _LARGE: Final = 1 << 20
 """Bytes; what is smaller is noticed in time when it has been allocated."""
 
@@ -126,14 +129,18 @@ class Layers:
         while len(frontier):
             frontier = np.delete(frontier, self._where(self._goal, frontier))
             found = [np.empty(0, dtype=np.int64)]
-            size = 0
+            size, most = 0, _AT_ONCE
             for test, (keep, put) in zip(self._tests, self._effects, strict=True):
                 self._deadline.check()
                 at = self._where(test, frontier)
                 if len(at):
                     found.append(frontier[at] & keep | put)
                     size += len(found[-1])
-                    self._too_many_unless(size <= 16 * self._limit)
+                if size > most:  # or sorting them all in the end would take long
+                    found = [_distinct(np.concatenate(found))]
+                    size = len(found[0])
+                    most = max(_AT_ONCE, 2 * size)
+                    self._too_many_unless(size <= self._limit)
             self._require(_SORTING * (size + len(known)))
             after = _distinct(np.concatenate(found))
             frontier = after[~_contains(known, after)]
