@@ -71,7 +71,7 @@ docs: $(READY)  ## build the documentation into build/docs; a broken link or any
 	@echo "build/docs/index.html"
 
 bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders side by side; then scaling series
-	@$(BIN)/python -c 'import sys; from serendipity.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \
+	@$(BIN)/python -c 'import sys; from serendipity.evaluation.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \
 	  || { if command -v uv >/dev/null 2>&1; then \
 	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-bench.txt; \
 	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \

@@ -14,6 +14,7 @@ TYPE_CHECKING = False  # of `typing`, which the command line need not load befor
 if TYPE_CHECKING:
     from typing import Any
 
+    from serendipity.evaluation.reproduction import reproduce
     from serendipity.explanation import Explanation, explain
     from serendipity.facade.certify import check, verify
     from serendipity.facade.interruptibility import interruptions
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
         Window,
     )
     from serendipity.recognition import Recognition, recognise
-    from serendipity.reproduction import reproduce
     from serendipity.scenarios.examples import example
     from serendipity.scenarios.generate import generate_usar
 
@@ -96,7 +96,7 @@ _HOMES = {
     "Finding": "serendipity.lint",
     "TaskReport": "serendipity.lint",
     "verify": "serendipity.facade.certify",
-    "reproduce": "serendipity.reproduction",
+    "reproduce": "serendipity.evaluation.reproduction",
     "interruptions": "serendipity.facade.interruptibility",
     "explain": "serendipity.explanation",
     "Explanation": "serendipity.explanation",
@@ -112,7 +112,7 @@ _NEED_SIBLINGS = (
     "serendipity.facade.loading",
     "serendipity.explanation",
     "serendipity.recognition",
-    "serendipity.reproduction",
+    "serendipity.evaluation.reproduction",
     "serendipity.facade.session",
     "serendipity.facade.simulation",
 )

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from serendipity.cli import progress_lines
+from serendipity.cli.streams import progress_lines
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 

@@ -9,11 +9,11 @@ from typing import Annotated, Final
 import typer
 
 from serendipity import __version__
-from serendipity.cli import output
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.help_examples import epilog
 from serendipity.cli.on_demand import Commands
-from serendipity.cli.stderr import tell
+from serendipity.cli.streams import output
+from serendipity.cli.streams.stderr import tell
 from serendipity.model.errors import LimitReachedError, SerendipityError, limit_words
 
 app = typer.Typer(

@@ -8,8 +8,7 @@ import gc
 import os
 import signal
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
-"""What asks a process to end: Ctrl-C; and ``kill``, ``timeout``, containers and schedulers."""
+from serendipity.cli.process.signals import SIGNALS
 
 INTERRUPTED = 130
 """``ExitCode.INTERRUPTED``, which is not loaded yet."""
@@ -24,8 +23,8 @@ def run() -> None:
     _fill_closed_streams()
     gc.set_threshold(_OBJECTS)
     from serendipity.cli.app import main
-    from serendipity.cli.interrupts import interrupt
-    from serendipity.cli.leaving import leave
+    from serendipity.cli.process.interrupts import interrupt
+    from serendipity.cli.process.leaving import leave
 
     _on_signals(interrupt)
     code = main()

@@ -8,8 +8,8 @@ import typer
 from typer.core import TyperGroup, TyperOption
 from typer.main import get_command
 
-from serendipity.cli import progress
 from serendipity.cli.help_examples import epilog
+from serendipity.cli.streams import progress
 
 NAMES: Final = (
     "plan",

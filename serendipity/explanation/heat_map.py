@@ -5,8 +5,8 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.facade.interruptibility import Interruption, InterruptionReport
-from serendipity.show.drawing import Group, Picture, Rect, Shape, Style, Text
-from serendipity.show.palette import INK, PAPER, WALL
+from serendipity.show.picture.drawing import Group, Picture, Rect, Shape, Style, Text
+from serendipity.show.picture.palette import INK, PAPER, WALL
 
 _CELL: Final = 34
 _LEFT: Final = 110

@@ -14,8 +14,8 @@ from serendipity import pddl
 from serendipity.model.deadline import Deadline
 from serendipity.model.limits import limits_from
 from serendipity.model.task import Task
-from serendipity.pddl.files import PathArgument
 from serendipity.pddl.layouts import Pair
+from serendipity.pddl.parsing.files import PathArgument
 from serendipity.pddl.work import OnProgress, Work, within_limits
 
 _LARGE: Final = 1_000

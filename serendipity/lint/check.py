@@ -9,7 +9,7 @@ from serendipity.lint.file_rules import file_findings
 from serendipity.lint.report import LEVELS, Finding, TaskReport
 from serendipity.lint.task_rules import task_findings
 from serendipity.model import Deadline, GroundAction, Task
-from serendipity.pddl.files import read_unit
+from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.work import Work
 
 Files = Iterable[tuple[str | PathLike[str], str | PathLike[str]]]

@@ -6,7 +6,7 @@ from serendipity.lint.report import Finding
 from serendipity.lint.requirements import requirement_findings
 from serendipity.lint.task_rules import listed
 from serendipity.model import Task
-from serendipity.pddl.lifted import (
+from serendipity.pddl.parsing.lifted import (
     And,
     Expression,
     Formula,

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from serendipity.lint.report import Finding
-from serendipity.pddl.files import read_text
-from serendipity.pddl.lifted import EQUALITY, And, Formula, Literal, Or, Quantified, Unit
+from serendipity.pddl.parsing.files import read_text
+from serendipity.pddl.parsing.lifted import EQUALITY, And, Formula, Literal, Or, Quantified, Unit
 
 _COMMENT: Final = re.compile(r";[^\n]*")
 _SECTION: Final = re.compile(r"\(\s*:requirements\b([^()]*)\)", re.IGNORECASE)

@@ -7,6 +7,6 @@ can't happen (:mod:`prune`) to a task (:mod:`assemble`), all of it under a deadl
 """
 
 from serendipity.pddl.layouts import load, load_agents, load_pddl
-from serendipity.pddl.resolve import forget_parsed
+from serendipity.pddl.parsing.resolve import forget_parsed
 
 __all__ = ["forget_parsed", "load", "load_agents", "load_pddl"]

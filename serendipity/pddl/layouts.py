@@ -6,12 +6,12 @@ from typing import Final
 
 from serendipity.model import Deadline, InputError, Task, UsageError
 from serendipity.model.task import canonical_name
-from serendipity.pddl.assemble import Blueprint, Source, assemble
-from serendipity.pddl.files import PathArgument, read_unit
-from serendipity.pddl.lifted import And, Key, Unit
+from serendipity.pddl.grounding.assemble import Blueprint, Source, assemble
+from serendipity.pddl.parsing.files import PathArgument, read_unit
+from serendipity.pddl.parsing.lifted import And, Key, Unit
+from serendipity.pddl.parsing.tree import listed, quoted
 from serendipity.pddl.participants import by_arguments, by_first_argument, by_name_parts, by_owner
 from serendipity.pddl.shared import check_initial, check_objects, missing_facts, other_domains
-from serendipity.pddl.tree import listed, quoted
 from serendipity.pddl.work import OnProgress, Work, within_limits
 
 Pair = tuple[PathArgument, PathArgument]

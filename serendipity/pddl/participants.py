@@ -4,9 +4,9 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from itertools import chain, repeat
 
-from serendipity.pddl.instantiate import Participants
-from serendipity.pddl.lifted import Key, Unit
-from serendipity.pddl.tree import listed, quoted
+from serendipity.pddl.grounding.instantiate import Participants
+from serendipity.pddl.parsing.lifted import Key, Unit
+from serendipity.pddl.parsing.tree import listed, quoted
 
 
 def by_owner(agent: int) -> Participants:

@@ -4,9 +4,9 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 from serendipity.model import InputError
-from serendipity.pddl.lifted import Key, Unit
-from serendipity.pddl.tree import quoted
-from serendipity.pddl.types import ANYTHING, Type, Types, type_text
+from serendipity.pddl.parsing.lifted import Key, Unit
+from serendipity.pddl.parsing.tree import quoted
+from serendipity.pddl.parsing.types import ANYTHING, Type, Types, type_text
 from serendipity.pddl.work import Work
 
 _LISTED = 3

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.model import GroundAction, Task
+from serendipity.pddl.parsing.scope import RESERVED
 from serendipity.pddl.participants import agents_named
-from serendipity.pddl.scope import RESERVED
 
 TEAM: Final = "superagent"
 _ILLEGAL: Final = re.compile(r"[^a-z0-9_-]")

@@ -12,7 +12,7 @@ from typing import Any, Final, NamedTuple, NoReturn
 
 from serendipity.model import InputError
 from serendipity.model.task import canonical_name
-from serendipity.pddl.files import read_text
+from serendipity.pddl.parsing.files import read_text
 
 _COMMENT: Final = re.compile(r"[;#].*")
 _EPOCH: Final = re.compile(r"^-?\s*\d+\s*[-:.]\s*")

@@ -5,7 +5,7 @@ draws it.
 """
 
 from serendipity.model import UsageError
-from serendipity.show.scene import Scene, build_scene
+from serendipity.show.scene.scene import Scene, build_scene
 
 __all__ = ["Scene", "build_scene", "draw"]
 
@@ -25,18 +25,18 @@ def draw(scene: Scene, suffix: str, epoch: int | None = None) -> str | bytes:
     if epoch is not None and not 0 <= epoch <= last:
         raise UsageError(f"epoch: expected one from 0 to {last}, got {epoch}")
     if suffix == ".html":
-        from serendipity.show.page import page
+        from serendipity.show.formats.page import page
 
         return page(scene)
-    from serendipity.show.still import still
+    from serendipity.show.picture.still import still
 
     picture = still(scene, epoch)
     if suffix == ".svg":
-        from serendipity.show.svg import svg
+        from serendipity.show.formats.svg import svg
 
         return svg(picture) + "\n"
     if suffix == ".png":
-        from serendipity.show.png import png
+        from serendipity.show.formats.png import png
 
         return png(picture)
     raise UsageError(f"expected a picture .html, .svg or .png, got '{suffix}'")

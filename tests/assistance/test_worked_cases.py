@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity import Result, UsageError
-from serendipity.cli.policy_text import policy_lines, totals_line
+from serendipity.cli.text.policy_text import policy_lines, totals_line
 from tests.support.builders import task
 from tests.support.cases import case_5, case_6, case_8
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from serendipity.benchmark import AXES, CONTENDERS, fast_downward
-from serendipity.benchmark.scaling import Axis, Size
 from serendipity.cli.app import main
+from serendipity.evaluation.benchmark import AXES, CONTENDERS, fast_downward
+from serendipity.evaluation.benchmark.scaling import Axis, Size
 
 
 def test_contenders_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli.human_plan import read_human_plan
+from serendipity.cli.files.human_plan import read_human_plan
 from tests.cli.conftest import Run, assert_one_line
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.cli import naming
-from serendipity.cli.limits import during
+from serendipity.cli.options import naming
+from serendipity.cli.options.limits import during
 from serendipity.model import Deadline, LimitReachedError, Result, Task
 from tests.cli.conftest import Run, assert_one_line
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli import output
+from serendipity.cli.streams import output
 from serendipity.model import Result, UsageError
 from tests.cli.conftest import ROOT, Run
 

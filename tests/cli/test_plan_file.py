@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.cli.plan_file import plan_file
+from serendipity.cli.files.plan_file import plan_file
 from serendipity.model import Result, Task
 from tests.cli.conftest import Run, assert_one_line
 from tests.support.builders import task

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli import progress, progress_bar, progress_lines
 from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.streams import progress, progress_bar, progress_lines
 from tests.cli.conftest import Run, assert_one_line
 
 

@@ -10,7 +10,8 @@ import pytest
 
 from serendipity.cli import entry
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.interrupts import cancelling
+from serendipity.cli.process.interrupts import cancelling
+from serendipity.cli.process.signals import SIGNALS
 
 WORKING = """
 import sys
@@ -62,7 +63,7 @@ entry.run()
 """
 
 
-@pytest.mark.parametrize("number", entry.SIGNALS)
+@pytest.mark.parametrize("number", SIGNALS)
 def test_a_signal_while_planning_writes_the_incumbent(number: signal.Signals, tmp_path: Path) -> None:
     running = subprocess.Popen(
         [sys.executable, "-c", WORKING], cwd=tmp_path, stderr=subprocess.PIPE, text=True, bufsize=1
@@ -78,7 +79,7 @@ def test_a_signal_while_planning_writes_the_incumbent(number: signal.Signals, tm
     assert json.loads((tmp_path / "answer.json").read_text())["cost"] == 12.6
 
 
-@pytest.mark.parametrize("number", entry.SIGNALS)
+@pytest.mark.parametrize("number", SIGNALS)
 def test_a_signal_while_loading_is_one_line(number: signal.Signals) -> None:
     done = subprocess.run(
         [sys.executable, "-c", LOADING, str(int(number))], capture_output=True, text=True, check=False

@@ -39,6 +39,8 @@ def test_a_signal_is_listened_to_before_anything_loads() -> None:
     assert not {name for name in loaded if name.startswith(("serendipity.", "typing", "typer"))} - {
         "serendipity.cli",
         "serendipity.cli.entry",
+        "serendipity.cli.process",
+        "serendipity.cli.process.signals",
     }
 
 

@@ -8,8 +8,8 @@ import pytest
 
 import serendipity
 from serendipity.cli.on_demand import NAMES
-from serendipity.cli.render import Grid, Line, rendered
-from serendipity.cli.text import plan_report
+from serendipity.cli.text.answers import plan_report
+from serendipity.cli.text.render import Grid, Line, rendered
 from serendipity.model import Options, Result, Window
 from serendipity.model.numbers import plain
 from tests.cli.conftest import Run

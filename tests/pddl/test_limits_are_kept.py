@@ -8,7 +8,7 @@ import pytest
 import serendipity
 from serendipity import LimitReachedError, SerendipityError, Task, UsageError, pddl
 from serendipity.pddl import forget_parsed
-from serendipity.pddl.instantiate import Instantiator
+from serendipity.pddl.grounding.instantiate import Instantiator
 from tests.pddl.texts import OFFICE, YARD, action, domain, names, one, pair, problem
 from tests.support.countdown import Countdown
 

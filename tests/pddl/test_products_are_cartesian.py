@@ -5,7 +5,7 @@ from itertools import combinations, product
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity.pddl.product import Product, Table, combined
+from serendipity.pddl.grounding.product import Product, Table, combined
 
 
 @st.composite

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, SerendipityError, load_pddl
-from serendipity.pddl.tree import MAX_DEPTH
+from serendipity.pddl.parsing.tree import MAX_DEPTH
 from tests.pddl.texts import OFFICE, action, domain, one, problem
 
 DOMAIN, PROBLEM = (path.read_text() for path in OFFICE)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, Task
-from serendipity.pddl.types import Types
+from serendipity.pddl.parsing.types import Types
 from tests.pddl.texts import action, domain, names, one, problem
 
 TYPES = "agent - object car truck - vehicle vehicle crate - thing thing"

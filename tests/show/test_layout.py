@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.show.floor_plan import corridor, floor_plan
-from serendipity.show.layout import Box, Layout, lay_out
-from serendipity.show.places import Places, find_places
+from serendipity.show.map.floor_plan import corridor, floor_plan
+from serendipity.show.map.layout import Box, Layout, lay_out
+from serendipity.show.map.places import Places, find_places
 
 
 def places_of(links: list[tuple[str, str]]) -> Places:

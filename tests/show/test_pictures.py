@@ -12,9 +12,9 @@ import pytest
 import serendipity
 from serendipity.model import Task, UsageError
 from serendipity.show import Scene, build_scene, draw
-from serendipity.show.drawing import fitted, wrapped
-from serendipity.show.palette import HUMAN, ROBOTS, on
-from serendipity.show.tokens import tokens
+from serendipity.show.picture.drawing import fitted, wrapped
+from serendipity.show.picture.palette import HUMAN, ROBOTS, on
+from serendipity.show.picture.tokens import tokens
 
 SVG = "{http://www.w3.org/2000/svg}"
 

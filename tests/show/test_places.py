@@ -5,7 +5,7 @@ from itertools import pairwise
 import serendipity
 from serendipity.model import Task
 from serendipity.scenarios.building import figure2
-from serendipity.show.places import Whereabouts, find_places
+from serendipity.show.map.places import Whereabouts, find_places
 from tests.show.conftest import ground
 from tests.support import cases
 from tests.support.builders import _atom_task, usar

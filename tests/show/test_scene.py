@@ -8,8 +8,8 @@ import pytest
 import serendipity
 from serendipity.model import Condition, InputError, PlanStep, Window
 from serendipity.show import Scene, build_scene
-from serendipity.show.headline import headline
-from serendipity.show.places import Whereabouts
+from serendipity.show.map.places import Whereabouts
+from serendipity.show.scene.headline import headline
 from tests.show.conftest import ground
 from tests.support import cases
 from tests.support.builders import task

@@ -6,7 +6,7 @@ import pytest
 
 import serendipity
 from serendipity.show import Scene, build_scene
-from serendipity.show.tokens import initials
+from serendipity.show.picture.tokens import initials
 
 DATA = Path(__file__).parent / "data" / "wards"
 

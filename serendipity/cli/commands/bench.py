@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from serendipity.cli import output, progress
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.render import Grid, Line, rendered
+from serendipity.cli.streams import output, progress
+from serendipity.cli.text.render import Grid, Line, rendered
 from serendipity.model import InputError, Task, UsageError
 from serendipity.writing.csv_text import as_csv
 
 if TYPE_CHECKING:
-    from serendipity.benchmark import Sample, Timing
+    from serendipity.evaluation.benchmark import Sample, Timing
 
 
 def bench(
@@ -71,7 +71,7 @@ def bench(
         if folder is not None:
             raise UsageError("--scaling: generates its buildings, so it takes no folder")
         return _scaling(scaling, seeds, time_limit, output_file, plot, quiet=quiet)
-    from serendipity import benchmark
+    from serendipity.evaluation import benchmark
 
     chosen, absent = _present(contenders.split(","))
     with tempfile.TemporaryDirectory() as scratch:
@@ -100,7 +100,7 @@ def bench(
     parts.append(Grid(benchmark.TIMES_HEADER, benchmark.times(timings)))
     answers = [output.Answer(rendered(parts), None), *_as_csv(timings, output_file)]
     if plot is not None:
-        from serendipity.benchmark.plot import side_by_side
+        from serendipity.evaluation.benchmark.plot import side_by_side
 
         answers.append(output.Answer(side_by_side(timings, plot.suffix), plot, "--plot"))
     output.write_answers(answers)
@@ -116,7 +116,7 @@ def _scaling(
     *,
     quiet: bool,
 ) -> int:
-    from serendipity import benchmark
+    from serendipity.evaluation import benchmark
 
     names = list(benchmark.AXES) if axes == "all" else axes.split(",")
     total = len(benchmark.planned(names, seeds or 5))
@@ -137,7 +137,7 @@ def _scaling(
     ]
     answers = [output.Answer(rendered(parts), None), *_as_csv(samples, output_file)]
     if plot is not None:
-        from serendipity.benchmark.plot import series
+        from serendipity.evaluation.benchmark.plot import series
 
         answers.append(output.Answer(series(samples, plot.suffix), plot, "--plot"))
     output.write_answers(answers)
@@ -147,7 +147,7 @@ def _scaling(
 def _check_files(output_file: Path | None, plot: Path | None) -> None:
     output.check_output(output_file)
     if plot is not None:
-        from serendipity.benchmark.plot import check_suffix
+        from serendipity.evaluation.benchmark.plot import check_suffix
 
         output.check_output(plot, "--plot")
         check_suffix(plot.suffix)
@@ -155,7 +155,7 @@ def _check_files(output_file: Path | None, plot: Path | None) -> None:
 
 def _present(names: Sequence[str]) -> tuple[list[str], tuple[str, ...]]:
     """The contenders that can run here, and a warning for each that can't."""
-    from serendipity.benchmark import CONTENDERS
+    from serendipity.evaluation.benchmark import CONTENDERS
 
     reasons = {name: CONTENDERS[name].absent() for name in names if name in CONTENDERS}
     absent = tuple(reason for reason in reasons.values() if reason is not None)

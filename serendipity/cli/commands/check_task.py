@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import serendipity
-from serendipity.cli import limits, naming, output, progress
 from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.options import limits, naming
+from serendipity.cli.streams import output, progress
 
 if TYPE_CHECKING:
-    from serendipity.cli.render import Grid, Line
+    from serendipity.cli.text.render import Grid, Line
     from serendipity.lint import TaskReport
 
 
@@ -40,7 +41,7 @@ def check_task(
     if form == "json":
         output.write_answer(output.as_json(report.to_dict()), output_file)
     else:
-        from serendipity.cli.render import rendered
+        from serendipity.cli.text.render import rendered
 
         output.write_answer(rendered(_text(report)), output_file)
     return ExitCode.ANSWERED if report.right else ExitCode.REFUTED
@@ -66,7 +67,7 @@ def _files(name: naming.TaskName) -> list[tuple[Path, Path]]:
 
 
 def _text(report: "TaskReport") -> "Iterator[Line | Grid]":
-    from serendipity.cli.render import Grid, Line
+    from serendipity.cli.text.render import Grid, Line
 
     yield Line(f"{report.task}: human {report.human}; {report.facts} facts in {report.variables} variables")
     yield Line()

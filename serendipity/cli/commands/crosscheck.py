@@ -8,8 +8,9 @@ from typing import Annotated, Final
 
 import typer
 
-from serendipity.cli import naming, output, progress
 from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.options import naming
+from serendipity.cli.streams import output, progress
 from serendipity.model import Deadline, UsageError
 
 _MODES: Final = ("individual", "serendipity", "communication", "composite")
@@ -51,7 +52,7 @@ def crosscheck(
     a limit is set.
     """
     output.start_logging(verbose)
-    from serendipity.crosscheck import (
+    from serendipity.evaluation.crosscheck import (
         JUDGES,
         PlanCall,
         compare,

@@ -1,6 +1,6 @@
 """``serendipity examples``: the tasks that are shipped."""
 
-from serendipity.cli import output
+from serendipity.cli.streams import output
 
 
 def examples() -> None:

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import serendipity
-from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import OF_STATUS
-from serendipity.cli.human_plan import read_human_plan
-from serendipity.cli.reading import read_json
+from serendipity.cli.files.human_plan import read_human_plan
+from serendipity.cli.files.reading import read_json
+from serendipity.cli.options import limits, naming, plan_options
+from serendipity.cli.streams import output, progress
 from serendipity.model import Deadline, InputError, Result, Task
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def _read(task: Task, path: Path, deadline: Deadline) -> Result:
 def _shown(found: "Explanation", form: str) -> str:
     if form == "json":
         return output.as_json(found.to_dict())
-    from serendipity.cli.render import Grid, Line, rendered
+    from serendipity.cli.text.render import Grid, Line, rendered
 
     parts: list[Any] = []
     for topic, several in groupby(found.sentences, key=lambda sentence: sentence[0]):

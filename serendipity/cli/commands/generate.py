@@ -7,7 +7,7 @@ import typer
 
 from serendipity.cli.choices import choices
 from serendipity.cli.help_examples import epilog
-from serendipity.cli.output import say
+from serendipity.cli.streams.output import say
 from serendipity.writing.printable import printable
 
 app = typer.Typer(

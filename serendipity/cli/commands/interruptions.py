@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 import serendipity
-from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.human_plan import read_human_plan
+from serendipity.cli.files.human_plan import read_human_plan
+from serendipity.cli.options import limits, naming, plan_options
+from serendipity.cli.streams import output, progress
 from serendipity.model import UsageError
 from serendipity.model.errors import limit_words
 from serendipity.model.numbers import plain
@@ -20,7 +21,7 @@ _WRITE_SHARE: Final = {"text": 0.05, "json": 0.2}
 """What of the time limit is kept for writing: each window has a plan, and they are thousands."""
 
 if TYPE_CHECKING:
-    from serendipity.cli.render import Grid, Line
+    from serendipity.cli.text.render import Grid, Line
     from serendipity.facade.interruptibility import InterruptionReport
 
 
@@ -85,7 +86,7 @@ def _code(report: "InterruptionReport") -> ExitCode:
 def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str:
     if form == "json":
         return output.as_json(report.to_dict())
-    from serendipity.cli.render import rendered
+    from serendipity.cli.text.render import rendered
 
     return rendered(_text(report, every=every))
 
@@ -95,16 +96,16 @@ def _drawn(report: "InterruptionReport", suffix: str) -> str | bytes:
 
     picture = heat_map(report)
     if suffix == ".png":
-        from serendipity.show.png import png
+        from serendipity.show.formats.png import png
 
         return png(picture)
-    from serendipity.show.svg import svg
+    from serendipity.show.formats.svg import svg
 
     return svg(picture) + "\n"
 
 
 def _text(report: "InterruptionReport", *, every: bool) -> "Iterator[Line | Grid]":
-    from serendipity.cli.render import Grid, Line
+    from serendipity.cli.text.render import Grid, Line
 
     if report.human_plan is None:
         yield Line(f"{report.human} can't reach the goal alone: there is no plan to interrupt")

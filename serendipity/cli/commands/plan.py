@@ -8,10 +8,11 @@ from typing import Annotated, Final
 import typer
 
 import serendipity
-from serendipity.cli import goals as goal_options
-from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
-from serendipity.cli.interrupts import cancelling
+from serendipity.cli.options import limits, naming, plan_options
+from serendipity.cli.process.interrupts import cancelling
+from serendipity.cli.streams import output, progress
+from serendipity.cli.text import goals as goal_options
 from serendipity.model import Certificate, Deadline, Result, Task, UsageError
 from serendipity.model.numbers import plain
 
@@ -83,7 +84,7 @@ def plan(
     )
     options["deadline"] = deadline.sooner(_CHECK_SHARE)
     if human_plan is not None:
-        from serendipity.cli.human_plan import read_human_plan
+        from serendipity.cli.files.human_plan import read_human_plan
 
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     if goals is not None:
@@ -107,7 +108,7 @@ def plan(
     certificate, certify = _certificate(task, result, cancelled, deadline, certify=certify, quiet=quiet)
     answers = [output.Answer(_shown(task, result, certificate, form, claims=certify), output_file)]
     if save_plan is not None and result.plan is not None:
-        from serendipity.cli.plan_file import plan_file
+        from serendipity.cli.files.plan_file import plan_file
 
         answers.append(output.Answer(plan_file(task, result), save_plan, "--save-plan"))
     elif save_plan is not None:
@@ -141,7 +142,7 @@ def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, c
     if form == "json":
         certified = {"certificate": certificate.to_dict()} if claims else {}
         return output.as_json(result.to_dict() | certified)
-    from serendipity.cli.text import plan_report
+    from serendipity.cli.text.answers import plan_report
 
     return plan_report(task, result, certificate, claims=claims)
 
@@ -166,8 +167,8 @@ def _for_goals(result: Result, certificate: Certificate | None, form: str, outpu
         answer = result.to_dict() | ({} if certificate is None else {"certificate": certificate.to_dict()})
         output.write_answer(output.as_json(answer), output_file)
     else:
-        from serendipity.cli.render import rendered
-        from serendipity.cli.text import certificate_report
+        from serendipity.cli.text.answers import certificate_report
+        from serendipity.cli.text.render import rendered
 
         text = rendered(goal_options.plan_text(result))
         if certificate is not None:

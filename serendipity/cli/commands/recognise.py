@@ -6,9 +6,10 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import goals as goal_options
-from serendipity.cli import limits, naming, output, plan_options, progress
 from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.options import limits, naming, plan_options
+from serendipity.cli.streams import output, progress
+from serendipity.cli.text import goals as goal_options
 
 
 def recognise(
@@ -46,7 +47,7 @@ def recognise(
     if form == "json":
         output.write_answer(output.as_json(found.to_dict()), output_file)
     else:
-        from serendipity.cli.render import rendered
+        from serendipity.cli.text.render import rendered
 
         output.write_answer(rendered(goal_options.recognition_text(found)), output_file)
     return ExitCode.ANSWERED

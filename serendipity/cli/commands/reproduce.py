@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from serendipity.cli import output
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.stderr import is_terminal, tell
+from serendipity.cli.streams import output
+from serendipity.cli.streams.stderr import is_terminal, tell
 from serendipity.model import UsageError
 from serendipity.model.options import limit_of
 from serendipity.writing.printable import message
 
 if TYPE_CHECKING:
-    from serendipity.reproduction import Reproduction
-    from serendipity.reproduction.tables import Entry, ExampleAnswer, Times
+    from serendipity.evaluation.reproduction import Reproduction
+    from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Times
 
 log = logging.getLogger("serendipity.reproduce")
 
@@ -84,9 +84,9 @@ def reproduce(
     output.check_output(output_file)
     for option, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
         output.check_output(file, option)
-    from serendipity.cli.progress import shown
-    from serendipity.reproduction import reproduce as run_all
-    from serendipity.reproduction.tables import examples, table_1, table_2
+    from serendipity.cli.streams.progress import shown
+    from serendipity.evaluation.reproduction import reproduce as run_all
+    from serendipity.evaluation.reproduction.tables import examples, table_1, table_2
 
     kept = journal
     if kept is None and output_file is not None:
@@ -145,7 +145,7 @@ def _answer(
     times: "tuple[Times, ...]",
     answers: "tuple[ExampleAnswer, ...]",
 ) -> str:
-    from serendipity.reproduction import formats
+    from serendipity.evaluation.reproduction import formats
 
     if form == "csv":
         return formats.rows_as_csv(run)
@@ -160,9 +160,9 @@ def _text(
     times: "tuple[Times, ...]",
     answers: "tuple[ExampleAnswer, ...]",
 ) -> str:
-    from serendipity.cli.render import Grid, Line, rendered
-    from serendipity.reproduction import COLUMNS
-    from serendipity.reproduction.report import examples_grid, table_1_grid, table_2_grid
+    from serendipity.cli.text.render import Grid, Line, rendered
+    from serendipity.evaluation.reproduction import COLUMNS
+    from serendipity.evaluation.reproduction.report import examples_grid, table_1_grid, table_2_grid
 
     parts: list[Line | Grid] = [Grid(COLUMNS, [row.cells() for row in run.rows])]
     if run.unproved:
@@ -186,8 +186,8 @@ def _extras(
     answers: "tuple[ExampleAnswer, ...]",
 ) -> Iterator[output.Answer]:
     """What was asked for besides the answer."""
-    from serendipity.reproduction import formats
-    from serendipity.reproduction.report import html_report
+    from serendipity.evaluation.reproduction import formats
+    from serendipity.evaluation.reproduction.report import html_report
 
     if report is not None:
         yield output.Answer(html_report(run, entries, times, answers), report, "--report")

@@ -5,10 +5,11 @@ from typing import Annotated, Final
 
 import typer
 
-from serendipity.cli import naming, output, progress
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.reading import Strict, broken_rule, read_result
-from serendipity.cli.stderr import tell
+from serendipity.cli.files.reading import Strict, broken_rule, read_result
+from serendipity.cli.options import naming
+from serendipity.cli.streams import output, progress
+from serendipity.cli.streams.stderr import tell
 from serendipity.model import InputError, UsageError
 
 SUFFIXES: Final = (".html", ".svg", ".png")

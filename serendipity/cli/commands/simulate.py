@@ -5,11 +5,12 @@ from typing import Annotated
 import typer
 
 import serendipity
-from serendipity.cli import limits, naming, output, progress
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.reading import Strict, broken_rule, read_result
-from serendipity.cli.stderr import tell
+from serendipity.cli.files.reading import Strict, broken_rule, read_result
+from serendipity.cli.options import limits, naming
+from serendipity.cli.streams import output, progress
+from serendipity.cli.streams.stderr import tell
 from serendipity.model import InputError
 
 
@@ -53,7 +54,7 @@ def simulate(
     if form == "json":
         output.write_answer(output.as_json(trace.to_dict()), output_file)
     else:
-        from serendipity.cli.render import Line, rendered
+        from serendipity.cli.text.render import Line, rendered
 
         output.write_answer(rendered(map(Line, trace.lines())), output_file)
     return ExitCode.ANSWERED

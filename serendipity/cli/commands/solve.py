@@ -3,9 +3,10 @@
 from typing import Final
 
 import serendipity
-from serendipity.cli import limits, naming, output, plan_options, program_options, progress
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
-from serendipity.cli.human_plan import read_human_plan
+from serendipity.cli.files.human_plan import read_human_plan
+from serendipity.cli.options import limits, naming, plan_options, program_options
+from serendipity.cli.streams import output, progress
 
 _CHECK_SHARE: Final = 0.05
 """What the check of an answer may add to the time limit: a share of it."""
@@ -76,7 +77,7 @@ def solve(
     if form == "json":
         output.write_answer(output.as_json(result.to_dict()), output_file)
     else:
-        from serendipity.cli.text import plan_report
+        from serendipity.cli.text.answers import plan_report
 
         output.write_answer(plan_report(task, result, certificate, claims=False), output_file)
     return ExitCode.REFUTED if certificate.verdict == "refuted" else OF_STATUS[result.status]

@@ -1,9 +1,10 @@
 """``serendipity verify``: a second opinion on a result."""
 
 import serendipity
-from serendipity.cli import limits, naming, output, program_options, progress
 from serendipity.cli.exit_codes import OF_VERDICT
-from serendipity.cli.reading import read_result
+from serendipity.cli.files.reading import read_result
+from serendipity.cli.options import limits, naming, program_options
+from serendipity.cli.streams import output, progress
 from serendipity.model import InputError
 
 
@@ -40,7 +41,7 @@ def verify(
     if form == "json":
         output.write_answer(output.as_json(certificate.to_dict()), output_file)
     else:
-        from serendipity.cli.text import certificate_report
+        from serendipity.cli.text.answers import certificate_report
 
         output.write_answer(certificate_report(certificate), output_file)
     return OF_VERDICT[certificate.verdict]

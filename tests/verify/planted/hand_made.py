@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from serendipity.crosscheck import PlanCall
+from serendipity.evaluation.crosscheck import PlanCall
 from tests.support.builders import task as build
 from tests.support.cases import case_1, case_4
 

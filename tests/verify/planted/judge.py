@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pytest
 
 import serendipity
-from serendipity.crosscheck import PlanCall, random_call
+from serendipity.evaluation.crosscheck import PlanCall, random_call
 from serendipity.facade.certify import verify
 from serendipity.model import PlanError, UsageError
 from tests.support.builders import task as build

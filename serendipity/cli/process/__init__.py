@@ -1,0 +1,1 @@
+"""The process around a command: signals, and how it ends."""

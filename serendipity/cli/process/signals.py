@@ -1,0 +1,6 @@
+"""The signals that ask a process to end."""
+
+import signal
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+"""Ctrl-C; and ``kill``, ``timeout``, containers and schedulers."""

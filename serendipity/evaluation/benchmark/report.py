@@ -1,0 +1,130 @@
+"""Timings as tables: what the others take over what the search takes, then the times themselves."""
+
+import os
+import platform
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from serendipity.evaluation.benchmark.contenders import SEARCHES
+from serendipity.evaluation.benchmark.measure import Timing
+
+RATIOS_HEADER: Final = (
+    *("mode", "contender", "over", "calls", "of medians", "of 95 %"),
+    *("call by call: 50 %", "95 %", "least"),
+)
+"""Headings of :func:`ratios`."""
+
+TIMES_HEADER: Final = ("mode", "contender", "calls", "proved", "median", "95 %", "longest", "min-max")
+"""Headings of :func:`times`: of the median times of each call, but for min-max."""
+
+_PROCESS: Final = ", process"
+_CPU_INFO: Final = Path("/proc/cpuinfo")
+
+
+@dataclass(frozen=True, slots=True)
+class _Figure:
+    """A time or a ratio; ``cut``: a limit made it too small."""
+
+    value: float
+    cut: bool = False
+
+
+def ratios(timings: Sequence[Timing]) -> list[tuple[str, ...]]:
+    """What each contender takes as a multiple of each way to call the search, on the same calls.
+
+    First the ratios of medians and of 95th percentiles, then percentiles of the ratios of
+    single calls.  Calls that met the limit count with what they had taken by then; ``>=``
+    marks figures that this makes too small.  Calls that the search itself did not prove are
+    left out: ``calls`` says how many are counted, of how many.
+    """
+    groups = _groups(timings)
+    rows = []
+    for (mode, contender), members in groups.items():
+        for search in SEARCHES if contender not in SEARCHES else ():
+            if (mode, search) in groups:
+                rows.append((mode, contender, search, *_ratios(members, groups[mode, search])))
+    return rows
+
+
+def _ratios(members: Sequence[Timing], searches: Sequence[Timing]) -> Iterator[str]:
+    base = {(timing.task, timing.discount): timing.seconds for timing in searches if timing.solved}
+    pairs = [(_figure(t), base[t.task, t.discount]) for t in members if (t.task, t.discount) in base]
+    yield str(len(members)) if len(pairs) == len(members) else f"{len(pairs)} of {len(members)}"
+    if not pairs:
+        yield from ("",) * 5
+        return
+    theirs = [figure for figure, _ in pairs]
+    ours = [_Figure(seconds) for _, seconds in pairs]
+    for share in (0.5, 0.95):
+        figure = _percentile(theirs, share)
+        yield _ratio(replace(figure, value=figure.value / _percentile(ours, share).value))
+    single = [replace(figure, value=figure.value / seconds) for figure, seconds in pairs]
+    yield from (_ratio(_percentile(single, share)) for share in (0.5, 0.95, 0.0))
+
+
+def times(timings: Sequence[Timing]) -> list[tuple[str, ...]]:
+    """A row for each mode and contender; ``>=`` marks figures that the limit made too small."""
+    return [(*key, *_times(members)) for key, members in _groups(timings).items()]
+
+
+def _times(members: Sequence[Timing]) -> Iterator[str]:
+    yield from (str(len(members)), str(sum(timing.solved for timing in members)))
+    figures = [_figure(timing) for timing in members]
+    for share in (0.5, 0.95, 1.0):
+        figure = _percentile(figures, share)
+        yield f"{_mark(figure)}{figure.value * 1000:.2f} ms"
+    least = min(timing.fastest for timing in members)
+    most = max(timing.slowest for timing in members)
+    yield f"{least * 1000:.2f}-{most * 1000:.2f} ms"
+
+
+def _groups(timings: Sequence[Timing]) -> dict[tuple[str, str], list[Timing]]:
+    """Timings by mode and contender; an outside process is a contender beside what it says of itself."""
+    groups: dict[tuple[str, str], list[Timing]] = {}
+    for timing in timings:
+        groups.setdefault((timing.mode, timing.contender), []).append(timing)
+        if timing.process_seconds is not None:
+            name = timing.contender + _PROCESS
+            seconds = timing.process_seconds
+            whole = replace(timing, contender=name, seconds=seconds, fastest=seconds, slowest=seconds)
+            groups.setdefault((timing.mode, name), []).append(whole)
+    return groups
+
+
+def _figure(timing: Timing) -> _Figure:
+    return _Figure(timing.seconds, cut=not timing.solved)
+
+
+def _percentile(figures: Sequence[_Figure], share: float) -> _Figure:
+    """The figure below which a share of them lies; cut if it could be larger without a limit."""
+    ordered = sorted(figure.value for figure in figures)
+    value = ordered[min(len(ordered) - 1, int(len(ordered) * share))]
+    return _Figure(value, cut=any(figure.cut and figure.value <= value for figure in figures))
+
+
+def _ratio(figure: _Figure) -> str:
+    digits = 2 if figure.value < 10 else 0
+    return f"{_mark(figure)}{figure.value:,.{digits}f} x"
+
+
+def _mark(figure: _Figure) -> str:
+    return ">= " if figure.cut else ""
+
+
+def machine() -> str:
+    """What the figures were measured on."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    return (
+        f"{platform.system()} on {_processor()}, {os.cpu_count()} cores, {memory:.0f} GiB, "
+        f"Python {platform.python_version()}"
+    )
+
+
+def _processor() -> str:
+    if _CPU_INFO.exists():
+        for line in _CPU_INFO.read_text().splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.machine()

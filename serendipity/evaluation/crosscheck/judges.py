@@ -1,0 +1,180 @@
+"""The judges: independent answers to one call, and whether they agree."""
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Final
+
+from serendipity.evaluation.crosscheck.calls import PlanCall
+from serendipity.evaluation.crosscheck.laws import LAWS, Law
+from serendipity.evaluation.crosscheck.refusals import may_be_refused
+from serendipity.facade.certify import check, verify
+from serendipity.facade.planning import options_from, plan
+from serendipity.model import Deadline, PlanError, Result, UsageError
+from verify.calls.solve import solve
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """What judges have to agree on; ``error`` where the call is refused."""
+
+    status: str = "error"
+    cost: float | None = None
+    objective: float | None = None
+    opportunity: bool = False
+    saving: float | None = None
+
+    def __str__(self) -> str:
+        if self.status in ("error", "infeasible"):
+            return self.status
+        words = f"{self.status}, cost {self.cost}, objective {self.objective}"
+        return f"{words}, opportunity" if self.opportunity else words
+
+
+@dataclass(frozen=True, slots=True)
+class Disagreement:
+    """Judges that differ on a call, with what each says; or a law that the search's answer breaks."""
+
+    call: PlanCall
+    said: Mapping[str, str]
+    law: str | None = None
+
+    def __str__(self) -> str:
+        return "; ".join(f"{judge}: {words}" for judge, words in self.said.items())
+
+
+Judge = Callable[[PlanCall, Deadline], Result]
+
+
+def _by_search(call: PlanCall, deadline: Deadline) -> Result:
+    return plan(call.task, human_plan=call.human_plan, deadline=deadline, **call.keywords())
+
+
+def _by_program(encoding: str, solver: str) -> Judge:
+    def judge(call: PlanCall, deadline: Deadline) -> Result:
+        options = options_from(call.keywords())
+        return solve(
+            call.task,
+            options,
+            human_plan=call.human_plan,
+            encoding=encoding,
+            solver=solver,
+            deadline=deadline,
+        )
+
+    return judge
+
+
+JUDGES: Final[dict[str, Judge]] = {
+    "search": _by_search,
+    "automata": _by_program("automata", "highs"),
+    "paper": _by_program("paper", "highs"),
+    "cbc": _by_program("automata", "cbc"),
+}
+"""Judges by name; the first has to obey the laws, and is the only one that knows humans who replan."""
+
+
+def compare(
+    call: PlanCall,
+    judges: Mapping[str, Judge],
+    laws: Mapping[str, Law] = LAWS,
+    *,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+) -> Disagreement | None:
+    """Let every judge answer, and the verifier certify the answers; hold the search to its laws.
+
+    What follows from the figures is proved once for each of them.  Whatever a judge raises but a
+    refusal is a disagreement, too.  A judge that a limit stops before the proof agrees with
+    everybody, but its answer has to follow the rules; laws are for calls without limits.
+
+    Args:
+        call: what is asked.
+        judges: by name.
+        laws: by name.
+        time_limit: seconds for each answer, and for each certificate; or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
+    """
+    limits = partial(Deadline, time_limit, memory_limit)
+    said: dict[str, str] = {}
+    known: set[Figures] = set()
+    answers: dict[str, Result] = {}
+    sound = True
+    for name, judge in judges.items():
+        if name != "search" and "human_model" in call.options:
+            continue  # no program knows what he does: the verifier plays it
+        figures, words, answer = _asked(call, judge, known, limits)
+        said[name] = words
+        sound = sound and figures is not None
+        if figures is not None and figures.status not in ("unknown", "feasible"):
+            known.add(figures)
+        if answer is not None:
+            answers[name] = answer
+    if not sound or len(known) > 1:
+        return Disagreement(call, said)
+    if "search" in answers and time_limit is None and memory_limit is None:
+        for law, fault in _broken(call, answers["search"], laws):
+            return Disagreement(call, {"search": said["search"], law: fault}, law)
+    return None
+
+
+def shows_it_too(
+    found: Disagreement,
+    judges: Mapping[str, Judge],
+    *,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+) -> Callable[[PlanCall], bool]:
+    """A test of other calls: whether judges differ on them as well, or the same law is broken."""
+    if found.law is None:
+        return lambda call: (
+            compare(call, judges, {}, time_limit=time_limit, memory_limit=memory_limit) is not None
+        )
+    law, search = {found.law: LAWS[found.law]}, {"search": judges["search"]}
+
+    def broken(call: PlanCall) -> bool:
+        again = compare(call, search, law)
+        return again is not None and again.law == found.law
+
+    return broken
+
+
+def _asked(
+    call: PlanCall, judge: Judge, proved: Collection[Figures], limits: Callable[[], Deadline]
+) -> tuple[Figures | None, str, Result | None]:
+    """What a judge says, as figures (None: what can't be so), in words, and as an answer if it is one."""
+    refuted = None
+    try:
+        result = judge(call, limits())
+        if result.status != "unknown":
+            examine = check if figures_of(result) in proved else verify
+            refuted = examine(call.task, result, deadline=limits()).refuted
+    except (UsageError, PlanError) as error:
+        known = may_be_refused(call)
+        return Figures() if known else None, str(Figures() if known else error), None
+    except Exception as error:  # whatever it is, it is found
+        return None, _crash(error), None
+    figures = figures_of(result)
+    if refuted is not None:
+        return None, f"{figures} (refuted: {refuted.claim}: {refuted.reason})", result
+    return figures, str(figures), result if result.status != "unknown" else None
+
+
+def _broken(call: PlanCall, answer: Result, laws: Mapping[str, Law]) -> Iterator[tuple[str, str]]:
+    """The laws that an answer of the search breaks, and how."""
+    for name, law in laws.items():
+        try:
+            fault = next(law(call, answer), None)
+        except Exception as error:  # whatever it is, it is found
+            fault = _crash(error)
+        if fault is not None:
+            yield name, fault
+
+
+def _crash(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"
+
+
+def figures_of(result: Result) -> Figures:
+    """The figures of a result."""
+    return Figures(result.status, result.cost, result.objective, result.opportunity, result.saving)

@@ -1,0 +1,208 @@
+"""Laws: what holds between the answers of the search to one call, however it is asked.
+
+Each takes a call and the planner's answer to it, and says what is wrong, if anything is.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from itertools import pairwise
+from random import Random
+from typing import Final
+
+from serendipity.evaluation.crosscheck.calls import PlanCall, random_options
+from serendipity.evaluation.crosscheck.tasks import split
+from serendipity.facade.certify import check, verify
+from serendipity.facade.planning import options_from, plan, plan_anytime
+from serendipity.facade.session import Session
+from serendipity.model import Deadline, LimitReachedError, Options, PlanError, Result, Task, UsageError
+
+Law = Callable[[PlanCall, Result], Iterator[str]]
+
+
+class _Looks(Deadline):
+    """A deadline that runs out at a certain look at it: at the same one each time, unlike a clock."""
+
+    def __init__(self, looks: int) -> None:
+        super().__init__()
+        self._left = [looks]  # parts of the deadline share it
+
+    def check(self) -> None:
+        self._left[0] -= 1
+        if self._left[0] < 0:
+            raise LimitReachedError("time-limit")
+
+    tick = check
+
+
+def limited(call: PlanCall, answer: Result) -> Iterator[str]:
+    """Wherever a limit comes, on a task that is new or not, the answer claims no more than is so."""
+    task, dice = replace(call.task), Random(f"limits {call.seed}")
+    last, looks = answer, 0
+    while True:
+        deadline = _Looks(looks)
+        early = _plan(call, task, deadline=deadline)
+        yield from (f"after {looks} looks at the time: {fault}" for fault in _faults(call, early, answer))
+        if early.status == "feasible":
+            last = early
+        if early.status in ("optimal", "infeasible"):
+            break
+        looks = int(looks * dice.uniform(1.5, 3)) + 1
+    yield from _differences("the next call", _plan(call, task), answer)
+    for looks in (0, dice.randint(1, 40)):
+        early = _plan(call, task, deadline=_Looks(looks))
+        yield from (f"once more, after {looks} looks: {fault}" for fault in _faults(call, early, answer))
+    if last.status == "feasible":
+        refuted = verify(call.task, last).refuted
+        if refuted is not None:
+            yield f"status {last.status}: refuted: {refuted.claim}: {refuted.reason}"
+
+
+def anytime(call: PlanCall, answer: Result) -> Iterator[str]:
+    """Answers on the way get better and claim no more than is so; the last is what ``plan`` says."""
+    said = list(plan_anytime(replace(call.task), human_plan=call.human_plan, **call.keywords()))
+    for early in said:
+        yield from _faults(call, early, answer)
+    for one, other in pairwise(said):
+        if (one.lower_bound or 0) > (other.lower_bound or one.lower_bound or 0):
+            yield f"the bound falls from {one.lower_bound} to {other.lower_bound}"
+    yield from _differences("the last one", said[-1], answer)
+
+
+def repeated(call: PlanCall, answer: Result) -> Iterator[str]:
+    """What other calls have left with a task changes nothing."""
+    task, dice = replace(call.task), Random(f"other options {call.seed}")
+    for _ in range(2):
+        with suppress(UsageError):
+            plan(task, **PlanCall(task, random_options(dice)).keywords())
+    yield from _differences("after other calls", _plan(call, task), answer)
+
+
+def in_session(call: PlanCall, answer: Result) -> Iterator[str]:
+    """A session answers like fresh calls, also after an epoch was executed."""
+    session = Session(replace(call.task), human_plan=call.human_plan, **call.keywords())
+    yield from _differences("in a session", session.plan(), answer)
+    session.execute([step.action for step in answer.plan or () if step.epoch == 1])
+    fresh = replace(call.task, init=session.task.init)
+    given = session.human_plan
+    expected = _or_error(lambda: plan(fresh, human_plan=given, **call.keywords()))
+    found = _or_error(session.plan)
+    if isinstance(expected, str) or isinstance(found, str):
+        if expected != found:
+            yield f"a session says {found}, a fresh call {expected}"
+        return
+    yield from _differences("after an epoch", _same_rank(fresh, found, expected), expected)
+
+
+def in_variants(call: PlanCall, answer: Result) -> Iterator[str]:
+    """An action written as two, where some fact is true and where it is false, is the same action.
+
+    Not so where ``pi_H`` is followed in the variant that was planned, as in a prefix and beside
+    goals of robots, nor where conditions interfere.
+    """
+    options, task, dice = options_from(call.keywords()), call.task, Random(f"variants {call.seed}")
+    theirs = {f for a in task.actions if task.human not in a.participants for f in (*a.add, *a.delete)}
+    if options.windowed or options.strict or task.robot_goal or not theirs or not task.human_actions:
+        return
+    i, fact = dice.choice(task.human_actions), dice.choice(sorted(theirs))
+    if fact in (*task.actions[i].pre, *task.actions[i].neg):
+        return
+    found = _plan(call, split(task, i, fact))
+    for name in ("status", "cost", "objective", "opportunity", "saving"):
+        if getattr(found, name) != getattr(answer, name):
+            yield f"{name} is {getattr(found, name)} with '{task.actions[i].name}' in two variants"
+
+
+LAWS: Final[Mapping[str, Law]] = {
+    "limits": limited,
+    "on the way": anytime,
+    "again": repeated,
+    "session": in_session,
+    "variants": in_variants,
+}
+"""Laws by what they say is asked otherwise."""
+
+
+def _plan(call: PlanCall, task: Task, deadline: Deadline | None = None) -> Result:
+    return plan(task, human_plan=call.human_plan, deadline=deadline, **call.keywords())
+
+
+def _or_error(ask: Callable[[], Result]) -> Result | str:
+    try:
+        return ask()
+    except (UsageError, PlanError) as error:
+        return str(error)
+
+
+def _differences(where: str, found: Result, expected: Result) -> Iterator[str]:
+    one, other = (replace(result, statistics={}).to_dict() for result in (found, expected))
+    for name, value in one.items():
+        if value != other[name]:
+            yield f"{where}: {name} is {value}, not {other[name]}"
+
+
+def _same_rank(task: Task, found: Result, expected: Result) -> Result:
+    """``found``, with the expected plan where its own is another one of the same rank (semantics 3.1).
+
+    A session keeps variables that a fresh call doesn't find, which may decide between the two.
+    """
+    alike = (found.cost, found.window, len(found.plan or ())) == (
+        expected.cost,
+        expected.window,
+        len(expected.plan or ()),
+    )
+    if not alike or check(task, found).refuted is not None:
+        return found
+    return replace(found, plan=expected.plan, agent_costs=expected.agent_costs, realised=expected.realised)
+
+
+def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
+    """What an answer that a limit may have cut short claims, and is not so."""
+    refuted = check(call.task, early).refuted
+    if refuted is not None:
+        yield f"refuted: {refuted.claim}: {refuted.reason}"
+    if early.status in ("optimal", "infeasible"):
+        if early.realised.items() <= final.realised.items():  # verdicts come after the proof
+            early = replace(early, realised=final.realised)
+        yield from _differences(early.status, early, final)
+        return
+    if final.status == "infeasible":
+        if early.status != "unknown":
+            yield f"status {early.status}, though nothing is feasible"
+        return
+    if _above(early.lower_bound, final.objective):
+        yield f"lower_bound {early.lower_bound}, but the optimum is {final.objective}"
+    if early.status == "feasible" and _comparable(call) and _above(_rank(final), _rank(early)):
+        yield f"objective {early.objective}, but the optimum is {final.objective}"
+    if early.opportunity and call.options.get("ties", "fixed") == "fixed":
+        yield from _opportunity_faults(early, final)
+
+
+def _opportunity_faults(early: Result, final: Result) -> Iterator[str]:
+    if early.saving_alone != final.saving_alone:
+        yield f"an opportunity with saving_alone {early.saving_alone}, which is {final.saving_alone}"
+    if early.saving is not None and early.saving <= (final.saving_alone or 0):
+        yield f"an opportunity that saves {early.saving}, without robots {final.saving_alone}"
+    if final.saving_alone and not any(step.agents != (early.human,) for step in early.plan or ()):
+        yield "an opportunity in which no robot acts"
+
+
+def _comparable(call: PlanCall) -> bool:
+    """Whether objectives with and without a window can be set against each other."""
+    options = options_from(call.keywords())
+    means = options.ties != "fixed" and options.mode in ("serendipity", "communication")
+    return not (options.windowed and (call.task.robot_goal or means))
+
+
+def _rank(answer: Result) -> float | None:
+    """The objective, as if doing nothing had a window of one epoch (semantics 3.1)."""
+    if answer.objective is None or answer.window is not None or not answer.human_plan:
+        return answer.objective
+    options: Options = answer.options
+    replans = options.human_model != "omniscient"
+    return answer.objective + (float(options.window_weight) if options.windowed and not replans else 0)
+
+
+def _above(one: float | None, other: float | None) -> bool:
+    """Whether a figure exceeds another by more than rounding."""
+    return one is not None and other is not None and one > other + 1e-9 * max(1.0, abs(other))

@@ -1,0 +1,80 @@
+"""A file to which each finished task is appended, so that a killed run can go on.
+
+A line is a JSON object and is written at once.  A line that a kill has cut off is
+dropped when the journal is opened again; its task is simply done again.
+"""
+
+import json
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from serendipity.evaluation.reproduction.rows import Row
+from serendipity.evaluation.reproduction.work import TaskRows
+from serendipity.model import InputError, UsageError
+
+
+class Journal:
+    """Rows of finished tasks on disk.
+
+    Args:
+        path: the file; made when the first task is finished.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def read(self) -> list[TaskRows]:
+        """What is there already; a line that was cut off is removed from the file.
+
+        Raises:
+            InputError: the file is something else than a journal.
+        """
+        try:
+            text = self.path.read_bytes()
+        except FileNotFoundError:
+            return []
+        except OSError as error:
+            raise InputError(f"can't be read: {error.strerror}", self.path) from None
+        whole, _, cut_off = text.rpartition(b"\n")
+        records = [self._record(line, i) for i, line in enumerate(whole.splitlines(), start=1)]
+        if cut_off:
+            if not cut_off.startswith(b"{"):
+                raise InputError("expected a journal of `serendipity reproduce`", self.path)
+            os.truncate(self.path, len(text) - len(cut_off))
+        return records
+
+    def append(self, record: TaskRows) -> None:
+        """Add a finished task; on return it is on disk.
+
+        Raises:
+            UsageError: the file can't be written; it is then as it was before.
+        """
+        before = self.path.stat().st_size if self.path.exists() else None
+        rows = [row.to_dict() for row in record.rows]
+        line = json.dumps({"test": record.test, "fingerprint": record.fingerprint, "rows": rows})
+        try:
+            with self.path.open("ab") as file:
+                file.write(line.encode() + b"\n")
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            self._cut(before)
+            raise UsageError(f"journal: {self.path} can't be written: {error.strerror}") from None
+
+    def _cut(self, size: int | None) -> None:
+        """Take away what has been written beyond a size; the whole file where that is None."""
+        with suppress(OSError):
+            if size is None:
+                self.path.unlink(missing_ok=True)
+            elif self.path.is_file():
+                os.truncate(self.path, size)
+
+    def _record(self, line: bytes, number: int) -> TaskRows:
+        try:
+            data: dict[str, Any] = json.loads(line)
+            rows = tuple(Row.from_dict(row) for row in data["rows"])
+            return TaskRows(data["test"], data["fingerprint"], rows)
+        except (ValueError, KeyError, TypeError):
+            raise InputError("expected a journal of `serendipity reproduce`", self.path, number) from None

@@ -1,0 +1,164 @@
+"""A run as one HTML page that needs nothing else: tables and charts."""
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import floor
+from typing import Final
+
+from serendipity.evaluation.reproduction.charts import Labels, Points, bars, lines
+from serendipity.evaluation.reproduction.run import Reproduction
+from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Times
+from serendipity.writing.printable import markup
+
+_STYLE: Final = """
+:root { color-scheme: light dark; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
+table { border-collapse: collapse; margin: 1rem 0; }
+.wide { overflow-x: auto; }
+th, td { padding: .25rem .75rem; text-align: right; border-bottom: 1px solid #8886; white-space: nowrap; }
+th { white-space: normal; vertical-align: bottom; }
+th:first-child, td:first-child { text-align: left; }
+svg { width: 100%; min-width: 36rem; max-width: 44rem; height: auto; }
+"""
+_MOST_BINS: Final = 16
+_WIDTHS: Final = tuple(Fraction(10) ** power * factor for power in range(-6, 12) for factor in (1, 2, 5))
+_LEAST_SECONDS: Final = 1e-6
+
+
+def html_report(
+    run: Reproduction, entries: Sequence[Entry], times: Sequence[Times], answers: Sequence[ExampleAnswer]
+) -> str:
+    """The page."""
+    tests = len({row.test for row in run.rows})
+    parts = [
+        "<h1>Planning for serendipity: a reproduction</h1>",
+        f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>",
+        "<h2>Table I: cost, and tasks in which a robot helps</h2>",
+        _table(*table_1_grid(entries)),
+        _chart_of_costs(entries),
+        _chart_of_counts(entries),
+        _chart_of_savings(run),
+        "<h2>Table II: seconds of a planning call</h2>",
+        _table(*table_2_grid(times)),
+        _chart_of_times(run),
+        "<h2>The examples of sections III-B to III-D</h2>",
+        _table(*examples_grid(answers)),
+    ]
+    # Wide things scroll by themselves, so that the page fits narrow screens and its words stay readable.
+    body = "\n".join(
+        f'<div class="wide">{part}</div>' if part.startswith("<svg") else part for part in parts if part
+    )
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>Planning for serendipity: a reproduction</title><style>{_STYLE}</style></head>\n"
+        f"<body>\n{body}\n</body></html>\n"
+    )
+
+
+def table_1_grid(entries: Sequence[Entry]) -> tuple[list[str], list[list[str]]]:
+    """Table I: a row per discount, a column per variant, the paper's figures beside."""
+    variants = list(dict.fromkeys(entry.variant for entry in entries))
+    found = {(entry.discount, entry.variant): entry for entry in entries}
+    header = ["discount"]
+    for variant in variants:
+        header.append(variant)
+        if any(entry.printed for entry in entries if entry.variant == variant):
+            header.append("paper")
+    rows = []
+    for discount in dict.fromkeys(entry.discount for entry in entries):
+        row = [f"{float(discount):.10g}"]
+        for variant in variants:
+            entry = found[discount, variant]
+            row.append("-" if entry.mean is None else f"{_short(entry.mean)} ({entry.improved})")
+            if entry.printed:
+                row.append(f"{float(entry.printed[0]):.2f} ({entry.printed[1]})")
+            elif any(e.printed for e in entries if e.variant == variant):
+                row.append("-")
+        rows.append(row)
+    return header, rows
+
+
+def table_2_grid(times: Sequence[Times]) -> tuple[list[str], list[list[str]]]:
+    """Table II: a row per mode."""
+    header = ["mode", "calls", "mean", "median", "max"]
+    printed = any(time.paper_2015 is not None for time in times)
+    rows = []
+    for time in times:
+        row = [time.mode, str(time.calls), *(f"{x:.6f}" for x in (time.mean, time.median, time.most))]
+        if printed:
+            row.append("-" if time.paper_2015 is None else f"{time.paper_2015:.2f}")
+        rows.append(row)
+    return [*header, *(["paper (2015, its machine)"] if printed else [])], rows
+
+
+def examples_grid(answers: Sequence[ExampleAnswer]) -> tuple[list[str], list[list[str]]]:
+    """The paper's examples: a row per example, mode and discount."""
+    rows = []
+    for answer in answers:
+        window = "" if answer.window is None else f"[{answer.window.start}, {answer.window.end})"
+        costs = [f"{cost:.10g}" if cost is not None else "-" for cost in (answer.human_cost, answer.cost)]
+        name = f"{answer.section} ({answer.name})"
+        rows.append([name, answer.mode, f"{float(answer.discount):.10g}", *costs, window])
+    return ["example", "mode", "discount", "alone", "cost", "window"], rows
+
+
+def _short(value: Fraction) -> str:
+    return f"{float(value):.6g}"
+
+
+def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    head = "".join(f"<th>{markup(cell)}</th>" for cell in header)
+    body = "".join("<tr>" + "".join(f"<td>{markup(cell)}</td>" for cell in row) + "</tr>\n" for row in rows)
+    return f'<div class="wide"><table><thead><tr>{head}</tr></thead>\n<tbody>{body}</tbody></table></div>'
+
+
+def _chart_of_costs(entries: Sequence[Entry]) -> str:
+    series: dict[str, list[tuple[float, float]]] = {}
+    for entry in entries:
+        if entry.mean is not None:
+            series.setdefault(entry.variant, []).append((float(entry.discount), float(entry.mean)))
+    return lines(Labels("Mean cost against discount", "discount", "mean cost"), series) if series else ""
+
+
+def _chart_of_counts(entries: Sequence[Entry]) -> str:
+    series: dict[str, list[tuple[float, float]]] = {}
+    for entry in entries:
+        if entry.variant != "individual":
+            series.setdefault(entry.variant, []).append((float(entry.discount), entry.improved))
+    return lines(Labels("Opportunities against discount", "discount", "tasks"), series) if series else ""
+
+
+def _chart_of_savings(run: Reproduction) -> str:
+    """How much is saved where something is, at the greatest discount."""
+    most = max(run.discounts)
+    saved: dict[str, list[Fraction]] = {}
+    for row in run.rows:
+        if row.discount == most and row.opportunity and row.cost is not None and row.human_cost is not None:
+            saved.setdefault(row.mode, []).append(row.human_cost - row.cost)
+    if not saved:
+        return ""
+    width = _width(max(max(values) for values in saved.values()))
+    last = max(floor(value / width) for values in saved.values() for value in values)
+    groups = [f"{float(i * width):g}-" for i in range(last + 1)]
+    series = {
+        mode: [sum(floor(value / width) == i for value in saved[mode]) for i in range(last + 1)]
+        for mode in run.modes
+        if mode in saved
+    }
+    labels = Labels(f"Savings at discount {float(most):g}", "saved cost, from", "tasks")
+    return bars(labels, groups, series)
+
+
+def _width(most: Fraction) -> Fraction:
+    """The finest round width that makes no more than ``_MOST_BINS`` bins."""
+    return next(width for width in _WIDTHS if most / width < _MOST_BINS)
+
+
+def _chart_of_times(run: Reproduction) -> str:
+    series: dict[str, Points] = {}
+    for mode in run.modes:
+        seconds = sorted(max(row.seconds, _LEAST_SECONDS) for row in run.rows if row.mode == mode)
+        series[mode] = [(value, 100 * (i + 1) / len(seconds)) for i, value in enumerate(seconds)]
+    labels = Labels("Planning calls answered within a time", "seconds", "percent of calls")
+    return lines(labels, series, log_x=True)

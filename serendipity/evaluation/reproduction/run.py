@@ -1,0 +1,176 @@
+"""A folder of tasks through modes x discounts: in parallel, and resumable."""
+
+from collections.abc import Callable, Generator, Iterable, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from fractions import Fraction
+from os import PathLike
+from pathlib import Path
+from time import time
+from typing import Final
+
+from serendipity.evaluation.reproduction.journal import Journal
+from serendipity.evaluation.reproduction.pool import in_processes, in_turn, on_dask
+from serendipity.evaluation.reproduction.rows import Row
+from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
+from serendipity.evaluation.reproduction.work import Assignment, Call, Limits, TaskRows, solve, unknown
+from serendipity.model import Deadline, Options, UsageError
+from serendipity.model.numbers import Number
+
+MODES: Final = ("individual", "serendipity", "communication", "composite")
+DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
+"""Those of the paper's Table I."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a run is, in tasks.
+
+    Attributes:
+        done: finished, those of an earlier run included.
+        total: all of them.
+        opportunities: rows so far in which a robot helps.
+    """
+
+    done: int
+    total: int
+    opportunities: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reproduction:
+    """The rows of a run, in the order task, mode, discount."""
+
+    modes: tuple[str, ...]
+    discounts: tuple[Fraction, ...]
+    rows: tuple[Row, ...]
+
+    @property
+    def unproved(self) -> int:
+        """The number of rows for which a limit came before the proof."""
+        return sum(not row.proved for row in self.rows)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every row is proved."""
+        return not self.unproved
+
+
+def reproduce(
+    folder: str | PathLike[str],
+    *,
+    modes: Iterable[str] = MODES,
+    discounts: Iterable[Number] = DISCOUNTS,
+    jobs: int = 1,
+    journal: str | PathLike[str] | None = None,
+    dask: str | None = None,
+    on_progress: Callable[[Progress], None] | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+) -> Reproduction:
+    """Solve every task of a folder in every mode at every discount.
+
+    Args:
+        folder: its subfolders are tasks, each with a folder per agent and ``superagent/``.
+        modes: which modes.
+        discounts: which discounts, 0 to 1.
+        jobs: number of processes.
+        journal: file to which finished tasks are appended; what it holds already is not
+            done again unless it is not proved, or the task's files have changed since.
+        dask: address of a Dask scheduler, ``"local"``, or None.
+        on_progress: called at the start and after each task.
+        time_limit: seconds for each row, and for reading a task, or None.  Rows for which it is
+            not enough are ``feasible`` or ``unknown``.
+        memory_limit: what each process may have in memory, in MiB, or None.
+        deadline: of the whole run: rows that it leaves no time for are ``unknown``.  What else
+            it watches than the time is looked at after each task.
+
+    Raises:
+        UsageError: an argument is wrong.
+        InputError: the folder, the journal or a task can't be read.
+    """
+    calls = _calls(modes, discounts)
+    if jobs < 1:
+        raise UsageError(f"jobs: expected at least 1, got {jobs}")
+    tasks = find_tasks(Path(folder))
+    book = None if journal is None else Journal(Path(journal))
+    known = {} if book is None else _by_call(book.read(), proved=True)
+    whole = deadline or Deadline()
+    limits = _limits(time_limit, memory_limit, whole)
+    assignments = [left for task in tasks if (left := _left(task, calls, known, limits)) is not None]
+    report = on_progress or (lambda _: None)
+    done = len(tasks) - len(assignments)
+    helped = sum(
+        known[_key(task, call)].opportunity for task in tasks for call in calls if _key(task, call) in known
+    )
+    report(Progress(done, len(tasks), helped))
+    with closing(_work(assignments, jobs, dask)) as records:
+        for record in records:
+            if book is not None:
+                book.append(record)
+            known |= _by_call([record])
+            done += 1
+            helped += sum(row.opportunity for row in record.rows)
+            report(Progress(done, len(tasks), helped))
+            if whole.reached() is not None:
+                break
+    rows = tuple(known.get(_key(task, call)) or unknown(task.test, call) for task in tasks for call in calls)
+    return Reproduction(
+        tuple(dict.fromkeys(c.mode for c in calls)), tuple(dict.fromkeys(c.discount for c in calls)), rows
+    )
+
+
+_Key = tuple[str, str, Call]
+
+
+def _calls(modes: Iterable[str], discounts: Iterable[Number]) -> tuple[Call, ...]:
+    wanted, levels = tuple(dict.fromkeys(modes)), tuple(discounts)
+    if not wanted or not levels:
+        raise UsageError("modes, discounts: expected at least one of each")
+    for mode in wanted:
+        if mode not in MODES:
+            raise UsageError(f"modes: expected some of {', '.join(MODES)}, got '{mode}'")
+    exact = dict.fromkeys(Options(discount=level).discount for level in levels)  # type: ignore[arg-type]
+    return tuple(Call(mode, discount) for mode in wanted for discount in exact)
+
+
+def _key(task: TaskFolder | TaskRows, call: Call) -> _Key:
+    return task.test, task.fingerprint, call
+
+
+def _by_call(records: Iterable[TaskRows], *, proved: bool = False) -> dict[_Key, Row]:
+    """The rows by what they answer; with ``proved`` those only that no limit could change."""
+    return {
+        _key(record, Call(row.mode, row.discount)): row
+        for record in records
+        for row in record.rows
+        if row.proved or not proved
+    }
+
+
+def _left(
+    task: TaskFolder, calls: Sequence[Call], known: dict[_Key, Row], limits: Limits
+) -> Assignment | None:
+    """What is still to be done for a task."""
+    missing = tuple(call for call in calls if _key(task, call) not in known)
+    return Assignment(task.test, task.path, task.fingerprint, missing, limits) if missing else None
+
+
+def _limits(time_limit: float | None, memory_limit: float | None, whole: Deadline) -> Limits:
+    """The limits of each row, checked, and when the whole run has to be over."""
+    options = Options(time_limit=time_limit, memory_limit=memory_limit)
+    left = whole.left()
+    until = None if left is None else time() + left
+    return Limits(options.time_limit, options.memory_limit, until)
+
+
+def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:
+    if not assignments:
+        return
+    if dask is not None:
+        yield from on_dask(solve, assignments, dask, jobs)
+    elif jobs == 1:
+        yield from in_turn(solve, assignments)
+    else:
+        yield from in_processes(solve, assignments, jobs)

@@ -1,0 +1,1 @@
+"""Lifted values to the task: bindings, ground actions, pruning, numbers."""

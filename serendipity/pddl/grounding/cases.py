@@ -1,0 +1,93 @@
+"""Ground actions with disjunctive conditions or conditional effects, case by case."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+
+from serendipity.model import InputError
+from serendipity.pddl.grounding.blocks import Record
+from serendipity.pddl.grounding.join import Relations
+from serendipity.pddl.grounding.normal import MAX_CASES, Clause, Disjuncts, Operator, TooManyCasesError
+from serendipity.pddl.grounding.quantifiers import ground_key, substitute
+from serendipity.pddl.parsing.lifted import Key, Literal, Unit
+from serendipity.pddl.parsing.tree import quoted
+from serendipity.pddl.work import Work
+
+Values = dict[str, str]
+"""Of an operator's variables."""
+
+
+class Cases:
+    """Ground actions with disjunctive conditions or conditional effects.
+
+    One record for each disjunct of the condition, and for each combination of truths
+    of the effects' conditions.
+    """
+
+    def __init__(
+        self, operator: Operator, unit: Unit, relations: Relations, facts: defaultdict[Key, int], work: Work
+    ) -> None:
+        self.operator = operator
+        self.unit = unit
+        self.facts = facts
+        self.disjuncts = Disjuncts(unit, relations.decide, work)
+
+    def expanded(self, records: Iterable[Record], bindings: Iterable[Values]) -> Iterator[Record]:
+        """The cases of records and the values of their variables.
+
+        Raises:
+            InputError: there are too many.
+        """
+        for record, values in zip(records, bindings, strict=True):
+            try:
+                yield from self._cases(record, values)
+            except TooManyCasesError:
+                raise self._error(record, "conditions") from None
+
+    def _cases(self, record: Record, values: Values) -> list[Record]:
+        choices = self.disjuncts.of_all(substitute(choice, values) for choice in self.operator.choices)
+        cases = [case for choice in choices if (case := self._with(record, choice)) is not None]
+        effects: dict[Clause, list[Literal]] = {}
+        for condition, literal in self.operator.conditional:
+            ground = Literal(ground_key(literal.key, values), literal.positive)
+            for clause in self.disjuncts.of(substitute(condition, values)):
+                effects.setdefault(clause, []).append(ground)
+        for clause, literals in effects.items():
+            cases = [new for case in cases for new in self._split(case, clause, literals)]
+            if len(cases) > MAX_CASES:
+                raise self._error(record, "conditional effects")
+        return cases
+
+    def _with(self, record: Record, clause: Clause) -> Record | None:
+        case: Record | None = record
+        for literal in sorted(clause):
+            case = None if case is None else _assume(case, self.facts[literal.key], literal.positive)
+        return case
+
+    def _split(self, case: Record, clause: Clause, then: Iterable[Literal]) -> Iterator[Record]:
+        """The condition false at its first literal, at its second, ..., or true."""
+        for literal in sorted(clause):
+            fact = self.facts[literal.key]
+            otherwise = _assume(case, fact, not literal.positive)
+            if otherwise is not None:
+                yield otherwise
+            known = _assume(case, fact, literal.positive)
+            if known is None:
+                return
+            case = known
+        add = tuple([self.facts[literal.key] for literal in then if literal.positive])
+        delete = tuple([self.facts[literal.key] for literal in then if not literal.positive])
+        yield case._replace(add=case.add + add, delete=case.delete + delete)
+
+    def _error(self, record: Record, what: str) -> InputError:
+        name = quoted(" ".join(record.key))
+        message = f"action {name}: more than {MAX_CASES} cases of its {what} are not supported"
+        return self.unit.domain_error(message, self.operator.schema.line)
+
+
+def _assume(record: Record, fact: int, truth: bool) -> Record | None:
+    """The record with one more precondition, or None where it contradicts the others."""
+    if fact in (record.neg if truth else record.pre):
+        return None
+    if fact in (record.pre if truth else record.neg):
+        return record
+    return record._replace(pre=(*record.pre, fact)) if truth else record._replace(neg=(*record.neg, fact))

@@ -1,0 +1,188 @@
+"""Operators to ground actions: names, fact ids, costs.
+
+Columns of them are built by C loops (``map``, ``zip``): at 100,000 actions a Python loop
+for each would cost seconds.
+"""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import chain, count
+from typing import Final
+
+from serendipity.model.errors import LIMITS
+from serendipity.pddl.grounding.blocks import Block, Column, Ids, Record, block_of
+from serendipity.pddl.grounding.cases import Cases
+from serendipity.pddl.grounding.costs import Costs
+from serendipity.pddl.grounding.join import Relations, bindings
+from serendipity.pddl.grounding.normal import Operator, operator
+from serendipity.pddl.grounding.product import Product
+from serendipity.pddl.grounding.quantifiers import ground_key
+from serendipity.pddl.parsing.lifted import Key, Schema, Unit
+from serendipity.pddl.parsing.tree import quoted
+from serendipity.pddl.work import Work, about
+
+Participants = Callable[[Sequence[Key]], Iterable[tuple[int, ...]]]
+"""From ground names ``(name, arguments...)`` to the ids of the agents that take part."""
+
+BYTES: Final = 300
+"""Of a ground action in a block, without what it asks for and changes; measured."""
+
+_BYTES_PER_FACT: Final = 8
+
+_SLICE: Final = 50_000
+"""Fact ids, arguments and the like in ground actions that are made at once: some milliseconds of them.
+
+Nobody need ask memory for so many.
+"""
+
+_LARGE: Final = 5_000
+"""Ground actions of a block that is made of single ones."""
+
+
+class Instantiator:
+    """Grounds schemas over one united initial state.
+
+    Args:
+        relations: what holds initially.
+        values: of function terms.
+        work: limits and progress.
+
+    Attributes:
+        facts: ids of the ground atoms so far, in the order of first use.
+    """
+
+    def __init__(self, relations: Relations, values: dict[Key, Fraction], work: Work) -> None:
+        self.relations = relations
+        self.work = work
+        self._costs = Costs(values)
+        self.facts: defaultdict[Key, int] = defaultdict(count().__next__)
+        self._blocks: list[Block] = []
+        self._records: list[Record] = []
+        self._count = 0
+
+    def ground(self, schema: Schema, unit: Unit, participants: Participants) -> None:
+        """Make the ground actions of a schema whose static preconditions hold.
+
+        Args:
+            schema: the action.
+            unit: the files that it is from; its parameters range over their objects.
+            participants: who takes part in the ground actions of given names.
+
+        Raises:
+            InputError: there are too many cases.
+            LimitReachedError: there are more ground actions than fit into memory.
+        """
+        try:
+            lifted = operator(schema, unit, self.work)
+            product = bindings(lifted, unit, self.relations, self.work)
+        except LIMITS:
+            name = quoted(schema.name)
+            self.work.doing = f"grounding action {name}, {self._count:,} ground actions so far"
+            raise
+        if lifted.choices:  # static ones have been decided
+            open_ = tuple(c for c in lifted.choices if not self.relations.static(c))
+            lifted = replace(lifted, choices=open_)
+        size = 10 + len(lifted.precondition) + len(lifted.effects) + len(lifted.conditional)
+        if product.size * size <= _SLICE:
+            self._ground(lifted, unit, participants, product)
+            return
+        what = f"reading {unit.place(schema)} comes to {about(product.size)} ground actions"
+        self.work.require(product.size * (BYTES + _BYTES_PER_FACT * size), what)
+        for part in product.slices(max(1, _SLICE // size)):
+            self._ground(lifted, unit, participants, part)
+
+    def _tell(self, more: int) -> None:
+        before, self._count = self._count, self._count + more
+        if not before or before // _LARGE < self._count // _LARGE:
+            self.work.stage(f"grounding, {self._count:,} ground actions so far")
+
+    def _ground(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> None:
+        self._tell(product.size)
+        if operator.conditional or operator.choices:
+            cases = Cases(operator, unit, self.relations, self.facts, self.work)
+            records = self._block(operator, unit, participants, product).records()
+            for record in self.work.polled(cases.expanded(records, product)):
+                self._add(record)
+        elif product.everything:
+            self._blocks.append(self._block(operator, unit, participants, product))
+        elif product.size:  # in files that are ground already, there is nothing else
+            self._add(self._record(operator, unit, participants, product))
+
+    def _add(self, record: Record) -> None:
+        self._records.append(record)
+        if len(self._records) >= _LARGE:
+            self._make_block()
+
+    def _make_block(self) -> None:
+        self._blocks.append(block_of(self._records))
+        self._records = []
+        self.work.require(_LARGE * BYTES, f"grounding cases, {self._count:,} ground actions so far")
+
+    def blocks(self) -> list[Block]:
+        """All ground actions so far."""
+        return [*self._blocks, block_of(self._records)]
+
+    def _block(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Block:
+        atoms = _Atoms(product, self.facts)
+        keys = atoms.of(schema_key(operator), product.everything)
+        pre, neg, add, delete = map(atoms.column, self._conditions(operator))
+        who = [*participants(keys)]
+        return Block(keys, who, pre, neg, add, delete, self._costs.of(operator.schema, unit, product))
+
+    def _record(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Record:
+        values = product.fixed
+        key = ground_key(schema_key(operator), values)
+        pre, neg, add, delete = (
+            tuple([self.facts[ground_key(atom, values)] for atom in atoms])
+            for atoms in self._conditions(operator)
+        )
+        (who,) = participants([key])
+        (cost,) = self._costs.of(operator.schema, unit, product)
+        return Record(key, who, pre, neg, add, delete, cost)
+
+    def _conditions(self, operator: Operator) -> tuple[list[Key], list[Key], list[Key], list[Key]]:
+        """The lifted atoms that must be true, must be false, become true, become false."""
+        fluent = self.relations.fluent
+        needs = [literal for literal in operator.precondition if literal.key[0] in fluent]
+        return (
+            [literal.key for literal in needs if literal.positive],
+            [literal.key for literal in needs if not literal.positive],
+            [literal.key for literal in operator.effects if literal.positive],
+            [literal.key for literal in operator.effects if not literal.positive],
+        )
+
+
+class _Atoms:
+    """Ground atoms of lifted ones, for all bindings at once."""
+
+    def __init__(self, product: Product, facts: dict[Key, int]) -> None:
+        self.product = product
+        self.facts = facts
+        self._ids: dict[Key, list[int]] = {}
+
+    def of(self, lifted: Key, part: tuple[int, ...]) -> list[Key]:
+        """The ground atoms of one atom, for each binding of the part that it depends on."""
+        head, *terms = lifted
+        columns = [self.product.column(term, part) for term in (head, *terms)]
+        return list(zip(*columns, strict=True))
+
+    def column(self, lifted: Sequence[Key]) -> Column:
+        """The fact ids of some atoms."""
+        part = self.product.part(chain.from_iterable(lifted))
+        spread = [self._spread(key, part) for key in lifted]
+        table: list[Ids] = [*zip(*spread, strict=True)] if lifted else [()]
+        return Column(table, self.product.index(part, self.product.everything))
+
+    def _spread(self, key: Key, whole: tuple[int, ...]) -> Iterator[int]:
+        part = self.product.part(key)
+        ids = self._ids.get(key)
+        if ids is None:
+            ids = self._ids[key] = [*map(self.facts.__getitem__, self.of(key, part))]
+        return map(ids.__getitem__, self.product.index(part, whole))
+
+
+def schema_key(operator: Operator) -> Key:
+    """The lifted name of an operator's actions: name, declared parameters."""
+    return (operator.schema.name, *(p.name for p in operator.schema.parameters))

@@ -1,0 +1,258 @@
+"""Schemas to operators, and conditions to disjunctive normal form.
+
+What every way to do an action needs becomes the operator's precondition: ``forall``
+is a conjunction over the objects of the type, ``exists`` a parameter that the action's
+name does not show.  Disjunctions stay formulas; they are expanded for each ground
+action, when static facts have decided most of them.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass, field
+from itertools import count
+from typing import Final
+
+from serendipity.pddl.grounding.quantifiers import (
+    assignments,
+    ground_key,
+    how_many,
+    instances,
+    simplified,
+    simplified_effect,
+    substitute,
+)
+from serendipity.pddl.parsing.lifted import (
+    And,
+    Effect,
+    Formula,
+    Literal,
+    Or,
+    Parameter,
+    Quantified,
+    Schema,
+    Unit,
+)
+from serendipity.pddl.work import Work, about
+
+MAX_CASES: Final = 256
+"""The most cases that one ground action's conditions, or its effects, may have."""
+
+_BYTES: Final = 200
+"""Of a literal in a condition or an effect, measured."""
+
+_FEW: Final = 10_000
+"""Literals that nobody need ask memory for."""
+
+Clause = frozenset[Literal]
+"""A conjunction of literals that contradict neither each other nor static facts."""
+
+Decide = Callable[[Literal], bool | None]
+"""The truth of a ground literal, or None where it depends on the state."""
+
+
+class TooManyCasesError(Exception):
+    """A condition has more than ``MAX_CASES`` disjuncts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Operator:
+    """A schema whose conditions are sorted out.
+
+    Attributes:
+        schema: the action.
+        parameters: declared ones, then hidden ones.
+        precondition: literals, equalities among them.
+        choices: further conditions, disjunctive ones.
+        effects: unconditional effects.
+        conditional: pairs of a condition and the effect that it has.
+    """
+
+    schema: Schema
+    parameters: tuple[Parameter, ...]
+    precondition: tuple[Literal, ...]
+    choices: tuple[Formula, ...] = ()
+    effects: tuple[Literal, ...] = ()
+    conditional: tuple[tuple[Formula, Literal], ...] = ()
+
+
+def operator(schema: Schema, unit: Unit, work: Work) -> Operator:
+    """The operator of a schema over the objects of its own files.
+
+    Raises:
+        LimitReachedError: its quantifiers stand for more than fits into memory.
+    """
+    precondition: Formula = schema.precondition
+    effects: Sequence[Effect] = schema.effects
+    if schema.quantified:
+        precondition = simplified(precondition, unit)
+        effects = [e for effect in effects if (e := simplified_effect(effect, unit)) is not None]
+        number = _expanded(precondition, unit)
+        number += sum(
+            how_many(e.parameters, unit) * instances(e.condition or e.literal, unit) for e in effects
+        )
+        require_literals(number, unit.place(schema), work)
+    needs = _Needs(unit, work)
+    needs.collect(precondition)
+    simple, conditional = _expand_effects(effects, unit, work)
+    return Operator(
+        schema,
+        (*schema.parameters, *needs.hidden),
+        tuple(needs.literals),
+        tuple(needs.choices),
+        simple,
+        conditional,
+    )
+
+
+def require_literals(number: int, place: str, work: Work) -> None:
+    """Check that so many literals fit into memory.
+
+    Raises:
+        LimitReachedError: they don't; it names the place and the number.
+    """
+    if number > _FEW:
+        work.require(
+            number * _BYTES, f"reading {place} comes to {about(number)} literals without quantifiers"
+        )
+
+
+def _expanded(formula: Formula, unit: Unit) -> int:
+    """How many literals a precondition comes to; what exists becomes a parameter."""
+    match formula:
+        case And(parts) | Or((_,) as parts):
+            return sum(_expanded(part, unit) for part in parts)
+        case Quantified(False, _, body):
+            return _expanded(body, unit)
+        case Quantified(True, parameters, body):
+            return how_many(parameters, unit) * _expanded(body, unit)
+    return instances(formula, unit)
+
+
+@dataclass(slots=True)
+class _Needs:
+    """What a condition needs in every case, and the choices that it leaves."""
+
+    unit: Unit
+    work: Work
+    literals: list[Literal] = field(default_factory=list)
+    choices: list[Formula] = field(default_factory=list)
+    hidden: list[Parameter] = field(default_factory=list)
+    fresh: Iterator[int] = field(default_factory=count)
+
+    def collect(self, formula: Formula) -> None:
+        match formula:
+            case Literal():
+                self.literals.append(formula)
+            case And(parts):
+                for part in parts:
+                    self.collect(part)
+            case Or((part,)):
+                self.collect(part)
+            case Or():
+                self.choices.append(formula)
+            case Quantified(True, parameters, body):
+                for values in assignments(parameters, self.unit):
+                    self.work.deadline.tick()
+                    self.collect(substitute(body, values))
+            case Quantified(_, parameters, body):
+                renaming = {p.name: f"{p.name} {next(self.fresh)}" for p in parameters}
+                self.hidden += [Parameter(renaming[p.name], p.type) for p in parameters]
+                self.collect(substitute(body, renaming))
+
+
+def _expand_effects(
+    effects: Iterable[Effect], unit: Unit, work: Work
+) -> tuple[tuple[Literal, ...], tuple[tuple[Formula, Literal], ...]]:
+    """The unconditional effects, and the others with their conditions, without ``forall``."""
+    simple: list[Literal] = []
+    conditional: list[tuple[Formula, Literal]] = []
+    for effect in effects:
+        if effect.condition is None and not effect.parameters:
+            simple.append(effect.literal)
+            continue
+        for values in work.polled(assignments(effect.parameters, unit)):
+            literal = Literal(ground_key(effect.literal.key, values), effect.literal.positive)
+            if effect.condition is None:
+                simple.append(literal)
+            else:
+                conditional.append((substitute(effect.condition, values), literal))
+    return tuple(simple), tuple(conditional)
+
+
+class Disjuncts:
+    """Disjunctive normal forms of ground conditions.
+
+    Args:
+        unit: whose objects quantifiers range over.
+        decide: the truth of what does not depend on the state.
+        work: its deadline is asked.
+    """
+
+    def __init__(self, unit: Unit, decide: Decide, work: Work) -> None:
+        self._unit = unit
+        self._decide = decide
+        self._tick = work.deadline.tick
+
+    def of(self, formula: Formula) -> list[Clause]:
+        """The disjuncts of a ground condition: none if it is false, an empty one if it is true.
+
+        Raises:
+            TooManyCasesError: there are more than ``MAX_CASES``.
+        """
+        self._tick()
+        match formula:
+            case Literal():
+                truth = self._decide(formula)
+                if truth is None:
+                    return [frozenset((formula,))]
+                return [frozenset()] if truth else []
+            case And(parts):
+                return self.of_all(parts)
+            case Or(parts):
+                return self._minimal(clause for part in parts for clause in self.of(part))
+            case Quantified(universal, parameters, body):
+                instances = (substitute(body, values) for values in assignments(parameters, self._unit))
+                if universal:
+                    return self.of_all(instances)
+                return self._minimal(clause for part in instances for clause in self.of(part))
+
+    def of_all(self, parts: Iterable[Formula]) -> list[Clause]:
+        """The disjuncts of the conjunction of some ground conditions.
+
+        Raises:
+            TooManyCasesError: there are more than ``MAX_CASES``.
+        """
+        certain: set[Literal] = set()
+        choices: list[list[Clause]] = []
+        for part in parts:
+            found = self.of(part)
+            if not found:
+                return []
+            if len(found) == 1:
+                certain |= found[0]
+            else:
+                choices.append(found)
+        merged = [frozenset(certain)] if consistent(certain) else []
+        for choice in choices:
+            both = (a | b for a in merged for b in choice)
+            merged = self._minimal(clause for clause in both if consistent(clause))
+        return merged
+
+    def _minimal(self, found: Iterable[Clause]) -> list[Clause]:
+        """The clauses that no other one is part of, in order of first occurrence."""
+        kept: list[Clause] = []
+        for clause in found:
+            self._tick()
+            if not any(other <= clause for other in kept):
+                kept = [other for other in kept if not clause <= other]
+                kept.append(clause)
+                if len(kept) > MAX_CASES:
+                    raise TooManyCasesError
+                if not clause:
+                    break
+        return kept
+
+
+def consistent(literals: AbstractSet[Literal]) -> bool:
+    """Whether no literal's negation is among the others."""
+    return not any(literal.opposite in literals for literal in literals)

@@ -1,0 +1,173 @@
+"""Final ids: facts that matter in the order of their names, actions in that of theirs."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import chain, repeat
+from operator import attrgetter
+from typing import cast
+
+from serendipity.model import Condition, GroundAction
+from serendipity.pddl.grounding.blocks import Block, Column
+from serendipity.pddl.grounding.costs import BadCost
+from serendipity.pddl.parsing.lifted import Key, Literal
+from serendipity.pddl.work import Work
+
+
+class Changes:
+    """Which facts the actions that can be executed change.
+
+    Args:
+        facts: ids of ground atoms, in ascending order.
+        init: ids of those that are true initially.
+        blocks: the actions that can be executed.
+        work: its deadline is asked.
+
+    Attributes:
+        always: facts that are true in every state.
+        never: facts that are true in none.
+        relevant: facts that are neither, or that some action asks for or deletes.
+    """
+
+    def __init__(self, facts: Mapping[Key, int], init: set[int], blocks: Sequence[Block], work: Work) -> None:
+        added: set[int] = set()
+        deleted: set[int] = set()
+        asked: set[int] = set()
+        for block in work.each(blocks):
+            added.update(block.add.facts())
+            deleted.update(block.delete.facts())
+            asked.update(block.pre.facts(), block.neg.facts())
+        self.always = init - deleted
+        self.never = set(range(len(facts))) - init - added
+        self.relevant = (added | deleted | asked) - self.always - (self.never - deleted)
+
+    def truth(self, fact: int, positive: bool) -> bool | None:
+        """The truth of a literal if it is the same in every state."""
+        if fact in self.always:
+            return positive
+        return not positive if fact in self.never else None
+
+
+class Numbering:
+    """The facts of a task in their final order, and what is made of them.
+
+    Args:
+        facts: ids of ground atoms, in ascending order.
+        init: ids of those that are true initially.
+        blocks: the actions that can be executed.
+        changes: what they change.
+        goals: ids of atoms that goals name; they stay facts in any case.
+        work: its deadline is asked.
+
+    Attributes:
+        names: of the facts that matter, ascending.
+        init: ids of those that are true initially.
+        waiting: names of the actions that only wait, each with the agent who does.
+    """
+
+    def __init__(
+        self,
+        facts: Mapping[Key, int],
+        init: set[int],
+        blocks: Sequence[Block],
+        changes: Changes,
+        goals: Iterable[int],
+        work: Work,
+    ) -> None:
+        keys = list(facts)
+        named = {" ".join(keys[old]): old for old in work.polled(changes.relevant.union(goals))}
+        self.names = tuple(sorted(named))
+        self.facts = facts
+        self.blocks = blocks
+        self.waiting: set[tuple[str, int]] = set()
+        self._work = work
+        self._ids = {named[name]: new for new, name in enumerate(self.names)}
+        self._changing = {old: new for old, new in self._ids.items() if old not in changes.always}
+        self._possible = {old: new for old, new in self._ids.items() if old not in changes.never}
+        self.init = frozenset(self._ids[old] for old in init if old in self._ids)
+
+    def literal(self, literal: Literal) -> tuple[int, bool]:
+        """The final id of a literal's fact, and whether it is positive."""
+        return self._ids[self.facts[literal.key]], literal.positive
+
+    def condition(self, literals: Iterable[Literal]) -> Condition:
+        """The condition that some literals make up."""
+        found = {*map(self.literal, literals)}
+        return Condition(
+            tuple(sorted(fact for fact, positive in found if positive)),
+            tuple(sorted(fact for fact, positive in found if not positive)),
+        )
+
+    def actions(self) -> list[GroundAction]:
+        """The actions without those that only wait, ascending in name, then in all the rest; each once.
+
+        A blank is less than any character of a word, so this is the order of ``key``.
+
+        Raises:
+            InputError: an action's cost is not what it should be.
+        """
+        actions: list[GroundAction] = []
+        for block in self._work.each(self.blocks):
+            actions += self._ground(block)
+        self._work.stage(f"sorting {len(actions):,} ground actions")
+        return in_order(actions)
+
+    def _ground(self, block: Block) -> Iterator[GroundAction]:
+        add = _renumbered(block.add, self._changing)
+        block = Block(
+            block.keys,
+            block.participants,
+            _renumbered(block.pre, self._changing),
+            _renumbered(block.neg, self._possible),
+            add,
+            _without(_renumbered(block.delete, self._ids), add),
+            block.costs,
+        )
+        if all(() in column.table for column in block.conditions):
+            block = self._without_waiting(block)
+        columns = [column.rows() for column in block.conditions]
+        names = map(" ".join, block.keys)
+        return map(GroundAction, names, block.participants, *columns, _checked(block))
+
+    def _without_waiting(self, block: Block) -> Block:
+        """The actions that ask for something, or change something; names of the others are noted."""
+        acting = []
+        for record in block.records():
+            acting.append(any(record[2:6]))
+            if not acting[-1] and len(record.participants) == 1:
+                self.waiting.add((" ".join(record.key), record.participants[0]))
+        return block.only(acting)
+
+
+def in_order(actions: Sequence[GroundAction]) -> list[GroundAction]:
+    """Actions ascending in name, then in all the rest; each once."""
+    if len({action.name for action in actions}) == len(actions):
+        return sorted(actions, key=attrgetter("name"))
+    return sorted(set(actions), key=attrgetter(*GroundAction.__slots__))
+
+
+def _checked(block: Block) -> list[Fraction]:
+    """The costs of a block's actions."""
+    for key, cost in zip(block.keys, block.costs, strict=True):
+        if isinstance(cost, BadCost):
+            raise cost.error(key)
+    return cast(list[Fraction], block.costs)
+
+
+def _renumbered(column: Column, ids: Mapping[int, int]) -> Column:
+    """The facts that have new ids, ascending."""
+    rows: Iterable[Iterable[int]]
+    if ids.keys() >= {*chain.from_iterable(column.table)}:
+        rows = map(map, repeat(ids.__getitem__), column.table)
+    else:
+        rows = [[ids[fact] for fact in row if fact in ids] for row in column.table]
+    return Column([*map(tuple, map(sorted, map(set, rows)))], column.places)
+
+
+def _without(deleted: Column, added: Column) -> Column:
+    """What is deleted and not added at the same time."""
+    if {*deleted.facts()}.isdisjoint(added.facts()):
+        return deleted
+    pairs = [*zip(deleted.places, added.places, strict=True)]
+    places = {pair: place for place, pair in enumerate(dict.fromkeys(pairs))}
+    table = [tuple([fact for fact in deleted.table[d] if fact not in added.table[a]]) for d, a in places]
+    return Column(table, [places[pair] for pair in pairs])

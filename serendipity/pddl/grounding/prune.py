@@ -1,0 +1,90 @@
+"""Which ground actions can ever be executed: delete-relaxed reachability over all agents."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence, Set
+from itertools import accumulate, chain, compress
+from operator import not_
+from typing import Final
+
+from serendipity.pddl.grounding.blocks import Block
+from serendipity.pddl.work import Work
+
+_SLICE: Final = 10_000
+"""Actions between two looks at the deadline: a few milliseconds of them."""
+
+
+def executable(blocks: Iterable[Block], init: Iterable[int], work: Work) -> list[Block]:
+    """The actions whose preconditions are reachable if nothing is ever deleted.
+
+    A negative precondition on a fact that is true initially and that no executable
+    action deletes is never met either.
+    """
+    init = frozenset(init)
+    while True:
+        blocks = _reachable(blocks, init, work)
+        lasting = set(init)
+        for block in work.each(blocks):
+            lasting.difference_update(block.delete.facts())
+        possible = [_possible(block, lasting) for block in work.each(blocks)]
+        if sum(map(len, possible)) == sum(map(len, blocks)):
+            return blocks
+        blocks = possible
+
+
+def _possible(block: Block, lasting: Set[int]) -> Block:
+    if not any(block.neg.table):
+        return block
+    pairs = zip(block.neg.rows(), block.pre.rows(), strict=True)
+    return block.only(
+        [lasting.isdisjoint(neg) and not any(fact in pre for fact in neg) for neg, pre in pairs]
+    )
+
+
+def _reachable(blocks: Iterable[Block], init: frozenset[int], work: Work) -> list[Block]:
+    ordered = sorted(blocks, key=len)  # what few actions reach lets many others settle at once
+    search = _Reachability(ordered, init, work)
+    stops = [*accumulate(map(len, ordered))]
+    ranges = [range(stop - len(block), stop) for block, stop in zip(ordered, stops, strict=True)]
+    for actions in ranges:
+        search.settle(actions)
+    return [
+        block.only(search.executable[actions.start : actions.stop])
+        for block, actions in zip(work.each(ordered), ranges, strict=True)
+    ]
+
+
+class _Reachability:
+    """What is reached so far; an action waits for one fact at a time that is not."""
+
+    def __init__(self, blocks: Sequence[Block], init: Iterable[int], work: Work) -> None:
+        self.pre = [*chain.from_iterable(block.pre.rows() for block in work.each(blocks))]
+        self.add = [*chain.from_iterable(block.add.rows() for block in work.each(blocks))]
+        self.reached = set(init)
+        self.executable = bytearray(len(self.pre))
+        self._waiting: defaultdict[int, list[int]] = defaultdict(list)
+        self._check = work.deadline.check
+
+    def settle(self, actions: Sequence[int]) -> None:
+        """Execute some actions, as far as what they need is reached, and those that wait for them."""
+        pending: list[Sequence[int]] = [actions]
+        while pending:
+            self._check()
+            released = self._settle(pending.pop())
+            pending += [released[i : i + _SLICE] for i in range(0, len(released), _SLICE)]
+
+    def _settle(self, actions: Sequence[int]) -> list[int]:
+        """Execute some actions, as far as what they need is reached; those that may be next."""
+        met = [*map(self.reached.issuperset, map(self.pre.__getitem__, actions))]
+        ready = [*compress(actions, met)]
+        for action in ready:
+            self.executable[action] = 1
+        gained = {*chain.from_iterable(map(self.add.__getitem__, ready))} - self.reached
+        self.reached |= gained
+        released = [action for fact in gained for action in self._waiting.pop(fact, ())]
+        for action in compress(actions, map(not_, met)):
+            missing = next((fact for fact in self.pre[action] if fact not in self.reached), None)
+            if missing is None:
+                released.append(action)
+            else:
+                self._waiting[missing].append(action)
+        return released

@@ -1,0 +1,141 @@
+"""Quantifiers: which of them say something, how much they stand for, and their instances."""
+
+from collections.abc import Iterator
+from itertools import product
+from math import prod
+
+from serendipity.pddl.parsing.lifted import (
+    And,
+    Effect,
+    Formula,
+    Key,
+    Literal,
+    Or,
+    Parameter,
+    Quantified,
+    Unit,
+)
+
+
+def simplified(formula: Formula, unit: Unit) -> Formula:
+    """The same condition, each quantifier as far inside as it can be, over what it needs only."""
+    match formula:
+        case And(parts):
+            return And(tuple([simplified(part, unit) for part in parts]))
+        case Or(parts):
+            return Or(tuple([simplified(part, unit) for part in parts]))
+        case Quantified(universal, parameters, body):
+            return _quantified(universal, parameters, simplified(body, unit), unit)
+    return formula
+
+
+def _quantified(universal: bool, parameters: tuple[Parameter, ...], body: Formula, unit: Unit) -> Formula:
+    if _void(parameters, unit):
+        return And() if universal else Or()
+    if universal and isinstance(body, And):
+        return And(tuple([_quantified(universal, parameters, part, unit) for part in body.parts]))
+    if not universal and isinstance(body, Or):
+        return Or(tuple([_quantified(universal, parameters, part, unit) for part in body.parts]))
+    used = variables(body)
+    own = tuple([p for p in parameters if p.name in used])
+    return Quantified(universal, own, body) if own else body
+
+
+def simplified_effect(effect: Effect, unit: Unit) -> Effect | None:
+    """The same effect with a simplified condition, over what it changes only; None if it has no instance."""
+    if _void(effect.parameters, unit):
+        return None
+    changed = tuple([p for p in effect.parameters if p.name in effect.literal.key])
+    if effect.condition is None:
+        return Effect(effect.literal, changed)
+    others = tuple([p for p in effect.parameters if p not in changed])
+    condition = _quantified(False, others, simplified(effect.condition, unit), unit)
+    return Effect(effect.literal, changed, condition)
+
+
+def _void(parameters: tuple[Parameter, ...], unit: Unit) -> bool:
+    """Whether there is nothing that one of the parameters could be."""
+    return not all(unit.objects_of(p.type) for p in parameters)
+
+
+def variables(formula: Formula) -> frozenset[str]:
+    """The free variables of a condition."""
+    match formula:
+        case Literal(key):
+            return frozenset([term for term in key[1:] if term[0] == "?"])
+        case And(parts) | Or(parts):
+            return frozenset().union(*[variables(part) for part in parts])
+        case Quantified(_, parameters, body):
+            return variables(body) - {p.name for p in parameters}
+
+
+def literals(formula: Formula) -> Iterator[Literal]:
+    """The literals of a condition, as they are written."""
+    match formula:
+        case Literal():
+            yield formula
+        case And(parts) | Or(parts):
+            for part in parts:
+                yield from literals(part)
+        case Quantified(_, _, body):
+            yield from literals(body)
+
+
+def instances(formula: Formula, unit: Unit) -> int:
+    """How many literals a condition comes to without quantifiers."""
+    match formula:
+        case Literal():
+            return 1
+        case And(parts) | Or(parts):
+            return sum([instances(part, unit) for part in parts])
+        case Quantified(_, parameters, body):
+            return how_many(parameters, unit) * instances(body, unit)
+
+
+def how_many(parameters: tuple[Parameter, ...], unit: Unit) -> int:
+    """How many assignments of objects to parameters there are."""
+    return prod([len(unit.objects_of(p.type)) for p in parameters])
+
+
+def assignments(parameters: tuple[Parameter, ...], unit: Unit) -> Iterator[dict[str, str]]:
+    """Every assignment of objects to parameters."""
+    names = [p.name for p in parameters]
+    for objects in product(*[unit.objects_of(p.type) for p in parameters]):
+        yield dict(zip(names, objects, strict=True))
+
+
+def negated(formula: Formula) -> Formula:
+    """The opposite of a condition, in negation normal form as well."""
+    match formula:
+        case Literal(key, positive):
+            return Literal(key, not positive)
+        case And(parts):
+            return Or(tuple([negated(part) for part in parts]))
+        case Or(parts):
+            return And(tuple([negated(part) for part in parts]))
+        case Quantified(universal, parameters, body):
+            return Quantified(not universal, parameters, negated(body))
+
+
+def substitute(formula: Formula, values: dict[str, str]) -> Formula:
+    """The formula with variables replaced; an inner quantifier shadows."""
+    if not values:
+        return formula
+    match formula:
+        case Literal(key, positive):
+            return Literal(ground_key(key, values), positive)
+        case And(parts):
+            return And(tuple([substitute(part, values) for part in parts]))
+        case Or(parts):
+            return Or(tuple([substitute(part, values) for part in parts]))
+        case Quantified(universal, parameters, body):
+            own = {p.name for p in parameters}
+            outer = {name: value for name, value in values.items() if name not in own}
+            return Quantified(universal, parameters, substitute(body, outer))
+
+
+def ground_key(key: Key, values: dict[str, str]) -> Key:
+    """The atom with variables replaced."""
+    if not values:
+        return key
+    return (key[0], *[values.get(term, term) for term in key[1:]])

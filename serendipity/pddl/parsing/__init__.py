@@ -1,0 +1,1 @@
+"""PDDL text to lifted values, names and types checked, each error with its line."""

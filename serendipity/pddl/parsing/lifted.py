@@ -1,0 +1,210 @@
+"""Lifted tasks as checked values: what the grounder works on.
+
+A term that starts with ``?`` is a variable, any other an object.  Conditions are in
+negation normal form.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import NamedTuple
+
+from serendipity.model import InputError
+from serendipity.pddl.parsing.tree import quoted
+from serendipity.pddl.parsing.types import Type, Types
+
+EQUALITY = "="
+
+Key = tuple[str, ...]
+"""A ground atom: predicate, then arguments."""
+
+
+class Literal(NamedTuple):
+    """An atom ``(predicate, terms...)`` or its negation."""
+
+    key: Key
+    positive: bool = True
+
+    @property
+    def opposite(self) -> "Literal":
+        """Its negation."""
+        return Literal(self.key, not self.positive)
+
+
+class Parameter(NamedTuple):
+    """A typed variable."""
+
+    name: str
+    type: Type
+
+
+@dataclass(frozen=True, slots=True)
+class And:
+    """All of the parts hold (none: true)."""
+
+    parts: tuple["Formula", ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Or:
+    """One of the parts holds (none: false)."""
+
+    parts: tuple["Formula", ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Quantified:
+    """``forall`` or ``exists`` over the parameters."""
+
+    universal: bool
+    parameters: tuple[Parameter, ...]
+    body: "Formula"
+
+
+Formula = Literal | And | Or | Quantified
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """``literal`` for all values of ``parameters`` for which ``condition`` holds."""
+
+    literal: Literal
+    parameters: tuple[Parameter, ...] = ()
+    condition: Formula | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionValue:
+    """The value of a function term in the initial state."""
+
+    key: Key
+
+
+@dataclass(frozen=True, slots=True)
+class Operation:
+    """``left operator right``, the operator being one of ``+ - * /``."""
+
+    operator: str
+    left: "Expression"
+    right: "Expression"
+
+
+Expression = Fraction | FunctionValue | Operation
+
+
+@dataclass(frozen=True, slots=True)
+class Schema:
+    """A lifted action.
+
+    Attributes:
+        name: lower case.
+        line: where it is in the domain file.
+        parameters: its declared parameters.
+        precondition: in negation normal form.
+        effects: on facts.
+        increases: what is added to the total cost.
+        agent: whether the first parameter is the agent that acts, by itself (MA-PDDL's ``:agent``).
+        quantified: whether there are quantifiers in it.
+    """
+
+    name: str
+    line: int
+    parameters: tuple[Parameter, ...]
+    precondition: Formula
+    effects: tuple[Effect, ...]
+    increases: tuple[Expression, ...]
+    agent: bool = False
+    quantified: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Domain:
+    """A checked domain file.
+
+    ``predicates`` and ``functions`` map a name to the types of its parameters; ``factored`` says
+    whether ``:private`` in the files of this domain names no agent (MA-PDDL).
+    """
+
+    name: str
+    types: Types
+    constants: dict[str, Type]
+    predicates: dict[str, tuple[Type, ...]]
+    functions: dict[str, tuple[Type, ...]]
+    schemas: tuple[Schema, ...]
+    factored: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """A checked problem file, with the objects of its domain among its own.
+
+    Attributes:
+        name: of the problem.
+        domain_name: the domain it says it belongs to, or None.
+        objects: type of each object.
+        init: the atoms that are true, in the order of the file, each once.
+        denied: the atoms that it says are false, with their lines.
+        values: values of function terms.
+        goal: in negation normal form; an empty ``And`` where there is none.
+        goal_line: where the goal is, or None.
+        metric: whether it asks to minimise the total cost.
+    """
+
+    name: str
+    domain_name: str | None
+    objects: dict[str, Type]
+    init: dict[Key, None]
+    denied: dict[Key, int]
+    values: dict[Key, Fraction]
+    goal: Formula
+    goal_line: int | None
+    metric: bool
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A domain and a problem that belong together: one task, one agent's files, or the team's.
+
+    Attributes:
+        owner: the agent, or None for a whole task and for the team.
+        domain_file: for messages.
+        problem_file: for messages.
+        domain: the checked domain.
+        problem: the checked problem.
+    """
+
+    owner: str | None
+    domain_file: str
+    problem_file: str
+    domain: Domain
+    problem: Problem
+
+    @property
+    def priced(self) -> bool:
+        """Whether actions cost what they say (0 if nothing), not 1 each."""
+        return self.problem.metric or any(schema.increases for schema in self.domain.schemas)
+
+    @cached_property
+    def _extensions(self) -> dict[Type, tuple[str, ...]]:
+        return {}
+
+    def objects_of(self, kind: Type) -> tuple[str, ...]:
+        """Names of the objects of a type, sorted."""
+        known = self._extensions.get(kind)
+        if known is None:
+            fits = self.domain.types.is_subtype
+            found = sorted(name for name, own in self.problem.objects.items() if fits(own, kind))
+            known = self._extensions[kind] = tuple(found)
+        return known
+
+    def place(self, schema: Schema) -> str:
+        """An action for messages: the file, the line and the name."""
+        return f"{self.domain_file}:{schema.line}: action {quoted(schema.name)}"
+
+    def domain_error(self, message: str, line: int | None) -> InputError:
+        """An error in the domain file."""
+        return InputError(message, self.domain_file, line)
+
+    def problem_error(self, message: str, line: int | None) -> InputError:
+        """An error in the problem file."""
+        return InputError(message, self.problem_file, line)

@@ -1,0 +1,188 @@
+"""Files' sections to checked lifted values.
+
+Errors carry the line; the caller adds the file.
+"""
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Final
+
+from serendipity.model import InputError
+from serendipity.pddl.parsing.initial import read_initial
+from serendipity.pddl.parsing.lifted import And, Domain, Formula, Problem, Schema
+from serendipity.pddl.parsing.scope import TOTAL_COST, Scope, check_type
+from serendipity.pddl.parsing.sections import Form, read_form
+from serendipity.pddl.parsing.syntax import VARIABLE, Typed, read_action, signatures, typed_list
+from serendipity.pddl.parsing.tree import Node, expected, name_at, naming, node_at, quoted, refuse_more
+from serendipity.pddl.parsing.types import OBJECT, Type, Types, type_text
+from serendipity.pddl.work import Work
+
+_KEPT: Final = 64
+
+_domains: Final[dict[str, Domain]] = {}  # a cache: those read last, by their texts
+
+
+def read_domain(text: str, work: Work) -> Domain:
+    """The checked domain that a text defines; equal texts are read once.
+
+    Raises:
+        InputError: with the line, without the file.
+    """
+    domain = _domains.pop(text, None) or _domain(read_form(text, "domain", work), work)
+    _domains[text] = domain
+    if len(_domains) > _KEPT:
+        _domains.pop(next(iter(_domains)), None)
+    return domain
+
+
+def forget_parsed() -> None:
+    """Forget the domains that were read, for measurements; equal texts are read once else."""
+    _domains.clear()
+
+
+def read_problem(text: str, domain: Domain, work: Work) -> Problem:
+    """The checked problem that a text defines for a domain.
+
+    Raises:
+        InputError: with the line, without the file.
+    """
+    form = read_form(text, "problem", work)
+    listed = typed_list(form.section(":objects"), 1, "an object", private=1 if domain.factored else 2)
+    objects = _objects(listed, domain.types, domain.constants)
+    scope = Scope(domain.types, domain.predicates, domain.functions, objects, work)
+    with naming("initial state"):
+        initial = read_initial(form.section(":init"), scope, work)
+    goal = form.sections.get(":goal")
+    return Problem(
+        form.name,
+        _domain_name(form),
+        objects,
+        initial.true,
+        initial.false,
+        initial.values,
+        And() if goal is None else _goal(goal, scope),
+        None if goal is None else goal.line,
+        _minimises_cost(form.sections.get(":metric")),
+    )
+
+
+def _domain(form: Form, work: Work) -> Domain:
+    types = _types(typed_list(form.section(":types"), 1, "a type"))
+    factored = ":factored-privacy" in form.requirements
+    private = 1 if factored else 2
+    constants = _objects(typed_list(form.section(":constants"), 1, "an object", private), types, {})
+    predicates = _signatures(form.section(":predicates"), "predicate", types, work)
+    functions = _signatures(form.section(":functions"), "function", types, work)
+    schemas: dict[str, Schema] = {}
+    for section in work.polled(form.actions):
+        schema = _schema(section, Scope(types, predicates, functions, constants, work))
+        first = schemas.setdefault(schema.name, schema)
+        if first is not schema:
+            message = f"action {quoted(schema.name)} is defined already in line {first.line}"
+            raise InputError(message, line=schema.line)
+    return Domain(form.name, types, constants, predicates, functions, tuple(schemas.values()), factored)
+
+
+def _signatures(section: Node, what: str, types: Types, work: Work) -> dict[str, tuple[Type, ...]]:
+    found: dict[str, tuple[Type, ...]] = {}
+    for name, line, parameters in work.polled(signatures(section, what)):
+        with naming(f"{what} {quoted(name)}"):
+            for typed in parameters:
+                check_type(typed.type, types, typed.line)
+        signature = tuple(typed.type for typed in parameters)
+        if found.setdefault(name, signature) != signature:
+            raise InputError(f"{what} {quoted(name)} is declared twice, in different ways", line=line)
+    return found
+
+
+def _schema(section: Node, scope: Scope) -> Schema:
+    text = read_action(section)
+    agent = [] if text.agent is None else [text.agent]
+    nothing = Node(text.line)
+    with naming(f"action {quoted(text.name)}"):
+        own = typed_list(text.parts.get(":parameters", nothing), 0, VARIABLE)
+        parameters = scope.parameters([*agent, *own])
+        precondition = scope.condition(text.parts.get(":precondition", nothing))
+        effects, increases = scope.effects(text.parts[":effect"])
+        for value in increases:
+            if isinstance(value, Fraction) and value < 0:
+                raise InputError(f"expected a cost of at least 0, got {float(value):g}", line=text.line)
+    return Schema(
+        text.name,
+        text.line,
+        parameters,
+        precondition,
+        tuple(effects),
+        tuple(increases),
+        text.agent is not None,
+        scope.quantified,
+    )
+
+
+def _types(listed: Iterable[Typed]) -> Types:
+    parents: dict[str, Type] = {}
+    lines: dict[str, int] = {}
+    for name, parent, line in listed:
+        if name in lines and parents.get(name, parent) != parent:
+            raise InputError(f"type {quoted(name)} is declared twice, in different ways", line=line)
+        lines[name] = line
+        if name != OBJECT:
+            parents[name] = parent
+    for above in list(parents.values()):
+        for name in above:
+            if name != OBJECT:
+                parents.setdefault(name, (OBJECT,))
+    _refuse_circles(parents, lines)
+    return Types(parents)
+
+
+def _refuse_circles(parents: Mapping[str, Type], lines: Mapping[str, int]) -> None:
+    """Take away types all of whose supertypes are gone; what stays is on a circle, or below one."""
+    rest = {name: set(above) & parents.keys() for name, above in parents.items()}
+    while gone := {name for name, above in rest.items() if not above}:
+        rest = {name: above - gone for name, above in rest.items() if name not in gone}
+    while below := rest.keys() - {name for above in rest.values() for name in above}:
+        rest = {name: above for name, above in rest.items() if name not in below}
+    if rest:
+        name = min(rest, key=lambda name: (lines.get(name, 0), name))
+        raise InputError(f"type {quoted(name)} is its own supertype", line=lines.get(name))
+
+
+def _objects(listed: Iterable[Typed], types: Types, known: Mapping[str, Type]) -> dict[str, Type]:
+    objects = dict(known)
+    for name, kind, line in listed:
+        with naming(f"object {quoted(name)}"):
+            check_type(kind, types, line)
+        before = objects.get(name, kind)
+        if not types.comparable(before, kind):
+            both = f"'{type_text(before)}' and as '{type_text(kind)}'"
+            raise InputError(f"object {quoted(name)} is declared as {both}", line=line)
+        objects[name] = kind if types.is_subtype(kind, before) else before
+    return objects
+
+
+def _domain_name(form: Form) -> str | None:
+    section = form.sections.get(":domain")
+    if section is None:
+        return None
+    refuse_more(section, 2)
+    return name_at(section, 1, "the name of the domain")
+
+
+def _goal(section: Node, scope: Scope) -> Formula:
+    refuse_more(section, 2)
+    with naming("goal"):
+        return And() if len(section.items) < 2 else scope.condition(node_at(section, 1, "a condition"))
+
+
+def _minimises_cost(section: Node | None) -> bool:
+    if section is None:
+        return False
+    if section.items[1:2] not in (["minimize"], ["maximize"]):
+        raise expected("'minimize'", section, 1)
+    refuse_more(section, 3)
+    total = node_at(section, 2, f"'({TOTAL_COST})'")
+    if section.items[1] != "minimize" or total.items != [TOTAL_COST]:
+        message = f"the only metric supported is 'minimize ({TOTAL_COST})'"
+        raise InputError(message, line=section.line)
+    return True

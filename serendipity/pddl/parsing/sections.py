@@ -1,0 +1,87 @@
+"""A file's sections."""
+
+from dataclasses import dataclass, field
+from typing import Final
+
+from serendipity.model import InputError
+from serendipity.pddl.parsing.requirements import read_requirements
+from serendipity.pddl.parsing.tree import Node, expected, name_at, node_at, quoted, read_tree, refuse_more
+from serendipity.pddl.work import Work
+
+_SECTIONS: Final = {
+    "domain": (":requirements", ":types", ":constants", ":predicates", ":functions", ":action"),
+    "problem": (":requirements", ":domain", ":objects", ":init", ":goal", ":metric"),
+}
+
+_UNSUPPORTED: Final = {
+    ":derived": "derived predicates",
+    ":axiom": "axioms",
+    ":durative-action": "durative actions",
+    ":process": "processes",
+    ":event": "events",
+    ":constraints": "trajectory constraints",
+    ":goal-reward": "goal rewards",
+    ":concurrency-constraint": "concurrency constraints",
+}
+
+
+@dataclass(slots=True)
+class Form:
+    """A file ``(define (KIND NAME) SECTION ...)``.
+
+    Attributes:
+        name: of the domain or problem.
+        requirements: what it says it requires.
+        sections: by keyword, all but the actions.
+        actions: the sections ``(:action ...)``.
+    """
+
+    name: str
+    requirements: frozenset[str] = frozenset()
+    sections: dict[str, Node] = field(default_factory=dict)
+    actions: list[Node] = field(default_factory=list)
+
+    def section(self, keyword: str) -> Node:
+        """A section; where there is none, one with nothing in it."""
+        return self.sections.get(keyword) or Node(1)
+
+
+def read_form(text: str, kind: str, work: Work) -> Form:
+    """The sections of a file of a kind, ``domain`` or ``problem``.
+
+    Raises:
+        InputError: with the line, without the file.
+    """
+    tree = read_tree(text, work)
+    if not tree.items:
+        raise InputError(f"the file is empty: expected '(define ({kind} ...'")
+    define = node_at(tree, 0, f"'(define ({kind} ...'")
+    if define.head != "define":
+        raise expected("'define'", define, 0)
+    if len(tree.items) > 1:
+        raise expected("the end of the file after the last ')'", tree, 1)
+    title = node_at(define, 1, f"'({kind} NAME)'")
+    if title.head != kind:
+        raise expected(f"'{kind}'", title, 0)
+    form = Form(name_at(title, 1, f"the name of the {kind}"))
+    refuse_more(title, 2)
+    for i in range(2, len(define.items)):
+        _add_section(form, node_at(define, i, f"a section of a {kind}"), kind)
+    return form
+
+
+def _add_section(form: Form, section: Node, kind: str) -> None:
+    keyword = section.head
+    if keyword == ":action" and kind == "domain":
+        form.actions.append(section)
+        return
+    if not isinstance(keyword, str) or keyword not in _SECTIONS[kind]:
+        if isinstance(keyword, str) and keyword in _UNSUPPORTED:
+            message = f"{_UNSUPPORTED[keyword]} ({quoted(keyword)}) are not supported"
+            raise InputError(message, line=section.line)
+        raise expected(f"a section of a {kind}", section, 0)
+    before = form.sections.setdefault(keyword, section)
+    if before is not section:
+        raise InputError(f"'{keyword}' was given already in line {before.line}", line=section.line)
+    if keyword == ":requirements":
+        form.requirements = read_requirements(section)

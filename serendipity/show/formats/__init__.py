@@ -1,0 +1,1 @@
+"""What pictures are written as: a page, SVG, PNG."""

@@ -1,0 +1,200 @@
+"""The map behind a task: places, ways between them, and which facts say who or what is where.
+
+An agent's own *moves* take away one fact and add another of the same predicate: ``at commx
+hall1``, ``at commx hall2``.  Facts that moves connect, of which at most one is true initially
+and whose common words speak of the agent or of nobody in particular, tell his position;
+what differs between them is the place.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import networkx as nx
+
+from serendipity.model import Task
+from serendipity.show.map.names import Parts, common_ends, find, natural, parts, spellings, without
+
+
+@dataclass(frozen=True, slots=True)
+class Whereabouts:
+    """What a fact says about an agent or an object: it is in a place, or somebody holds it."""
+
+    place: str | None = None
+    holder: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """The map of a task; empty where the task has none.
+
+    Attributes:
+        names: of the places, sorted as people count.
+        links: pairs of places that somebody can move between, each pair once.
+        positions: for each agent with a position, the place by fact id.
+        objects: for each object, what each fact id says about it.
+        riding: for agents that can be in or on an object instead, the object by fact id.
+        marks: facts true or false by themselves that name a place: the place by fact id.
+    """
+
+    names: tuple[str, ...] = ()
+    links: tuple[tuple[str, str], ...] = ()
+    positions: dict[int, dict[int, str]] = field(default_factory=dict)
+    objects: dict[str, dict[int, Whereabouts]] = field(default_factory=dict)
+    riding: dict[int, dict[int, str]] = field(default_factory=dict)
+    marks: dict[int, str] = field(default_factory=dict)
+
+
+def find_places(task: Task) -> Places:
+    """The map of a task, from its actions and the names of its facts."""
+    positions: dict[int, dict[int, str]] = {}
+    links: set[tuple[str, str]] = set()
+    moves = _moves(task)
+    for agent, facts in _positions(task, moves).items():
+        places = positions[agent] = _place_names(task, agent, facts)
+        for source, target in moves[agent].subgraph(facts).edges:
+            a, b = sorted((places[source], places[target]), key=natural)
+            links.add((a, b))
+    names = sorted({place for places in positions.values() for place in places.values()}, key=natural)
+    if not names:
+        return Places()
+    finder = _PlaceFinder(task, names)
+    taken = {f for places in positions.values() for f in places}
+    objects: dict[str, dict[int, Whereabouts]] = {}
+    for group in _groups(task, moves):
+        name, told = finder.object(group) if taken.isdisjoint(group) else ("", {})
+        if name and name not in objects:
+            objects[name] = told
+    alone = [variable.facts[0] for variable in task.variables if variable.boolean]
+    at = {fact: finder.place(parts(task.facts[fact])) for fact in alone}
+    marks = {fact: place for fact, place in at.items() if place is not None}
+    ordered = sorted(links, key=lambda link: (natural(link[0]), natural(link[1])))
+    riding = _riding(task, positions, tuple(objects))
+    return Places(tuple(names), tuple(ordered), positions, objects, riding, marks)
+
+
+def _moves(task: Task) -> "dict[int, nx.Graph[int]]":
+    """By agent: the facts of equal predicates that actions of his alone exchange."""
+    words = [parts(fact) for fact in task.facts]
+    found: dict[int, nx.Graph[int]] = {agent: nx.Graph() for agent in range(len(task.agents))}
+    for action in task.actions:
+        if action.joint:
+            continue
+        for fact in action.delete:
+            gains = [g for g in action.add if words[g][0] == words[fact][0]]
+            if fact in action.pre and gains:
+                # Who pushes a crate exchanges two facts for two: the likest belong together.
+                gain = max(gains, key=lambda g: sum(map(len, common_ends([words[fact], words[g]]))))
+                found[action.participants[0]].add_edge(fact, gain)
+    return found
+
+
+def _positions(task: Task, moves: "dict[int, nx.Graph[int]]") -> dict[int, list[int]]:
+    """By agent: the facts that tell his position.
+
+    A group of facts is given to the agent whom it names, else to the one whose name is part
+    of its words, else to the one who moves most in it.
+    """
+    ranked = []
+    for group in nx.connected_components(nx.compose_all(moves.values())):
+        facts = sorted(group)
+        start, end = common_ends([parts(task.facts[f]) for f in facts])
+        shared = start + end
+        for agent, name in enumerate(task.agents):
+            named = any(find(spelling, shared) >= 0 for spelling in spellings(name))
+            own = moves[agent].subgraph(facts).number_of_edges()
+            if own and len(task.init & group) <= 1 and (named or len(shared) == 1):
+                ranked.append(((named, any(name in word for word in shared), own, -agent), facts))
+    chosen: dict[int, list[int]] = {}
+    for (*_, agent), facts in sorted(ranked, reverse=True):
+        if -agent not in chosen and facts not in chosen.values():
+            chosen[-agent] = facts
+    return dict(sorted(chosen.items()))
+
+
+def _groups(task: Task, moves: "dict[int, nx.Graph[int]]") -> Iterator[Sequence[int]]:
+    """Facts of which exactly one is true, and such as moves exchange where that is not known."""
+    for variable in task.variables:
+        if not variable.boolean:
+            yield variable.facts
+    for group in nx.connected_components(nx.compose_all(moves.values())):
+        if len(task.init & group) == 1:
+            yield sorted(group)
+
+
+def _place_names(task: Task, agent: int, facts: list[int]) -> dict[int, str]:
+    values = [parts(task.facts[f]) for f in facts]
+    start, end = map(len, common_ends(values))
+    for name in spellings(task.agents[agent]):
+        at = find(name, values[0])
+        if 0 <= at < start:
+            start = at + len(name)  # the places' own common beginning belongs to their names
+            break
+    joint = " " if any(" " in task.facts[f] for f in facts) else "_"
+    names = [joint.join(value[start : len(value) - end]) for value in values]
+    if not all(names) or len(set(names)) < len(names):
+        names = [task.facts[f] for f in facts]
+    return dict(zip(facts, names, strict=True))
+
+
+def _riding(
+    task: Task, positions: dict[int, dict[int, str]], objects: tuple[str, ...]
+) -> dict[int, dict[int, str]]:
+    """Values of an agent's position that are no place, but name an object (``in prime car0``)."""
+    found: dict[int, dict[int, str]] = {}
+    for agent, places in positions.items():
+        for variable in task.variables:
+            if places.keys().isdisjoint(variable.facts):
+                continue
+            for fact in variable.facts:
+                words = parts(task.facts[fact])
+                vehicle = next((name for name in objects if find(tuple(name.split()), words) > 0), None)
+                if fact not in places and vehicle is not None:
+                    found.setdefault(agent, {})[fact] = vehicle
+    return found
+
+
+class _PlaceFinder:
+    """Finds the place, agent or object that a fact's name mentions."""
+
+    def __init__(self, task: Task, places: list[str]) -> None:
+        self.task = task
+        self.places = {spelling: place for place in places for spelling in (parts(place), (place,))}
+        self.longest = max(map(len, self.places), default=0)
+        self.agents = [(spelling, i) for i, name in enumerate(task.agents) for spelling in spellings(name)]
+
+    def place(self, words: Parts) -> str | None:
+        """The place that is named after the predicate, or None."""
+        spelling = self._place(words)
+        return None if spelling is None else self.places[spelling]
+
+    def _place(self, words: Parts) -> Parts | None:
+        for length in range(min(self.longest, len(words) - 1), 0, -1):
+            for start in range(1, len(words) - length + 1):
+                if words[start : start + length] in self.places:
+                    return words[start : start + length]
+        return None
+
+    def object(self, facts: Sequence[int]) -> tuple[str, dict[int, Whereabouts]]:
+        """The object whose place or holder some facts tell, and how; an empty name if none."""
+        told: dict[int, Whereabouts] = {}
+        left: list[frozenset[str]] = []
+        order: Parts = ()
+        placed = False
+        for fact in facts:
+            words = parts(self.task.facts[fact])
+            place = self._place(words)
+            holder = next((agent for agent in self.agents if find(agent[0], words) > 0), None)
+            if place is not None:
+                placed = True
+                told[fact] = Whereabouts(place=self.places[place])
+                rest = without([place], words[1:])
+            elif holder is not None:
+                told[fact] = Whereabouts(holder=holder[1])
+                rest = without([holder[0]], words[1:])
+            else:
+                rest = words[1:]
+            left.append(frozenset(rest))
+            order = order or rest
+        shared = frozenset.intersection(*left)
+        several = len(set(told.values())) > 1
+        return (" ".join(w for w in order if w in shared) if placed and several else ""), told

@@ -1,0 +1,309 @@
+"""The scene: everything that a picture of a plan shows, epoch by epoch, before anything is drawn."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain
+from typing import Final
+
+from serendipity.model import GroundAction, InputError, Result, Task, Window
+from serendipity.show.map.layout import Layout, lay_out
+from serendipity.show.map.names import parts, verb_and_rest, without
+from serendipity.show.map.places import Places, Whereabouts, find_places
+from serendipity.show.scene.changes import Change, find_changes
+from serendipity.show.scene.replay import Moment, replay, replay_former
+
+NOWHERE: Final = Whereabouts()
+
+MOST_EPOCHS: Final = 2_000
+"""Epochs of a picture: a second of work, and a page of a megabyte; nobody looks at more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """An action of the timeline.
+
+    Attributes:
+        epoch: from 1.
+        agents: ids of the participants, ascending; two or more act jointly.
+        verb, detail: the action in two short lines; a move is "go to" and the place.
+        action: its full name.
+    """
+
+    epoch: int
+    agents: tuple[int, ...]
+    verb: str
+    detail: str
+    action: str
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """Something changes hands, or agents act jointly.
+
+    Attributes:
+        epoch: when.
+        place: where, or None without a map.
+        objects: what changes hands.
+        text: for people.
+    """
+
+    epoch: int
+    place: str | None
+    objects: tuple[str, ...]
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The world after an epoch (0: initially).
+
+    Attributes:
+        epoch: from 0.
+        at: place by agent id, for agents with a position.
+        objects: where each object is.
+        former_at: where the human would be with his former plan, or None without a map.
+        made, undone: names of the facts that became true and false in this epoch.
+        spent: team costs so far by agent id; joint actions are shared equally.
+        former_spent: cost of the human's former plan so far.
+        caption: who does what, for people.
+        in_window: whether the epoch belongs to the window.
+    """
+
+    epoch: int
+    at: dict[int, str]
+    objects: dict[str, Whereabouts]
+    former_at: str | None
+    made: tuple[str, ...]
+    undone: tuple[str, ...]
+    spent: dict[int, Fraction]
+    former_spent: Fraction
+    caption: str
+    in_window: bool
+
+    @property
+    def cost(self) -> Fraction:
+        """The team's cost so far."""
+        return sum(self.spent.values(), Fraction(0))
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A plan ready to be drawn.
+
+    Attributes:
+        name: of the task.
+        agents: names by id; ``human`` is an id.
+        layout: of the map, or None where the task has none.
+        goals: places that the human's goal names.
+        frames: epoch 0, 1, ... to the end of the plan or of the former plan, whichever is later.
+        acts, former_acts: the two plans.
+        window: as in the result.
+        changes: facts that change, for the lanes below the timeline.
+        result: what is shown.
+    """
+
+    name: str
+    agents: tuple[str, ...]
+    human: int
+    layout: Layout | None
+    goals: tuple[str, ...]
+    frames: tuple[Frame, ...]
+    acts: tuple[Act, ...]
+    former_acts: tuple[Act, ...]
+    meetings: tuple[Meeting, ...]
+    window: Window | None
+    changes: tuple[Change, ...]
+    result: Result
+
+    @property
+    def lanes(self) -> tuple[int, ...]:
+        """Agent ids as the timeline shows them: the human first."""
+        return (self.human, *(i for i in range(len(self.agents)) if i != self.human))
+
+    @property
+    def deviates(self) -> bool:
+        """Whether the human does anything but his former plan."""
+        own = [(act.epoch, act.action) for act in self.acts if self.human in act.agents]
+        return own != [(act.epoch, act.action) for act in self.former_acts]
+
+    @property
+    def key_epoch(self) -> int:
+        """The epoch that says most: the first meeting, else the window's start, else the end."""
+        if self.meetings:
+            return self.meetings[0].epoch
+        return self.window.start if self.window is not None else self.frames[-1].epoch
+
+
+def build_scene(task: Task, result: Result) -> Scene:
+    """The scene of a result; without a plan, of the human's own plan, or of the initial state.
+
+    Raises:
+        InputError: the plan does not fit the task, or has more than :data:`MOST_EPOCHS` epochs.
+    """
+    epochs = max([step.epoch for step in result.plan or ()] + [len(result.human_plan or ())], default=0)
+    if epochs > MOST_EPOCHS:
+        raise InputError(f"plan: it has {epochs} epochs, and at most {MOST_EPOCHS} are drawn")
+    places = find_places(task)
+    moments, former = replay(task, result), replay_former(task, result)
+    last = max(len(moments), len(former)) - 1
+    builder = _Builder(task, result, places)
+    acts = tuple(chain.from_iterable(builder.acts(moment) for moment in moments))
+    goal = task.goal.positive
+    named = (places.marks.get(f) or places.positions.get(task.human, {}).get(f) for f in goal)
+    hidden = {f for told in places.positions.values() for f in told}
+    hidden |= {f for told in places.objects.values() for f in told}
+    return Scene(
+        name=task.name,
+        agents=task.agents,
+        human=task.human,
+        layout=lay_out(places) if places.names else None,
+        goals=tuple(dict.fromkeys(place for place in named if place is not None)),
+        frames=builder.frames(moments, former, last),
+        acts=acts,
+        former_acts=tuple(chain.from_iterable(builder.acts(moment) for moment in former)),
+        meetings=tuple(builder.meetings(moments)),
+        window=result.window,
+        changes=find_changes(task, [moment.state for moment in moments], last, hidden),
+        result=result,
+    )
+
+
+class _Builder:
+    """Turns the moments of a replay into frames, acts and meetings."""
+
+    def __init__(self, task: Task, result: Result, places: Places) -> None:
+        self.task = task
+        self.places = places
+        self.window = range(0) if result.window is None else range(result.window.start, result.window.end)
+        own = result.mode != "assistance"  # there nobody's cost is discounted (semantics 7)
+        self.discount = result.options.discount if own else Fraction(0)
+
+    def frames(self, moments: Sequence[Moment], former: Sequence[Moment], last: int) -> tuple[Frame, ...]:
+        frames = []
+        spent = dict.fromkeys(range(len(self.task.agents)), Fraction(0))
+        former_spent = Fraction(0)
+        before = moments[0].state
+        for epoch in range(last + 1):
+            moment = moments[epoch] if epoch < len(moments) else Moment(epoch, (), moments[-1].state)
+            then = former[min(epoch, len(former) - 1)]
+            for action in moment.actions:
+                share = self.task.team_cost(action, self.discount) / len(action.participants)
+                for agent in action.participants:
+                    spent[agent] += share
+            if epoch < len(former):
+                former_spent += sum((action.cost for action in then.actions), Fraction(0))
+            state = moment.state
+            frames.append(
+                Frame(
+                    epoch=epoch,
+                    at=self._at(state),
+                    objects=self._objects(state),
+                    former_at=self._at(then.state).get(self.task.human),
+                    made=self._facts(state - before),
+                    undone=self._facts(before - state),
+                    spent=dict(spent),
+                    former_spent=former_spent,
+                    caption=self._caption(moment, ended=epoch >= len(moments)),
+                    in_window=epoch in self.window,
+                )
+            )
+            before = state
+        return tuple(frames)
+
+    def acts(self, moment: Moment) -> list[Act]:
+        """The actions of a moment, the human's first."""
+        human = self.task.human
+        ordered = sorted(moment.actions, key=lambda a: (human not in a.participants, a.participants))
+        return [self._act(moment.epoch, action) for action in ordered]
+
+    def meetings(self, moments: Sequence[Moment]) -> list[Meeting]:
+        """Joint actions, and objects that somebody takes who did not have them last."""
+        found = []
+        holders: dict[str, int] = {}
+        for moment in moments:
+            objects = self._objects(moment.state)
+            joint = [action for action in moment.actions if action.joint]
+            passed: dict[str, int] = {}
+            for name, where in objects.items():
+                if where.holder is not None:
+                    giver = holders.get(name, where.holder)
+                    holders[name] = where.holder
+                    if giver != where.holder:
+                        passed[name] = giver
+                        if not any(where.holder in action.participants for action in joint):
+                            found.append(self._found(moment, name, giver, where.holder))
+            found += [self._joint(moment, action, objects, passed) for action in joint]
+        return found
+
+    def _found(self, moment: Moment, name: str, giver: int, taker: int) -> Meeting:
+        agents = self.task.agents
+        text = f"{agents[taker]} takes {name}, which {agents[giver]} left"
+        return Meeting(moment.epoch, self._at(moment.state).get(taker), (name,), text)
+
+    def _joint(
+        self, moment: Moment, action: GroundAction, objects: dict[str, Whereabouts], passed: dict[str, int]
+    ) -> Meeting:
+        act = self._act(moment.epoch, action)
+        at = self._at(moment.state)
+        place = next((at[i] for i in action.participants if i in at), None)
+        agents = self.task.agents
+        mine = tuple(sorted(name for name in passed if objects[name].holder in action.participants))
+        gifts = []
+        for name in mine:
+            taker = objects[name].holder
+            if taker is not None:
+                gifts.append(f"{agents[passed[name]]} gives {name} to {agents[taker]}")
+        who = " and ".join(agents[i] for i in action.participants)
+        text = ", ".join(gifts) or f"{who}: {act.verb} {act.detail}".rstrip()
+        return Meeting(moment.epoch, place, mine, text + (f" in {place}" if gifts and place else ""))
+
+    def _act(self, epoch: int, action: GroundAction) -> Act:
+        verb, detail = verb_and_rest(action.name, [self.task.agents[i] for i in action.participants])
+        if not action.joint:
+            places = self.places.positions.get(action.participants[0], {})
+            reached = [places[f] for f in action.add if f in places]
+            verb, detail = ("go to", reached[0]) if reached else (verb, detail)
+        if verb != "go to":
+            detail = self._without_here(action, detail)
+        return Act(epoch, action.participants, verb, detail, action.name)
+
+    def _without_here(self, action: GroundAction, detail: str) -> str:
+        """A detail without the place where the participants are; kept if it is all there is."""
+        positions = [self.places.positions.get(i, {}) for i in action.participants]
+        here = [parts(places[f]) for places in positions for f in action.pre if f in places]
+        return " ".join(without(here, tuple(detail.split()))) or detail
+
+    def _at(self, state: frozenset[int]) -> dict[int, str]:
+        found = {}
+        for agent, places in self.places.positions.items():
+            place = next((place for f, place in places.items() if f in state), None)
+            if place is None and agent in self.places.riding:
+                place = self._vehicle_at(self.places.riding[agent], state)
+            if place is not None:
+                found[agent] = place
+        return found
+
+    def _vehicle_at(self, riding: dict[int, str], state: frozenset[int]) -> str | None:
+        told = next((self.places.objects[name] for f, name in riding.items() if f in state), {})
+        return next((where.place for f, where in told.items() if f in state), None)
+
+    def _objects(self, state: frozenset[int]) -> dict[str, Whereabouts]:
+        return {
+            name: next((where for f, where in told.items() if f in state), NOWHERE)
+            for name, told in self.places.objects.items()
+        }
+
+    def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
+        return tuple(self.task.facts[f] for f in sorted(ids))
+
+    def _caption(self, moment: Moment, *, ended: bool) -> str:
+        if moment.epoch == 0:
+            return "The start."
+        if ended:
+            return "All is done; with the former plan there would still be something to do."
+        lines = []
+        for act in self.acts(moment):
+            who = " and ".join(self.task.agents[i] for i in act.agents)
+            lines.append(f"{who}: {act.verb} {act.detail}".rstrip())
+        return "; ".join(lines) + "." if lines else "Everybody waits."

@@ -1,0 +1,184 @@
+"""Contenders on the same calls: warm-up, medians, disagreements, ratios."""
+
+from dataclasses import replace
+
+import pytest
+
+from serendipity import Task, UsageError, example
+from serendipity.evaluation.benchmark import (
+    CONTENDERS,
+    RATIOS_HEADER,
+    TIMES_HEADER,
+    Contender,
+    Timing,
+    measure,
+    ratios,
+    times,
+)
+from serendipity.evaluation.benchmark.answer import Answer
+from serendipity.model import Options
+from serendipity.model.errors import DisagreementError
+
+
+class Scripted:
+    """A contender that takes given times."""
+
+    def __init__(self, *seconds: float, cost: float = 1.0, status: str = "optimal") -> None:
+        self.seconds = list(seconds)
+        self.cost = cost
+        self.status = status
+
+    def __call__(self, task: Task, options: Options) -> Answer:
+        return Answer(self.seconds.pop(0), self.status, self.cost)
+
+
+def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[Timing]:
+    for name, contender in contenders.items():
+        monkeypatch.setitem(CONTENDERS, name, Contender(contender))
+    return list(measure([example("room2")], ["serendipity"], ["0.6"], contenders, repeat=3))
+
+
+def test_the_first_call_warms_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    (timing,) = timings(monkeypatch, search=Scripted(0.9, 0.2, 0.1, 0.3))
+    assert (timing.fastest, timing.seconds, timing.slowest, timing.repeats) == (0.1, 0.2, 0.3, 3)
+
+
+def test_a_slow_call_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    (timing,) = timings(monkeypatch, search=Scripted(1.5))
+    assert (timing.seconds, timing.repeats) == (1.5, 1)
+
+
+def test_proved_answers_that_differ_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(DisagreementError, match=r"search 1\.0, other 2\.0"):
+        timings(monkeypatch, search=Scripted(2), other=Scripted(2, cost=2.0))
+
+
+def test_an_unproved_answer_may_differ(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = timings(monkeypatch, search=Scripted(2), other=Scripted(2, cost=2.0, status="feasible"))
+    assert [timing.solved for timing in found] == [True, False]
+
+
+def test_calls_that_a_contender_cannot_answer_are_left_out() -> None:
+    modes = ["composite", "composite-inf"]
+    found = measure([example("room2")], modes, ["0.6"], ["search", "paper"], repeat=1, time_limit=0.1)
+    assert [(t.mode, t.contender) for t in found] == [
+        ("composite", "search"),
+        ("composite", "paper"),
+        ("composite-inf", "search"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("modes", "contenders", "what"), [(["x"], ["search"], "modes"), (["serendipity"], ["x"], "contenders")]
+)
+def test_unknown_names(modes: list[str], contenders: list[str], what: str) -> None:
+    with pytest.raises(UsageError, match=what):
+        list(measure([], modes, ["0"], contenders))
+
+
+KEPT = {
+    "search": [["0"], ["0"], ["0"], ["1/2"], ["1/2"], ["1/2"]],
+    "in-turn": [["0"], ["0", "1/2"]] * 3,
+    "again": [["0"] * n for n in (1, 2, 3)] + [["0"] * 3 + ["1/2"] * n for n in (1, 2, 3)],
+}
+"""Each call, and those before it on what is kept with the task: a warm-up and two repetitions."""
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_what_earlier_calls_leave_with_the_task(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = []
+
+    def calls_before(task: Task) -> list[str]:
+        return []
+
+    def answer(task: Task, options: Options) -> Answer:
+        kept = task.derived(calls_before)
+        kept.append(str(options.discount))
+        found.append(list(kept))
+        return Answer(0.1, "optimal", 1.0)
+
+    monkeypatch.setitem(CONTENDERS, name, replace(CONTENDERS[name], answer=answer))
+    timings = list(measure([example("room2")], ["serendipity"], ["0", "0.5"], [name], repeat=2))
+    assert found == KEPT[name]
+    assert [(timing.discount, timing.repeats) for timing in timings] == [("0", 2), ("0.5", 2)]
+
+
+def test_in_turn_figures_are_medians_over_passes(monkeypatch: pytest.MonkeyPatch) -> None:
+    script = Scripted(0.1, 0.1, 0.3, 0.03, 0.1, 0.01, 0.2, 0.02)  # the first two are the warm-up
+    monkeypatch.setitem(CONTENDERS, "in-turn", replace(CONTENDERS["in-turn"], answer=script))
+    found = list(measure([example("room2")], ["serendipity"], ["0", "0.5"], ["in-turn"], repeat=3))
+    assert [(t.fastest, t.seconds, t.slowest) for t in found] == [(0.1, 0.2, 0.3), (0.01, 0.02, 0.03)]
+
+
+def timing(task: str, contender: str, seconds: float, **other: object) -> Timing:
+    fixed = {"repeats": 1, "status": "optimal", "cost": 1.0, "process_seconds": None, "memory": None}
+    return Timing(task, "composite", "0", contender, seconds, seconds, seconds, **{**fixed, **other})  # type: ignore[arg-type]
+
+
+def ratio_rows(found: list[Timing]) -> list[dict[str, str]]:
+    return [dict(zip(RATIOS_HEADER, row, strict=True)) for row in ratios(found)]
+
+
+def time_rows(found: list[Timing]) -> list[dict[str, str]]:
+    return [dict(zip(TIMES_HEADER, row, strict=True)) for row in times(found)]
+
+
+def test_ratios_are_call_by_call() -> None:
+    calls = [("a", 0.1, 0.2), ("b", 0.2, 1.0), ("c", 0.4, 1.6)]
+    found = [timing(name, "search", own) for name, own, _ in calls]
+    found += [timing(name, "other", theirs) for name, _, theirs in calls]
+    (row,) = ratio_rows(found)
+    assert (row["contender"], row["over"], row["calls"]) == ("other", "search", "3")
+    assert (row["of medians"], row["of 95 %"]) == ("5.00 x", "4.00 x")
+    assert (row["least"], row["call by call: 50 %"], row["95 %"]) == ("2.00 x", "4.00 x", "5.00 x")
+    row = time_rows(found)[1]
+    assert (row["median"], row["95 %"], row["longest"]) == ("1000.00 ms", "1600.00 ms", "1600.00 ms")
+    assert row["min-max"] == "200.00-1600.00 ms"
+
+
+def test_others_are_compared_with_each_way_to_search() -> None:
+    seconds = {"search": 0.4, "in-turn": 0.1, "automata": 2.0, "fast-downward": 0.2}
+    found = [timing("a", name, value) for name, value in seconds.items()]
+    assert [(row["contender"], row["over"], row["least"]) for row in ratio_rows(found)] == [
+        ("automata", "search", "5.00 x"),
+        ("automata", "in-turn", "20 x"),
+        ("fast-downward", "search", "0.50 x"),
+        ("fast-downward", "in-turn", "2.00 x"),
+    ]
+    assert ratio_rows(found[:2]) == []
+
+
+def test_figures_that_a_limit_made_too_small_are_marked() -> None:
+    """Three of four calls end: only what the fourth one's time decides is uncertain."""
+    found = [timing(name, "search", 0.1) for name in "abcd"]
+    found += [timing(name, "other", seconds) for name, seconds in zip("abc", (1, 2, 3), strict=True)]
+    found.append(timing("d", "other", 10.0, status="unknown", cost=None))
+    (row,) = ratio_rows(found)
+    assert (row["of medians"], row["of 95 %"]) == ("30 x", ">= 100 x")
+    assert (row["call by call: 50 %"], row["95 %"], row["least"]) == ("30 x", ">= 100 x", "10 x")
+    row = time_rows(found)[1]
+    assert (row["proved"], row["median"], row["longest"]) == ("3", "3000.00 ms", ">= 10000.00 ms")
+
+
+def test_a_limit_in_the_middle_makes_all_beyond_it_uncertain() -> None:
+    """The second longest may be the longest without its limit: then the longest is known to be too short."""
+    found = [timing(name, "search", 0.1) for name in "ab"]
+    found += [timing("a", "other", 1.0, status="unknown", cost=None), timing("b", "other", 2.0)]
+    (row,) = ratio_rows(found)
+    assert (row["least"], row["95 %"]) == (">= 10 x", ">= 20 x")
+
+
+def test_calls_that_the_search_did_not_prove_are_no_base() -> None:
+    found = [timing("a", "search", 0.1), timing("b", "search", 0.1, status="feasible")]
+    found += [timing("a", "other", 0.2), timing("b", "other", 9.0)]
+    (row,) = ratio_rows(found)
+    assert (row["calls"], row["95 %"]) == ("1 of 2", "2.00 x")
+    (row,) = ratio_rows([found[1], found[3]])
+    assert (row["calls"], row["95 %"]) == ("0 of 1", "")
+
+
+def test_outside_processes_have_rows_of_their_own() -> None:
+    found = [timing("a", "search", 0.1), timing("a", "other", 0.2)]
+    found[1] = replace(found[1], process_seconds=3.0)
+    assert [row["contender"] for row in time_rows(found)] == ["search", "other", "other, process"]
+    assert [row["least"] for row in ratio_rows(found)] == ["2.00 x", "30 x"]

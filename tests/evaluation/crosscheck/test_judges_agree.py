@@ -1,0 +1,202 @@
+"""Search, integer programs and certificates agree on random calls; a disagreement is found and shrunk."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from serendipity import Deadline, Result, load
+from serendipity.cli.app import main
+from serendipity.evaluation.crosscheck import (
+    JUDGES,
+    Disagreement,
+    PlanCall,
+    command_line,
+    compare,
+    random_call,
+    shows_it_too,
+    shrink,
+    write_case,
+)
+from serendipity.evaluation.crosscheck import judges as judging
+from tests.support.builders import task as build
+from tests.support.cases import case_4
+
+seeds = st.integers(0, 10**9)
+
+
+@given(seeds)
+def test_search_and_automata_agree(seed: int) -> None:
+    found = compare(random_call(seed), {name: JUDGES[name] for name in ("search", "automata")})
+    assert found is None, str(found)
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_all_judges_agree(seed: int) -> None:
+    found = compare(random_call(seed), JUDGES)
+    assert found is None, str(found)
+
+
+def test_a_program_that_a_presolve_called_infeasible() -> None:
+    """HiGHS 1.14 with its presolve finds no plan below 4 in the paper's program (facts in this order)."""
+    task = build(
+        agents="hum rob",
+        human="hum",
+        init="a-at0",
+        goal="d-at2",
+        actions={
+            "back0 hum": "b-at1 !c-shut -> a-at0 !b-at1",
+            "carry hum rob": "a-at0 -> b-at1 !a-at0 @ 2",
+            "jump0 hum": "a-at0 e-open0 -> d-at2 !a-at0 @ 2.5",
+            "jump1 hum": "a-at0 g-open1 -> b-at1 !a-at0",
+            "jump2 hum": "a-at0 h-open2 -> d-at2 !a-at0",
+            "open0 rob": "f-ready -> e-open0 !f-ready",
+            "open1 rob": "-> g-open1",
+            "open2 rob": "f-ready -> h-open2 i-tired @ 0.1",
+            "prepare rob": "-> f-ready i-tired @ 0",
+            "walk0 hum": "a-at0 -> b-at1 !a-at0",
+            "walk1 hum": "b-at1 -> d-at2 !b-at1 @ 3",
+        },
+    )
+    options = {
+        "discount": "1",
+        "window_weight": "0",
+        "suffix": "subplan",
+        "horizon": "4",
+        "interference": "strict",
+    }
+    call = PlanCall(task, options)
+    assert {JUDGES[name](call, Deadline()).cost for name in ("search", "automata", "paper", "cbc")} == {1.0}
+
+
+def test_a_program_whose_presolve_lost_the_best_plan() -> None:
+    """HiGHS 1.13.1 with all of its presolve finds no plan below 8 in the paper's program."""
+    task = build(
+        agents="hum rob",
+        human="hum",
+        init="at0 ready",
+        goal="at3",
+        actions={
+            "carry hum rob": "at0 -> at2 !at0",
+            "open0 rob": "-> open0 !ready @ 2",
+            "stroll0 hum": "at0 -> at1 @ 2",
+            "stroll2 hum": "at2 -> at3 !at2 @ 3",
+            "walk0 hum": "at0 -> at1 !at0 @ 2",
+            "walk1 hum": "at1 -> at2 @ 3",
+            "walk2 hum": "at2 -> at3 !at2 @ 3",
+        },
+    )
+    call = PlanCall(task, {"mode": "composite", "interference": "strict"})
+    assert {JUDGES[name](call, Deadline()).cost for name in JUDGES} == {4.0}
+
+
+def _blind(call: PlanCall, deadline: Deadline) -> Result:
+    """A judge that overlooks every opportunity."""
+    answer = JUDGES["search"](call, deadline)
+    if not answer.opportunity or answer.human_cost is None:
+        return answer
+    return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
+
+
+def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
+    judges = {"search": JUDGES["search"], "blind": _blind}
+    call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9", "interference": "strict"})
+    found = compare(call, judges)
+    assert found is not None
+    smallest = shrink(call, shows_it_too(found, judges))
+    found = compare(smallest, judges)
+    assert found is not None
+    assert "refuted" in found.said["blind"]
+    assert len(smallest.task.actions) < 12 < len(call.task.actions)
+    assert "interference" not in smallest.options
+    commands = write_case(found, tmp_path / "case")
+    assert f"serendipity plan {tmp_path / 'case'} --human h" in commands.read_text()
+    task = load(tmp_path / "case", human="h")
+    search = JUDGES["search"]
+    assert search(replace(smallest, task=task), Deadline()).cost == search(smallest, Deadline()).cost
+
+
+def test_judges_without_time_agree_with_everybody() -> None:
+    call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9"})
+    assert compare(call, {"search": JUDGES["search"], "automata": JUDGES["automata"]}, time_limit=0) is None
+
+
+def test_command_lines_quote_nothing_away() -> None:
+    call = PlanCall(case_4(), {"mode": "communication", "keep_prefix": "true", "max_window": "2"})
+    words = command_line(call, Path("a b"), "solve --encoding paper")
+    assert words == (
+        "serendipity solve --encoding paper 'a b' --human h --mode communication --keep-prefix --max-window 2"
+    )
+    given = PlanCall(case_4(), {"human_model": "local", "no_block": "false"}, ("move h a b",))
+    assert command_line(given, Path("c")) == (
+        "serendipity plan c --human h --human-model local --allow-block --human-plan c/plan.txt"
+    )
+
+
+def test_a_given_plan_is_written_beside_the_task(tmp_path: Path) -> None:
+    plan = ("enter h", "leave h")
+    task = build(
+        init="out", goal="home", actions={"enter h": "-> in", "leave h": "in -> home", "aid r": "-> in"}
+    )
+    found = Disagreement(PlanCall(task, {}, plan), {"search": "this", "paper": "that"})
+    commands = write_case(found, tmp_path / "case").read_text().splitlines()
+    line = next(line for line in commands if line.startswith("serendipity plan"))
+    assert main([*line.split()[1:], "--format", "json"]) == 0
+
+
+# -- the command
+
+
+def test_command_on_random_calls(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["crosscheck", "--count", "3", "--seed", "5", "--judges", "search,automata"]) == 0
+    assert capsys.readouterr().out == "3 calls, search, automata: 0 disagreements\n"
+
+
+def test_command_without_a_seed_draws_one_and_says_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("secrets.randbelow", lambda most: most - 7)
+    assert main(["crosscheck", "--count", "1", "--judges", "search"]) == 0
+    assert capsys.readouterr().out == "seed 999999993\n1 calls, search: 0 disagreements\n"
+
+
+def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["crosscheck", "--judges", "search,oracle"]) == 2
+    assert "expected some of search, automata, paper, cbc, got 'oracle'" in capsys.readouterr().err
+
+
+def test_command_writes_a_disagreement(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(judging.JUDGES, "search", _blind_of(judging.JUDGES["search"]))
+    folder = tmp_path / "case"
+    words = ["crosscheck", "--seed", "0", "--count", "200", "--judges", "search,automata", "-o", str(folder)]
+    assert main(words) == 1
+    assert "a disagreement" in capsys.readouterr().out
+    assert "serendipity crosscheck --count 1 --seed " in (folder / "commands.txt").read_text()
+
+
+def _blind_of(judge: judging.Judge) -> judging.Judge:
+    def blind(call: PlanCall, deadline: Deadline) -> Result:
+        answer = judge(call, deadline)
+        if not answer.opportunity or answer.human_cost is None:
+            return answer
+        return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
+
+    return blind
+
+
+@pytest.mark.parametrize("encoding", ["automata", "paper"])
+def test_solve_answers_like_plan(encoding: str, tmp_path: Path) -> None:
+    answers = []
+    for command in ("plan", f"solve --encoding {encoding} --solver highs"):
+        file = tmp_path / "answer.json"
+        words = [*command.split(), "--example", "room2", "--discount", "0.6", "--mode", "individual"]
+        assert main([*words, "--format", "json", "-o", str(file)]) == 0
+        answers.append(Result.from_dict(json.loads(file.read_text())))
+    assert answers[0].plan == answers[1].plan
+    assert answers[0].cost == answers[1].cost == 13.0

@@ -1,0 +1,115 @@
+"""Each law finds a planner that breaks it within some hundreds of calls: bugs that are planted (again)."""
+
+from collections.abc import Callable
+from copy import copy
+from typing import Any
+
+import pytest
+
+from search.engine import best_first
+from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.packed_task import PackedTask
+from search.planner import _Call
+from search.spaces.windowed import Windowed
+from serendipity.evaluation.crosscheck import JUDGES, compare, random_call
+from serendipity.evaluation.crosscheck.laws import LAWS
+from serendipity.model.actions import conflicting
+
+Patch = pytest.MonkeyPatch
+
+
+def half_an_answer(patch: Patch) -> None:
+    """The incumbent is there before what the human does at its end is."""
+
+    def end(self: Any, node: Any, best: Any) -> None:
+        left, limit = self._horizon - node.epoch, best.key - node.key
+        rest = self._suffix.key(node.state, left, node.start, limit)
+        if rest < limit and not self._too_dear(node.key + rest):
+            best.key, best.node, best.end = node.key + rest, node, node.epoch + 1
+            best.tail = self._suffix.actions(node.state, left, node.start)
+
+    patch.setattr(Windowed, "_end", end)
+
+
+def help_that_is_none(patch: Patch) -> None:
+    """What the human gains alone is taken for help while it is looked for."""
+    original = _Call._helps
+
+    def helps(self: Any) -> bool:
+        settled, self.settled = self.settled, True
+        found = original(self)
+        self.settled = settled
+        return found
+
+    patch.setattr(_Call, "_helps", helps)
+
+
+def an_infinite_figure(patch: Patch) -> None:
+    """An infinite bound is reported, instead of what it proves."""
+    patch.setattr(
+        _Call, "_unfinished", lambda self: "feasible" if self._answer().key < INFINITE_KEY else "unknown"
+    )
+
+
+def feasible_without_a_plan(patch: Patch) -> None:
+    """Where a bound has risen, there is said to be a plan."""
+    patch.setattr(best_first, "_PATIENCE", 0)  # every rise is reported
+    patch.setattr(_Call, "_unfinished", lambda _: "feasible")
+
+
+def interference_of_an_earlier_call(patch: Patch) -> None:
+    """What is kept with the task leaves an option out."""
+
+    def compatible(self: Any, first: int, second: int, strict: bool) -> bool:
+        actions, key = self.task.actions, (first, second)
+        if key not in self._compatible:
+            self._compatible[key] = not conflicting(actions[first], actions[second], strict=strict)
+        return bool(self._compatible[key])
+
+    patch.setattr(PackedTask, "compatible", compatible)
+
+
+def an_earlier_state(patch: Patch) -> None:
+    """Sessions go on planning from where they began."""
+
+    def moved_to(self: Any, task: Any, *, derived: bool) -> Any:
+        moved = copy(self)
+        moved.task = task
+        return moved
+
+    patch.setattr(PackedTask, "moved_to", moved_to)
+
+
+def variants_are_actions(patch: Patch) -> None:
+    """Who planned one variant of an action and does another has to be told."""
+    original = Weights.__init__
+
+    def init(self: Any, packed: Any, options: Any, plan: Any) -> None:
+        original(self, packed, options, plan)
+        self.ids = frozenset(plan or ())
+
+    patch.setattr(Weights, "__init__", init)
+    patch.setattr(Weights, "_is_planned", lambda self, op: op.action in self.ids)
+
+
+FOUND: dict[Callable[[Patch], None], tuple[str, int]] = {
+    half_an_answer: ("limits", 240),
+    help_that_is_none: ("limits", 533),
+    an_infinite_figure: ("limits", 77),
+    feasible_without_a_plan: ("on the way", 26),
+    interference_of_an_earlier_call: ("again", 581),
+    an_earlier_state: ("session", 2),
+    variants_are_actions: ("variants", 359),
+}
+"""Which law finds them, and the first call in which it does."""
+
+
+@pytest.mark.parametrize("bug", FOUND, ids=lambda bug: bug.__name__)
+def test_bugs_are_found(bug: Callable[[Patch], None], monkeypatch: Patch) -> None:
+    law, seed = FOUND[bug]
+    judges, laws = {"search": JUDGES["search"]}, {law: LAWS[law]}
+    assert compare(random_call(seed), judges, laws) is None
+    bug(monkeypatch)
+    found = compare(random_call(seed), judges, laws)
+    assert found is not None, "the generator has changed: find another such call"
+    assert found.law == law

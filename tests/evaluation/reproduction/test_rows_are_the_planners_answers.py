@@ -1,0 +1,110 @@
+"""However a suite is run, its rows are what ``plan`` answers."""
+
+import csv
+import io
+import shutil
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.evaluation.reproduction import COLUMNS, Progress, Reproduction, reproduce
+from serendipity.evaluation.reproduction.formats import rows_as_csv
+from serendipity.evaluation.reproduction.tables import table_1
+from serendipity.pddl.write import write_pddl
+from tests.evaluation.reproduction.conftest import PRESETS
+from tests.support.builders import task as build
+
+MODES = ("individual", "serendipity", "communication")
+DISCOUNTS = ("0.6", "0.9")
+
+
+def without_times(run: Reproduction) -> list[tuple[str, ...]]:
+    return [row.cells()[:-1] for row in run.rows]
+
+
+@pytest.fixture(scope="module")
+def run(suite: Path) -> Reproduction:
+    return reproduce(suite, modes=MODES, discounts=DISCOUNTS)
+
+
+def test_rows_are_the_answers_in_order(run: Reproduction) -> None:
+    expected = []
+    for number, preset in enumerate(PRESETS, start=1):
+        task = serendipity.example(preset)
+        for mode in MODES:
+            for discount in DISCOUNTS:
+                result = serendipity.plan(task, mode=mode, discount=discount)
+                expected.append((str(number), mode, Fraction(discount), result.cost, result.window))
+    found = [
+        (row.test, row.mode, row.discount, None if row.cost is None else float(row.cost), row.window)
+        for row in run.rows
+    ]
+    assert found == expected
+
+
+def test_processes_give_the_same_rows(suite: Path, run: Reproduction) -> None:
+    assert without_times(reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=2)) == without_times(run)
+
+
+def test_a_dask_cluster_gives_the_same_rows(suite: Path, run: Reproduction) -> None:
+    again = reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=1, dask="local")
+    assert without_times(again) == without_times(run)
+
+
+def test_csv_has_the_columns(run: Reproduction) -> None:
+    header, *lines = csv.reader(io.StringIO(rows_as_csv(run)))
+    assert tuple(header) == COLUMNS
+    assert lines[2][:-1] == ["1", "serendipity", "0.6", "12.6", "13.0", "6", "7"]
+    assert all(float(line[-1]) > 0 for line in lines)
+
+
+def test_progress_counts_tasks_and_opportunities(suite: Path) -> None:
+    seen: list[Progress] = []
+    reproduce(suite, modes=["serendipity"], discounts=["0.6"], on_progress=seen.append)
+    assert [progress.done for progress in seen] == list(range(7))
+    assert {progress.total for progress in seen} == {6}
+    assert [progress.opportunities for progress in seen] == [0, 1, 1, 1, 2, 2, 2]
+
+
+def test_means_and_counts_follow_the_ties(tmp_path: Path) -> None:
+    """In room5 only some of the human's optimal plans pass by the medkit."""
+    serendipity.generate_usar(tmp_path / "test1", preset="room5")
+    run = reproduce(tmp_path, modes=["serendipity"], discounts=["0.9"])
+    entries = {entry.variant: entry for entry in table_1(run)}
+    task = serendipity.load(tmp_path / "test1")
+    best = serendipity.plan(task, discount="0.9", ties="optimistic")
+    worst = serendipity.plan(task, discount="0.9", ties="robust")
+    for variant, answer in (("best", best), ("worst", worst)):
+        entry = entries[f"serendipity, {variant} tie"]
+        assert entry.mean is not None
+        assert float(entry.mean) == answer.cost
+        assert entry.improved == answer.opportunity
+
+
+def test_the_worst_tie_is_the_dearest_answer(tmp_path: Path) -> None:
+    """It was the dearest of those that the best tie had to look at: a list that ends early."""
+    task = build(
+        goal="done",
+        actions={
+            **{f"enter{k} h": f"-> on{k}" for k in range(5)},
+            **{f"walk{k} h": f"on{k} -> past{k}" for k in range(5)},
+            **{f"leave{k} h": f"past{k} -> done @ 3" for k in range(5)},
+            **{f"quit{k} h": f"past{k} light -> done" for k in range(4)},
+            "fetch r": "-> lamp",
+            "help r": "lamp -> light",
+        },
+    )
+    write_pddl(task, tmp_path / "test1")
+    (row,) = reproduce(tmp_path, modes=["serendipity"], discounts=["0.9"]).rows
+    assert (row.best_tie, row.worst_tie) == (Fraction("3.2"), Fraction(5))
+
+
+def test_an_unreadable_task_stops_the_run_and_is_named(suite: Path, tmp_path: Path) -> None:
+    shutil.copytree(suite, tmp_path / "suite")
+    broken = tmp_path / "suite" / "test4" / "commx" / "problem.pddl"
+    broken.write_text("(define (problem")
+    for jobs in (1, 2):
+        with pytest.raises(serendipity.InputError, match=r"problem\.pddl"):
+            reproduce(tmp_path / "suite", modes=["individual"], discounts=["0"], jobs=jobs)
