@@ -1,1 +1,1 @@
-"""What every proof rests on: the question asked, the human's own optima, rules of concurrency, limits."""
+"""What every proof rests on: the question asked, the human's own optima, what a step means, limits."""

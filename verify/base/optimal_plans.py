@@ -7,10 +7,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from serendipity.model import HumanPlan, Task
-from verify.base.concurrency import applicable
+from verify.base.execution import State, after, applicable
 from verify.base.individual import IndividualOptimum
-
-State = frozenset[int]
 
 Worth = tuple[Fraction, int]
 """Cost and number of actions."""
@@ -56,14 +54,14 @@ class OptimalPlans:
             if action.name == last:
                 continue
             if action.cost <= cost and applicable(action, state):
-                after = state.difference(action.delete).union(action.add)
-                if self.worth(after) == (cost - action.cost, length - 1):
+                successor = after(state, action)
+                if self.worth(successor) == (cost - action.cost, length - 1):
                     last = action.name
-                    yield i, after
+                    yield i, successor
 
     def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:
         worth = self.worth(state)
         if worth is not None and worth[1] == 0:
             yield plan
-        for i, after in self.steps(state):
-            yield from self._continue((*plan, i), after)
+        for i, successor in self.steps(state):
+            yield from self._continue((*plan, i), successor)

@@ -11,6 +11,7 @@ from fractions import Fraction
 from math import lcm
 
 from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
+from verify.base.execution import price
 
 FREE, WINDOW, EXACT, ALONE = "free", "window", "exact", "alone"
 """Rules for the human: anything (semantics 3.4), a window (3.1), exactly ``pi_H``, his own actions only."""
@@ -116,6 +117,10 @@ def _least(a: int | None, b: int | None) -> int | None:
     return b if a is None else a if b is None else min(a, b)
 
 
+_Kind = tuple[tuple[int, int], bool, bool]
+"""What an action's price depends on: its cost, whether the human takes part, whether he has to be told."""
+
+
 def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadline | None = None) -> Prices:
     """The integer costs of a call.
 
@@ -127,14 +132,14 @@ def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadli
     deadline, planned = deadline or Deadline(), in_plan(task, human_plan)
     weight = options.communication_weight if options.mode == "communication" else Fraction(0)
     epoch = options.window_weight if options.windowed else Fraction(0)
-    kinds: list[tuple[int, bool, bool]] = []  # few different ones: rationals are slow
-    amounts: dict[tuple[int, bool, bool], tuple[Fraction, Fraction]] = {}
+    kinds: list[_Kind] = []  # few different ones: rationals are slow
+    amounts: dict[_Kind, tuple[Fraction, Fraction]] = {}
     for i, action in enumerate(deadline.each(task.actions)):
         his = task.human in action.participants
-        kind = id(action.cost), his, his and i not in planned
+        kind = action.cost.as_integer_ratio(), his, his and i not in planned
         if kind not in amounts:
             talk = weight * action.cost if kind[2] else Fraction(0)
-            amounts[kind] = task.team_cost(action, options.discount), talk
+            amounts[kind] = price(task, action, options.discount), talk
         kinds.append(kind)
     scale = lcm(epoch.denominator, *(amount.denominator for both in amounts.values() for amount in both))
     units = {kind: (int(team * scale), int(talk * scale)) for kind, (team, talk) in amounts.items()}

@@ -1,9 +1,9 @@
 """Answers of the verifier in the model's form."""
 
-from fractions import Fraction
 from typing import Any
 
 from serendipity.model import PlanStep, Result, Step, Window
+from verify.base.execution import plan_step, shares
 from verify.base.subproblem import Solution
 from verify.calls.answer import Answer, idle_cost
 from verify.calls.call import Call
@@ -11,16 +11,7 @@ from verify.calls.call import Call
 
 def plan_steps(call: Call, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
     """Steps with names and costs, in order."""
-    task = call.task
-    return tuple(
-        PlanStep(
-            step.epoch,
-            tuple(task.agents[i] for i in task.actions[step.action].participants),
-            task.actions[step.action].name,
-            float(task.team_cost(task.actions[step.action], call.options.discount)),
-        )
-        for step in sorted(steps)
-    )
+    return tuple(plan_step(call.task, step, call.options.discount) for step in sorted(steps))
 
 
 def found_result(call: Call, found: Solution, *, opportunity: bool) -> Result:
@@ -108,12 +99,5 @@ def _saving_alone(call: Call) -> float | None:
 
 
 def _agent_costs(call: Call, steps: tuple[Step, ...]) -> dict[str, float]:
-    """A joint action's cost is shared equally."""
-    task = call.task
-    shares = dict.fromkeys(task.agents, Fraction(0))
-    for step in steps:
-        action = task.actions[step.action]
-        for agent in action.participants:
-            cost = task.team_cost(action, call.options.discount)
-            shares[task.agents[agent]] += cost / len(action.participants)
-    return {agent: float(share) for agent, share in shares.items()}
+    paid = shares(call.task, (step.action for step in steps), call.options.discount)
+    return {agent: float(share) for agent, share in paid.items()}

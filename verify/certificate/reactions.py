@@ -12,7 +12,7 @@ from typing import Final
 
 from serendipity.model import LimitReachedError, Step, surroundings
 from serendipity.model.errors import LIMITS, limit_reason
-from verify.base.concurrency import applicable, conflicting
+from verify.base.execution import State, applicable, sets_beside
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import during
@@ -22,8 +22,6 @@ from verify.programs.minimise import Minimum
 from verify.simulator import Moment, Person, Play
 
 MOST_MOMENTS: Final = 200_000
-
-State = frozenset[int]
 
 
 def cheapest_reaction(call: Call, most: int | None) -> Minimum:
@@ -97,7 +95,7 @@ class _Reactions:
     def _play(self, epoch: int, now: Moment) -> Iterator[tuple[Moment, int]]:
         """What can come of an epoch, where it is worth going on, with the cost so far."""
         spent, look, team = self.known[now], self.game.look(now), self.call.prices.team
-        for offers in self._sets((), self._candidates(now.state)):
+        for offers in self._offers(now.state):
             self.deadline.tick()
             deed, after = self.game.act(look, offers)
             if deed.skipped or (deed.blocks and not self.may_block):
@@ -111,18 +109,12 @@ class _Reactions:
                 self.before[epoch, after] = now, deed.executed
                 yield after, total
 
-    def _candidates(self, state: State) -> list[int]:
-        actions = self.call.task.actions
+    def _offers(self, state: State) -> Iterator[tuple[int, ...]]:
+        """All sets of actions that may share the next epoch, the empty one first."""
+        task = self.call.task
         found = (i for f in (-1, *state) for i in self.offered.get(f, ()))
-        return [i for i in self.deadline.each(found) if applicable(actions[i], state)]
-
-    def _sets(self, chosen: tuple[int, ...], candidates: list[int]) -> Iterator[tuple[int, ...]]:
-        """All sets of actions that may share an epoch, the empty one first."""
-        yield chosen
-        actions, strict = self.call.task.actions, self.call.options.strict
-        for k, i in enumerate(candidates):
-            if not any(conflicting(actions[i], actions[j], strict=strict) for j in chosen):
-                yield from self._sets((*chosen, i), candidates[k + 1 :])
+        candidates = [i for i in self.deadline.each(found) if applicable(task.actions[i], state)]
+        return sets_beside(task, (), candidates, self.deadline, strict=self.call.options.strict)
 
     def _found(self, epoch: int, moment: Moment, cost: int) -> Solution:
         return Solution(tuple(self._steps(epoch, moment)), None, cost, cost)

@@ -6,11 +6,11 @@ same time or after its end.  A clock that stops at that end is part of the state
 
 from collections.abc import Iterator
 
-from verify.base.concurrency import conflicting
+from verify.base.execution import State, sets_beside
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
-from verify.exhaustive.uniform_cost import Bundle, JointSearch, State
+from verify.exhaustive.uniform_cost import Bundle, JointSearch
 from verify.programs.minimise import Minimum
 
 
@@ -65,7 +65,8 @@ class _Following(JointSearch):
             for i in self.deadline.each(self.part.actions)
             if human not in self.task.actions[i].participants and self._fits(i, state)
         ]
-        for chosen in self._sets((plan[epoch],), robots):
+        strict = self.question.options.strict
+        for chosen in sets_beside(self.task, (plan[epoch],), robots, self.deadline, strict=strict):
             bundle = self.bundle(chosen)
             tick, tock = frozenset((_clock(epoch),)), frozenset((_clock(epoch + 1),))
             yield Bundle(chosen, bundle.pre, bundle.neg, bundle.add | tock, bundle.delete | tick, bundle.cost)
@@ -75,11 +76,3 @@ class _Following(JointSearch):
 
     def _fits(self, i: int, state: State) -> bool:
         return state.issuperset(self.part.pre[i]) and state.isdisjoint(self.part.neg[i])
-
-    def _sets(self, chosen: tuple[int, ...], candidates: list[int]) -> Iterator[tuple[int, ...]]:
-        """All action sets that share an epoch with what is chosen."""
-        yield chosen
-        actions, strict = self.task.actions, self.question.options.strict
-        for k, i in enumerate(self.deadline.each(candidates)):
-            if not any(conflicting(actions[i], actions[j], strict=strict) for j in chosen):
-                yield from self._sets((*chosen, i), candidates[k + 1 :])

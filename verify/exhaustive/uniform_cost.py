@@ -12,7 +12,7 @@ from typing import Final
 
 from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, Task
 from serendipity.model.errors import LIMITS, limit_reason
-from verify.base.concurrency import conflicting
+from verify.base.execution import State, fits
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import during
@@ -21,8 +21,6 @@ from verify.programs.automata.product import automata
 from verify.programs.minimise import Minimum
 
 MOST_STATES: Final = 500_000
-
-State = frozenset[int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,7 +196,7 @@ def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadl
             found.add(tuple(sorted(chosen)))
         if len(chosen) < len(task.agents):
             for j in {j for i in chosen for j in disables[i]} - set(chosen):
-                if not any(conflicting(by_id[i], by_id[j], strict=False) for i in chosen):
+                if fits(by_id[j], (by_id[i] for i in chosen), strict=False):
                     extend((*chosen, j))
 
     for i, _ in actions:

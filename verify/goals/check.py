@@ -5,7 +5,8 @@ from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
 
-from serendipity.model import Claim, Deadline, PlanStep, Result, Step, Task
+from serendipity.model import Claim, Deadline, Result, Task
+from verify.base.execution import plan_step
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, needed
 from verify.base.optimal_plans import OptimalPlans
@@ -234,7 +235,8 @@ class _Claims:
         except UNDECIDED as error:
             verdict, reason = "undecided", why(error)
         bound = self.result.lower_bound if verdict == "proved" else None
-        example = None if better is None else tuple(map(self._step, better.robots))
+        task, discount = self.lines[0].task, self.result.options.discount
+        example = None if better is None else tuple(plan_step(task, s, discount) for s in better.robots)
         yield Claim(wanted[0], verdict, reason, example, perf_counter() - started, bound)
         for name in wanted[1:]:
             yield Claim(name, verdict, f"as '{wanted[0]}': {reason}", example, bound=bound)
@@ -281,10 +283,3 @@ class _Claims:
         if self.result.opportunity and mean(self.lines, [line.case.cost for line in self.lines]) >= idle:
             return f"the plan costs no less than {float(idle):.12g}, robots idle"
         return None
-
-    def _step(self, step: Step) -> PlanStep:
-        task = self.lines[0].task
-        action = task.actions[step.action]
-        agents = tuple(task.agents[i] for i in action.participants)
-        cost = task.team_cost(action, self.result.options.discount)
-        return PlanStep(step.epoch, agents, action.name, float(cost))

@@ -147,8 +147,9 @@ def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
         return "no opportunity, but robots act"
     if result.agent_costs.keys() != set(lines[0].task.agents):
         return "agent_costs: expected one figure for each agent"
+    paid = [line.case.shares for line in lines]
     for agent, said in result.agent_costs.items():
-        share = mean(lines, [_share(line.case, agent) for line in lines])
+        share = mean(lines, [by_agent[agent] for by_agent in paid])
         if not close(said, share):
             return f"agent_costs of {agent} is {float(share):.12g}, the answer says {said:.12g}"
     return None
@@ -172,13 +173,3 @@ def close(said: float, value: Fraction) -> bool:
 def mean(lines: Sequence[Timeline], values: Sequence[Fraction]) -> Fraction:
     """The expectation of a figure over the goals."""
     return sum((line.weight * value for line, value in zip(lines, values, strict=True)), Fraction(0))
-
-
-def _share(case: Case, agent: str) -> Fraction:
-    """What an agent contributes; a joint action's cost is shared equally."""
-    total = Fraction(0)
-    for _, i in case.steps():
-        participants = case.task.actions[i].participants
-        if agent in [case.task.agents[a] for a in participants]:
-            total += case.price(i) / len(participants)
-    return total

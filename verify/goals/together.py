@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Step
-from verify.base.concurrency import applicable, conflicting
+from verify.base.execution import State, after, applicable, fits, sets_beside
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE
 from verify.base.undecided import UndecidedError
@@ -23,7 +23,6 @@ from verify.programs.minimise import replans
 
 MOST_NODES: Final = 20_000
 
-State = frozenset[int]
 Label = tuple[int, State]
 """First epoch of the window (0: not open yet), and the state."""
 Rank = tuple[Fraction, Fraction]
@@ -134,19 +133,16 @@ class Together:
     def _choices(self, lines: Sequence[_Line]) -> Iterator[Robots]:
         """Sets of robots' actions that are possible on some label of the goal with the fewest."""
         fewest = min(lines, key=lambda line: len(line.labels))
-        offered = {(): None} | {
-            chosen: None for _, state in fewest.labels for chosen in self._sets((), self._robots, state)
-        }
+        offered: dict[Robots, None] = {(): None}
+        for _, state in fewest.labels:
+            offered |= dict.fromkeys(self._offers(state))
         yield from offered
 
-    def _sets(self, chosen: Robots, candidates: Sequence[int], state: State) -> Iterator[Robots]:
-        actions, strict = self._calls[0].task.actions, self._calls[0].options.strict
-        for k, i in enumerate(self._calls[0].effort.deadline.each(candidates)):
-            if applicable(actions[i], state) and not any(
-                conflicting(actions[i], actions[j], strict=strict) for j in chosen
-            ):
-                yield (*chosen, i)
-                yield from self._sets((*chosen, i), candidates[k + 1 :], state)
+    def _offers(self, state: State) -> Iterator[Robots]:
+        call = self._calls[0]
+        deadline, actions = call.effort.deadline, call.task.actions
+        candidates = [i for i in deadline.each(self._robots) if applicable(actions[i], state)]
+        return sets_beside(call.task, (), candidates, deadline, strict=call.options.strict)
 
     def _after(
         self, lines: Sequence[_Line], epoch: int, robots: Robots, than: Rank
@@ -199,9 +195,9 @@ class Together:
         chosen = [task.actions[i] for i in (*robots, *(() if his is None else (his,)))]
         if not all(applicable(action, state) for action in chosen):
             return None
-        if his is not None and any(conflicting(chosen[-1], other, strict=strict) for other in chosen[:-1]):
+        if his is not None and not fits(chosen[-1], chosen[:-1], strict=strict):
             return None
-        return state.difference(*(a.delete for a in chosen)).union(*(a.add for a in chosen))
+        return after(state, *chosen)
 
     def _closed(self, call: Call, state: State, epoch: int, score: Score) -> Score | None:
         """Rule 3: the window ends after the epoch, and he goes on with an optimal plan that fits."""

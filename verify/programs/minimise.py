@@ -10,15 +10,13 @@ from dataclasses import dataclass, field
 from typing import Final, Protocol
 
 from serendipity.model import Deadline, Step, UsageError, Window
-from verify.base.concurrency import applicable, conflicting
+from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import WINDOW, Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.programs.automata import AutomataEncoding
 from verify.programs.paper import PaperEncoding
 from verify.solvers.mip import SOLVERS, Model, SolverOutcome, optimise
-
-State = frozenset[int]
 
 
 class ProgramEncoding(Protocol):
@@ -197,8 +195,7 @@ def _better(a: Solution | None, b: Solution | None) -> Solution | None:
 
 def _nothing_to_do(question: Subproblem) -> Minimum:
     """No epoch at all: the empty plan or none; it has no window."""
-    task = question.task
-    goals = task.goal.holds(task.init) and (not question.robots_goal or task.robot_goal.holds(task.init))
+    goals = _goals_hold(question, question.task.init)
     if not goals or question.rule == WINDOW or (question.most or 0) < 0 or (question.most_cost or 0) < 0:
         return Minimum("none")
     return Minimum("found", Solution((), None, 0, 0), 0)
@@ -206,22 +203,15 @@ def _nothing_to_do(question: Subproblem) -> Minimum:
 
 def replay(question: Subproblem, steps: tuple[Step, ...]) -> list[State] | None:
     """States ``s_0 .. s_T`` of a plan, or None if it is not executable or misses a goal."""
+    task, sets = question.task, by_epoch(steps)
+    epochs = (sets.get(epoch, ()) for epoch in range(1, question.horizon + 1))
+    states = states_along(task, epochs, strict=question.options.strict)
+    return states if states is not None and _goals_hold(question, states[-1]) else None
+
+
+def _goals_hold(question: Subproblem, state: State) -> bool:
     task = question.task
-    states = [task.init]
-    for epoch in range(1, question.horizon + 1):
-        chosen = [task.actions[step.action] for step in steps if step.epoch == epoch]
-        if not all(applicable(action, states[-1]) for action in chosen):
-            return None
-        if any(
-            conflicting(a, b, strict=question.options.strict)
-            for k, a in enumerate(chosen)
-            for b in chosen[:k]
-        ):
-            return None
-        deleted = states[-1].difference(*(action.delete for action in chosen))
-        states.append(deleted.union(*(action.add for action in chosen)))
-    reached = task.goal.holds(states[-1]) and (not question.robots_goal or task.robot_goal.holds(states[-1]))
-    return states if reached else None
+    return task.goal.holds(state) and (not question.robots_goal or task.robot_goal.holds(state))
 
 
 def replans(question: Subproblem) -> bool:

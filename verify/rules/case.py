@@ -1,12 +1,13 @@
 """One result under examination: what several rules look at, worked out once."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
 from serendipity.model import PlanError, Result, Task
+from verify.base.execution import price, shares
 from verify.base.individual import IndividualOptimum
 from verify.rules.replay import Replay, replay, replay_human
 
@@ -97,8 +98,12 @@ class Case:
 
     def price(self, action: int) -> Fraction:
         """Cost to the team: undiscounted if the human takes part (semantics 1)."""
-        cost = self.task.actions[action].cost
-        return cost if self.his(action) else cost * (1 - self.result.options.discount)
+        return price(self.task, self.task.actions[action], self.result.options.discount)
+
+    @property
+    def shares(self) -> Mapping[str, Fraction]:
+        """What each agent contributes, by name: a joint action's cost is shared equally."""
+        return shares(self.task, (i for _, i in self.steps()), self.result.options.discount)
 
     def his(self, action: int) -> bool:
         """Whether the human takes part."""

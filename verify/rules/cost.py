@@ -29,15 +29,11 @@ def agent_costs(case: Case) -> Found | None:
     """A joint action's cost is shared equally among its participants."""
     if case.result.plan is None:
         return None
-    shares = dict.fromkeys(case.task.agents, Fraction(0))
-    for _, i in case.steps():
-        participants = case.task.actions[i].participants
-        for agent in participants:
-            shares[case.task.agents[agent]] += case.price(i) / len(participants)
+    paid = case.shares
     for name in case.result.agent_costs:
-        if name not in shares:
+        if name not in paid:
             return Found(f"agent_costs: there is no agent {name:.50}")
-    for name, share in shares.items():
+    for name, share in paid.items():
         found = _differs(f"agent_costs of {name}", case.result.agent_costs.get(name), share)
         if found is not None:
             return found

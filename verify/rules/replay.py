@@ -3,10 +3,8 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from serendipity.model import Deadline, GroundAction, PlanError, PlanStep, Task
-from verify.base.concurrency import applicable, clash
-
-State = frozenset[int]
+from serendipity.model import Deadline, PlanError, PlanStep, Task
+from verify.base.execution import State, after, applicable, clash, meant_by, participants
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +57,7 @@ def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict:
         chosen, fault = _epoch(task, by_epoch[epoch], state, deadline, strict=strict)
         if fault is not None:
             return Replay(sets, states, fault)
-        state = _after(state, [task.actions[i] for i in chosen])
+        state = after(state, *(task.actions[i] for i in chosen))
         sets[epoch], states[epoch] = chosen, state
     return Replay(sets, states, None)
 
@@ -81,7 +79,7 @@ def replay_human(task: Task, names: Iterable[str], deadline: Deadline) -> tuple[
         if chosen is None:
             raise PlanError(f"step {number}, '{name}', is not applicable: {_unmet(task, own[0], state)}")
         plan.append(chosen)
-        state = _after(state, [task.actions[chosen]])
+        state = after(state, task.actions[chosen])
     if not task.goal.holds(state):
         raise PlanError("the goal does not hold at its end")
     return tuple(plan)
@@ -128,20 +126,16 @@ def _resolve(task: Task, step: PlanStep, state: State) -> tuple[tuple[int, ...],
     ids = task.named.get(step.action, ())
     if not ids:
         return (), Fault("unknown-action", "the task has no such action", step.epoch, step.action)
-    listed = {i for i in ids if _agents(task, i) == sorted(step.agents)}
+    listed = meant_by(task, step.action, step.agents)
     if not listed:
-        expected = ", ".join(_agents(task, ids[0]))
+        expected = ", ".join(participants(task, ids[0]))
         message = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
         return (), Fault("wrong-agents", message, step.epoch, step.action)
-    fitting = tuple(i for i in sorted(listed) if applicable(task.actions[i], state))
+    fitting = tuple(i for i in listed if applicable(task.actions[i], state))
     if fitting:
         return fitting, None
-    message = f"precondition: {_unmet(task, min(listed), state)}"
+    message = f"precondition: {_unmet(task, listed[0], state)}"
     return (), Fault("precondition", message, step.epoch, step.action)
-
-
-def _agents(task: Task, action: int) -> list[str]:
-    return sorted(task.agents[i] for i in task.actions[action].participants)
 
 
 def _conflict(
@@ -159,12 +153,6 @@ def _conflict(
             message = f"conflicts with '{other.name}' over '{task.facts[fact]}'"
             return Fault("conflict", message, step.epoch, step.action)
     return None
-
-
-def _after(state: State, actions: Iterable[GroundAction]) -> State:
-    actions = list(actions)
-    deleted = state.difference(*(action.delete for action in actions))
-    return deleted.union(*(action.add for action in actions))
 
 
 def _unmet(task: Task, action: int, state: State) -> str:

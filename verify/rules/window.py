@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from verify.base.execution import facts_of_his, states_of_pi_h
 from verify.rules.case import Case, Found
 
 
@@ -128,25 +129,13 @@ def preserved_state(case: Case) -> Found | None:
     j = len(case.pi_h) - len(rest)
     if j < window.start - 1 or case.pi_h[j:] != rest:
         return Found(f"from epoch {window.end} the human does not do an end of pi_H", window.end)
-    mentioned = _own_facts(case)
-    state = case.replay.state_after(window.end - 1)
-    expected = case.task.init
-    for i in case.alone.deadline.each(case.pi_h[:j]):
-        expected = expected.difference(case.task.actions[i].delete).union(case.task.actions[i].add)
-    missing = (expected & mentioned) - state
+    deadline = case.alone.deadline
+    expected = states_of_pi_h(case.task, case.pi_h[:j], deadline)[-1] & facts_of_his(case.task, deadline)
+    missing = expected - case.replay.state_after(window.end - 1)
     if not missing:
         return None
     fact = case.task.facts[min(missing)]
     return Found(f"the state before epoch {window.end} lacks '{fact}', true after pi_H[1..{j}]", window.end)
-
-
-def _own_facts(case: Case) -> frozenset[int]:
-    """The facts that the human's own domain mentions."""
-    facts = {*case.task.goal.positive, *case.task.goal.negative}
-    for i in case.alone.deadline.each(case.task.human_actions):
-        action = case.task.actions[i]
-        facts.update(action.pre, action.neg, action.add, action.delete)
-    return frozenset(facts)
 
 
 def _follows(case: Case, *, last: int) -> Found | None:

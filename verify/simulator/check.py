@@ -5,6 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, PlanError, Result, Step, Task
+from verify.base.execution import meant_by, price
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
 from verify.rules.replay import replay_human
@@ -92,13 +93,12 @@ class _Examination:
         """The plan's exact cost; the result's own figure is rounded."""
         actions = (self.task.actions[step.action] for step in self.steps)
         discount = self.result.options.discount
-        return sum((self.task.team_cost(action, discount) for action in actions), Fraction(0))
+        return sum((price(self.task, action, discount) for action in actions), Fraction(0))
 
 
 def _action(task: Task, name: str, agents: tuple[str, ...]) -> int:
     """One of the actions of that name and those agents; which one does not matter."""
-    wanted = sorted(agents)
-    for i in task.named.get(name, ()):
-        if sorted(task.agents[agent] for agent in task.actions[i].participants) == wanted:
-            return i
-    raise PlanError(f"there is no action '{name}' of {', '.join(wanted)}")
+    meant = meant_by(task, name, agents)
+    if not meant:
+        raise PlanError(f"there is no action '{name}' of {', '.join(sorted(agents))}")
+    return meant[0]

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from serendipity.model import Task
-from verify.base.concurrency import applicable
-from verify.base.optimal_plans import OptimalPlans, State
+from verify.base.execution import State, after, applicable
+from verify.base.optimal_plans import OptimalPlans
 
 
 class Person:
@@ -40,6 +40,6 @@ class Person:
             action = self._task.actions[i]
             if not applicable(action, state):
                 return None
-            state = state.difference(action.delete).union(action.add)
+            state = after(state, action)
             total += action.cost
         return total if self._task.goal.holds(state) else None

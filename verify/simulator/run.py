@@ -6,9 +6,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from serendipity.model import Options, Step, Task, Visible, surroundings
-from verify.base.concurrency import applicable, conflicting
+from verify.base.execution import State, after, applicable, fits, price
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.optimal_plans import State as Facts
 from verify.simulator.person import Person
 
 
@@ -30,8 +29,8 @@ class PlayedEpoch:
 class Moment(NamedTuple):
     """Between two epochs: the true state, what he believes, and ``rho``, what remains of his plan."""
 
-    state: Facts
-    belief: Facts
+    state: State
+    belief: State
     rho: tuple[int, ...]
 
 
@@ -121,7 +120,7 @@ def play(
         if len(deeds) >= last and before[:2] == (now.state, expected) and not deed.executed:
             break  # nothing will ever change again
     cost = sum(
-        (task.team_cost(task.actions[i], options.discount) for d in deeds for i in d.executed), Fraction(0)
+        (price(task, task.actions[i], options.discount) for d in deeds for i in d.executed), Fraction(0)
     )
     return Played(tuple(deeds), game.done(now.state), cost)
 
@@ -146,7 +145,7 @@ class Play:
         """Before the first epoch, with ``pi_H`` in his mind."""
         return Moment(self.task.init, self.task.init, tuple(human_plan))
 
-    def done(self, state: Facts) -> bool:
+    def done(self, state: State) -> bool:
         """Whether the goals hold."""
         return self.task.goal.holds(state) and self.task.robot_goal.holds(state)
 
@@ -154,7 +153,7 @@ class Play:
         """One epoch in which robots try the actions ``offers``, joint ones included."""
         return self.act(self.look(now), offers)
 
-    def looked(self, now: Moment) -> Facts:
+    def looked(self, now: Moment) -> State:
         """His belief after a look: all of the state, or what is visible of it."""
         if self.sees is None:
             return now.state
@@ -213,7 +212,7 @@ class Play:
         rest = self.person.cost(self._after(look.now.belief, [joint]))
         return rest is not None and self.task.actions[joint].cost + rest <= look.best
 
-    def _own_step(self, look: Look) -> tuple[int | None, Facts | None]:
+    def _own_step(self, look: Look) -> tuple[int | None, State | None]:
         """Step 3: what he does by himself; where it fails, what he believes then."""
         now = look.now
         if look.best is None or not now.rho:
@@ -224,15 +223,13 @@ class Play:
         tested = frozenset((*action.pre, *action.neg))
         return None, (now.belief - tested) | (now.state & tested)
 
-    def _fits(self, i: int, executed: Sequence[int], state: Facts) -> bool:
+    def _fits(self, i: int, executed: Sequence[int], state: State) -> bool:
         """Whether robots can do it beside what is being done."""
         action = self.task.actions[i]
         others = (self.task.actions[j] for j in executed)
-        return applicable(action, state) and not any(
-            conflicting(action, other, strict=self.strict) for other in others
-        )
+        return applicable(action, state) and fits(action, others, strict=self.strict)
 
-    def _as_possible(self, i: int, state: Facts) -> int:
+    def _as_possible(self, i: int, state: State) -> int:
         """Several ground actions may be one action by name: one that is applicable."""
         action = self.task.actions[i]
         same = [j for j in self.task.named[action.name] if self._team(j) == action.participants]
@@ -242,11 +239,8 @@ class Play:
     def _team(self, i: int) -> tuple[int, ...]:
         return self.task.actions[i].participants
 
-    def _after(self, state: Facts, chosen: Sequence[int]) -> Facts:
-        actions = [self.task.actions[i] for i in chosen]
-        for action in actions:
-            state = state.difference(action.delete)
-        return state.union(*(action.add for action in actions))
+    def _after(self, state: State, chosen: Sequence[int]) -> State:
+        return after(state, *(self.task.actions[i] for i in chosen))
 
-    def _stuck(self, state: Facts) -> bool:
+    def _stuck(self, state: State) -> bool:
         return self.person.cost(state) is None

@@ -7,6 +7,7 @@ the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (semantics 3.1), or
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from verify.base.execution import facts_of_his, states_of_pi_h
 from verify.base.subproblem import ALONE, EXACT, FREE, Subproblem, in_plan
 
 Control = tuple[str, int, int]
@@ -124,12 +125,5 @@ class HumanControl:
 def expected_states(question: Subproblem) -> tuple[frozenset[int], ...]:
     """``delta(I, pi_H[1..j])`` for each j, cut down to facts that the human's own domain mentions."""
     task, deadline = question.task, question.deadline
-    mentioned = {*task.goal.positive, *task.goal.negative}
-    for i in deadline.each(task.human_actions):
-        action = task.actions[i]
-        mentioned.update(action.pre, action.neg, action.add, action.delete)
-    states = [task.init]
-    for i in deadline.each(question.human_plan):
-        action = task.actions[i]
-        states.append((states[-1] - frozenset(action.delete)) | frozenset(action.add))
-    return tuple(state & mentioned for state in states)
+    mentioned = facts_of_his(task, deadline)
+    return tuple(state & mentioned for state in states_of_pi_h(task, question.human_plan, deadline))

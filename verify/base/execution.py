@@ -1,0 +1,142 @@
+"""What a step means (semantics 1, 2), in the verifier's own words: names, states, epochs, shares of a cost.
+
+The model says the same for the planner; an error there must not hide here.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+
+from serendipity.model import Deadline, GroundAction, PlanStep, Step, Task
+
+State = frozenset[int]
+"""The facts that are true."""
+
+
+# -- from a name to an action, and back
+
+
+def meant_by(task: Task, name: str, agents: Iterable[str]) -> list[int]:
+    """The actions of a name that these agents do, ascending: variants of one PDDL action."""
+    wanted = sorted(agents)
+    return [i for i in task.named.get(name, ()) if participants(task, i) == wanted]
+
+
+def participants(task: Task, action: int) -> list[str]:
+    """Names of an action's agents, sorted."""
+    return sorted(task.agents[i] for i in task.actions[action].participants)
+
+
+def plan_step(task: Task, step: Step, discount: Fraction) -> PlanStep:
+    """A step as results write it: with names, and with what it costs the team."""
+    action = task.actions[step.action]
+    agents = tuple(task.agents[i] for i in action.participants)
+    return PlanStep(step.epoch, agents, action.name, float(price(task, action, discount)))
+
+
+# -- what happens in an epoch
+
+
+def applicable(action: GroundAction, state: State) -> bool:
+    """Whether every precondition holds (eq. 4)."""
+    return state.issuperset(action.pre) and state.isdisjoint(action.neg)
+
+
+def after(state: State, *actions: GroundAction) -> State:
+    """The state after an epoch in which these actions take place: all deletes, then all adds."""
+    return state.difference(*(a.delete for a in actions)).union(*(a.add for a in actions))
+
+
+def clash(a: GroundAction, b: GroundAction, *, strict: bool) -> int | None:
+    """A fact over which two actions conflict (eq. 5, 6), or None; ``strict`` as in semantics 2."""
+    clashes = set(a.delete) & set(b.delete) | set(a.delete) & set(b.add) | set(a.add) & set(b.delete)
+    if strict:
+        clashes |= set(a.delete) & set(b.pre) | set(a.add) & set(b.neg)
+        clashes |= set(b.delete) & set(a.pre) | set(b.add) & set(a.neg)
+    return min(clashes, default=None)
+
+
+def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
+    """Whether two actions can't share an epoch: an agent takes part in both (eq. 10), or they clash."""
+    return not set(a.participants).isdisjoint(b.participants) or clash(a, b, strict=strict) is not None
+
+
+def fits(action: GroundAction, others: Iterable[GroundAction], *, strict: bool) -> bool:
+    """Whether an action can share an epoch with each of the others."""
+    return not any(conflicting(action, other, strict=strict) for other in others)
+
+
+def executed(state: State, actions: Sequence[GroundAction], *, strict: bool) -> State | None:
+    """The state after an epoch; None if an action is not applicable, or two of them can't share it."""
+    if not all(applicable(action, state) for action in actions):
+        return None
+    if not all(fits(action, actions[:k], strict=strict) for k, action in enumerate(actions)):
+        return None
+    return after(state, *actions)
+
+
+def sets_beside(
+    task: Task, chosen: tuple[int, ...], candidates: Sequence[int], deadline: Deadline, *, strict: bool
+) -> Iterator[tuple[int, ...]]:
+    """What is chosen, then with each set of candidates that can share its epoch put after it."""
+    yield chosen
+    beside = [task.actions[i] for i in chosen]
+    for k, i in enumerate(deadline.each(candidates)):
+        if fits(task.actions[i], beside, strict=strict):
+            yield from sets_beside(task, (*chosen, i), candidates[k + 1 :], deadline, strict=strict)
+
+
+# -- plans
+
+
+def by_epoch(steps: Iterable[Step]) -> dict[int, list[int]]:
+    """A plan's actions, by epoch."""
+    sets: dict[int, list[int]] = {}
+    for step in steps:
+        sets.setdefault(step.epoch, []).append(step.action)
+    return sets
+
+
+def states_along(task: Task, epochs: Iterable[Sequence[int]], *, strict: bool) -> list[State] | None:
+    """States ``s_0 .. s_T``, by what takes place in each epoch; None if one of them can't take place."""
+    states = [task.init]
+    for chosen in epochs:
+        state = executed(states[-1], [task.actions[i] for i in chosen], strict=strict)
+        if state is None:
+            return None
+        states.append(state)
+    return states
+
+
+def states_of_pi_h(task: Task, plan: Iterable[int], deadline: Deadline) -> list[State]:
+    """``delta(I, pi_H[1..j])`` for each j from 0: the states that an executable plan of his leads through."""
+    states = [task.init]
+    for i in deadline.each(plan):
+        states.append(after(states[-1], task.actions[i]))
+    return states
+
+
+def facts_of_his(task: Task, deadline: Deadline) -> State:
+    """The facts that the human's own domain mentions: his goal's and his own actions'."""
+    facts = {*task.goal.positive, *task.goal.negative}
+    for i in deadline.each(task.human_actions):
+        action = task.actions[i]
+        facts.update(action.pre, action.neg, action.add, action.delete)
+    return frozenset(facts)
+
+
+# -- costs
+
+
+def price(task: Task, action: GroundAction, discount: Fraction) -> Fraction:
+    """Cost to the team: undiscounted if the human takes part (semantics 1)."""
+    return action.cost if task.human in action.participants else action.cost * (1 - discount)
+
+
+def shares(task: Task, actions: Iterable[int], discount: Fraction) -> Mapping[str, Fraction]:
+    """What each agent pays, by name: a joint action's cost is shared equally among its participants."""
+    paid = dict.fromkeys(task.agents, Fraction(0))
+    for i in actions:
+        action = task.actions[i]
+        for agent in action.participants:
+            paid[task.agents[agent]] += price(task, action, discount) / len(action.participants)
+    return paid
