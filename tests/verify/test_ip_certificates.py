@@ -79,14 +79,6 @@ def test_pi_h_is_said_to_be_canonical_or_given() -> None:
     assert "pi_H is" in _claim(certify(case_3(), lazy), "replay").reason
 
 
-def test_another_given_plan_is_refuted() -> None:
-    task = case_3()
-    answer = solved(task, CASE_3_PLAN, discount="0.9")
-    assert certify(task, answer, human_plan=CASE_3_PLAN).verdict == "proved"
-    other = _claim(certify(task, answer, human_plan=CASE_3_PLAN[1:]), "replay")
-    assert other.verdict == "refuted"
-
-
 def test_no_answer_in_time_is_not_refuted() -> None:
     """Not even where the horizon was to be taken from a plan of his that was not found in time."""
     task = case_4()

@@ -13,11 +13,10 @@ from tests.support.oracle.epochs import after
 from tests.support.strategies import tasks
 from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
-from verify import check
 from verify.base import individual as alone
 from verify.base.individual import IndividualOptimum
 from verify.certificate.certify import certify
-from verify.rules import CLAIMS, RULES
+from verify.rules import CLAIMS, RULES, check
 
 
 @pytest.mark.parametrize("make", VALID)

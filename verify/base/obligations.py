@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from typing import Final
 
 from serendipity.model import Claim, Result
+from verify.base import wording
 
 TIED_MODES: Final = ("serendipity", "communication")
 """Modes whose answer depends on which optimal ``pi_H`` the human follows."""
@@ -109,4 +110,4 @@ def _examined(claims: list[Claim], wanted: list[str]) -> Iterator[Claim]:
 
 def _missing(claims: list[Claim], wanted: list[str]) -> Iterator[Claim]:
     there = {claim.claim for claim in claims}
-    yield from (Claim(name, "undecided", "not examined") for name in wanted if name not in there)
+    yield from (Claim(name, "undecided", wording.NOT_EXAMINED) for name in wanted if name not in there)

@@ -1,6 +1,6 @@
 """Certificates: every claim of a result, proved, refuted, undecided or out of scope."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from time import perf_counter
 
@@ -16,6 +16,7 @@ from serendipity.model import (
     UsageError,
 )
 from serendipity.model.collection import no_collection
+from verify.base import wording
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
@@ -23,21 +24,17 @@ from verify.base.undecided import END_SHARE, UNDECIDED, why
 from verify.calls.call import Call
 from verify.certificate.claims import Examiner
 from verify.certificate.humans import HumanExaminer
-from verify.certificate.tied import examine
-from verify.goals import check_goals
+from verify.certificate.tied import combined
+from verify.goals.check import claims_by_rules, examine, unexamined
+from verify.goals.proof import GoalsProof
 from verify.policy import check_policy
 from verify.programs.minimise import Effort
 from verify.rules import Checker, RuleReport
+from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
 from verify.rules.replay import replay, replay_human
 from verify.simulator import realised_claim
 from verify.solvers.mip import solver_version
-
-_REPLAYED = {
-    "replay": "every step follows the rules and the goals hold at the end",
-    "cost": "every figure is the sum of what it consists of",
-    "window": "prefix, window and suffix are as the mode demands",
-}
 
 
 def certify(
@@ -49,7 +46,6 @@ def certify(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
-    human_plan: Iterable[str] | None = None,
 ) -> Certificate:
     """Examine every claim of a result.
 
@@ -64,8 +60,6 @@ def certify(
         time_limit: seconds for the whole certificate, or None.
         memory_limit: what this process and a solver's may have in memory, in MiB, or None.
         deadline: one that other work shares, such as loading the task; it holds beside the limits.
-        human_plan: the plan that was given to the planner, where it is known; else the
-            result's own ``pi_H`` counts as given if it is not the canonical one.
 
     Returns:
         What a limit kept from being examined is ``undecided``; what was decided before stays so.
@@ -76,17 +70,10 @@ def certify(
     """
     limits = (deadline or Deadline()).within(time_limit, memory_limit).sooner(END_SHARE)
     with no_collection():  # beside a large task a collection takes longer than a short limit
-        return _certify(task, result, encoding, solver, limits, human_plan)
+        return _certify(task, result, encoding, solver, limits)
 
 
-def _certify(
-    task: Task,
-    result: Result,
-    encoding: str,
-    solver: str,
-    deadline: Deadline,
-    human_plan: Iterable[str] | None,
-) -> Certificate:
+def _certify(task: Task, result: Result, encoding: str, solver: str, deadline: Deadline) -> Certificate:
     started = perf_counter()
     result = result.checked()
     require_same_task(task, result)
@@ -95,15 +82,21 @@ def _certify(
         return Certificate(claims, perf_counter() - started)
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     version = solver_version(solver)
-    if "goals" in result.statistics:
-
-        def one_goal(about: Task, answer: Result) -> tuple[Claim, ...]:
-            return _Certifier(about, answer, effort).claims(None)
-
-        claims = tuple(check_goals(task, result, one_goal, deadline, effort))
-    else:
-        claims = _Certifier(task, result, effort).claims(human_plan)
+    several = "goals" in result.statistics
+    claims = _for_goals(task, result, effort) if several else _Certifier(task, result, effort).claims()
     return Certificate(complete(result, claims), perf_counter() - started, version, encoding, effort.size)
+
+
+def _for_goals(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
+    """Semantics 8: where one goal is left, the answer is one of section 3."""
+    examined = examine(task, result, effort.deadline)
+    if examined.single is not None:
+        return _Certifier(*examined.single, effort).claims()
+    if not examined.lines:
+        return examined.claims
+    claims = claims_by_rules(result, examined.lines)
+    rest = unexamined(result, claims, solving=True)
+    return (*claims, *(GoalsProof(result, examined.lines, effort).claims() if rest is None else rest))
 
 
 class _Certifier:
@@ -115,21 +108,21 @@ class _Certifier:
         self.plans = OptimalPlans(task, self.alone)
         self.checker = Checker(task, self.alone)
 
-    def claims(self, given: Iterable[str] | None) -> tuple[Claim, ...]:
+    def claims(self) -> tuple[Claim, ...]:
         """All claims, in order; what rules refute is not handed to a solver.
 
         What ``pi_H`` is comes last: it decides nothing, and working it out may take what time there is.
         """
-        first, *others = tuple(self._claims(given)) or (None,)
+        first, *others = tuple(self._claims()) or (None,)
         if first is None:
             return ()
         if (first.claim, first.verdict) == ("replay", "proved"):
             first = replace(first, reason=first.reason + self._about_pi_h())
         return first, *others
 
-    def _claims(self, given: Iterable[str] | None) -> Iterator[Claim]:
+    def _claims(self) -> Iterator[Claim]:
         report = self.checker.check(self.result)
-        yield from self._rule_claims(report, given)
+        yield from self._rule_claims(report)
         yield from self._realised(report)
         wanted = [name for name in needed(self.result) if name not in (*BY_RULES, "realised")]
         if report.stopped is not None:
@@ -138,34 +131,24 @@ class _Certifier:
             yield from self._solved_claims(wanted)
         else:
             refuted = {violation.claim for violation in report.violations}
-            out = "the result breaks a rule already"
-            yield from (Claim(name, "not_in_scope", out) for name in wanted if name not in refuted)
+            out = (name for name in wanted if name not in refuted)
+            yield from (Claim(name, "not_in_scope", wording.RESULT_BREAKS_RULE) for name in out)
 
     def _realised(self, report: RuleReport) -> Iterator[Claim]:
         """The verdicts on humans who replan: the plan is played again."""
         if report.of("replay") is not None:
             if self.result.realised:
-                yield Claim("realised", "not_in_scope", "the plan can't be replayed")
+                yield Claim("realised", "not_in_scope", wording.NO_REPLAY)
             return
         claim = realised_claim(self.task, self.result, self.plans)
         if claim is not None:
             yield claim
 
-    def _rule_claims(self, report: RuleReport, given: Iterable[str] | None) -> Iterator[Claim]:
-        for name in ("replay", "cost", "window"):
-            violation = report.of(name)
-            if violation is not None:
-                yield Claim(name, "refuted", str(violation), seconds=report.seconds)
-            elif name == "replay" and given is not None and tuple(given) != self.result.human_plan:
-                yield Claim(name, "refuted", "pi_H is not the plan that was given", seconds=report.seconds)
-            elif name in report.unchecked:
-                yield Claim(name, "not_in_scope", report.unchecked[name])
-            elif name in report.undecided and (name == "replay" or self.result.plan is not None):
-                yield Claim(name, "undecided", report.undecided[name], seconds=report.seconds)
-            elif self.result.plan is not None:
-                yield Claim(name, "proved", _REPLAYED[name], seconds=report.seconds)
+    def _rule_claims(self, report: RuleReport) -> Iterator[Claim]:
+        claims = (rule_claim(self.result, report, name, wording.FOLLOWED) for name in BY_RULES)
+        yield from (claim for claim in claims if claim is not None)
         if self.result.status == "unknown" and "replay" not in report.undecided:
-            yield Claim("replay", "not_in_scope", "there is no answer to examine")
+            yield Claim("replay", "not_in_scope", wording.NOTHING_TO_EXAMINE)
         violation = report.of("lower_bound")
         if violation is not None:
             yield Claim("lower_bound", "refuted", str(violation), seconds=report.seconds)
@@ -182,11 +165,11 @@ class _Certifier:
         if names is None or canonical is None:
             return ""
         if names == tuple(self.task.actions[i].name for i in canonical):
-            return "; pi_H is the human's canonical optimal plan"
+            return wording.PI_H_IS_CANONICAL
         plan = replay_human(self.task, names, self.effort.deadline)
         if self.task.cost_of(plan) == self.task.cost_of(canonical):
-            return "; pi_H is an optimal plan of the human, not the canonical one: taken as given"
-        return "; pi_H is not optimal: taken as given"
+            return wording.PI_H_IS_OPTIMAL
+        return wording.PI_H_IS_GIVEN
 
     # -- claims that need an optimiser
 
@@ -220,7 +203,7 @@ class _Certifier:
         if name == "no_opportunity" and "optimal" in examined:
             proved = examined["optimal"]
             if proved.verdict != "proved":
-                return Claim(name, proved.verdict, f"as 'optimal': {proved.reason}", proved.counterexample)
+                return Claim(name, proved.verdict, wording.same_as(proved), proved.counterexample)
             return examiner.claim(name, examiner.optimum_is_no_opportunity)
         if name == "optimal" and self.result.opportunity:
             return examiner.claim(name, lambda: examiner.opportunity_is_cheaper() or examiner.optimal())
@@ -230,11 +213,7 @@ class _Certifier:
         """An optimum's bound is its objective (a rule): what holds for one holds for the other."""
         claim = examined.get("optimal") or examined["no_opportunity"]
         return Claim(
-            "lower_bound",
-            claim.verdict,
-            f"as '{claim.claim}': {claim.reason}",
-            claim.counterexample,
-            bound=claim.bound,
+            "lower_bound", claim.verdict, wording.same_as(claim), claim.counterexample, bound=claim.bound
         )
 
     def _examiner(self) -> Examiner:
@@ -264,7 +243,7 @@ class _Certifier:
         result, worth = self.result, self.plans.worth(self.task.init)
         if worth is None:
             right = result.cost is None
-            return "proved" if right else "refuted", "the goal can't be reached alone"
+            return "proved" if right else "refuted", wording.NOT_ALONE
         least = float(worth[0])
         right = result.lower_bound is None or result.lower_bound <= least
         if result.status != "unknown":
@@ -272,13 +251,13 @@ class _Certifier:
             if result.human_plan is not None:
                 given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
                 right = right and result.saving_alone == float(given - worth[0])
-        return "proved" if right else "refuted", f"the least cost alone is {least:.12g}"
+        return "proved" if right else "refuted", wording.least_alone(least)
 
     def _ties(self, wanted: list[str]) -> Iterator[Claim]:
         """Each optimal ``pi_H`` is solved; the answers have to give the result's figures."""
         started = perf_counter()
         try:
-            verdict, reason = examine(self.task, self.result, self.effort, self.plans)
+            verdict, reason = combined(self.task, self.result, self.effort, self.plans)
         except UNDECIDED as error:
             verdict, reason = "undecided", why(error)
         except UsageError as error:

@@ -5,6 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import INFINITE, Claim, Result, Step
+from verify.base import wording
 from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
@@ -19,8 +20,6 @@ Verdict = tuple[str, str, Solution | None]
 
 _BOUNDED = ("optimal", "no_opportunity", "lower_bound")
 """Claims that bound the objective."""
-
-_CLOSED = "closed by reachability and shortest paths, no solver call"
 
 
 class Examiner:
@@ -48,16 +47,16 @@ class Examiner:
             verdict, reason, found = examine()
             if found is not None:
                 self._require_valid(found)
-                reason, example = f"{reason}: {self._describe(found)}", plan_steps(self.call, found.steps)
+                reason, example = self._describe(reason, found), plan_steps(self.call, found.steps)
             if verdict == "proved" and name in _BOUNDED:
                 bound = self.result.lower_bound
         except UNDECIDED as error:
             verdict, reason = "undecided", why(error)
             bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
             if bound is not None:
-                reason += f"; no answer has an objective below {bound:.12g}"
+                reason += wording.known_bound(bound)
         if verdict == "proved" and effort.programs > programs and effort.calls == calls:
-            reason += f"; {_CLOSED}"
+            reason += wording.CLOSED
         return Claim(name, verdict, reason, example, perf_counter() - started, bound)
 
     # -- the claims
@@ -67,18 +66,18 @@ class Examiner:
         score = self._score()
         found = self._better(score)
         if found is not None:
-            return "refuted", "a better plan", found
+            return "refuted", wording.BETTER, found
         nothing = self.call.do_nothing
         if nothing is not None and nothing < score:  # beyond max_cost, which pi_H is exempt from
-            return "refuted", "doing nothing is better", None
-        return "proved", f"no plan has {self._cut(score)}", None
+            return "refuted", wording.NOTHING_IS_BETTER, None
+        return "proved", self._none_better(score), None
 
     def optimum_is_no_opportunity(self) -> Verdict:
         """A proved optimum costs no less than the answer without robots."""
         idle = idle_cost(self.call)
         if idle is not None and is_help(self.call, self._score()):
-            return "refuted", f"the optimum costs less than {self._amount(idle)}, robots idle", None
-        return "proved", "the optimum costs no less than the answer without robots", None
+            return "refuted", wording.optimum_is_cheaper(self._amount(idle)), None
+        return "proved", wording.NO_LESS_THAN_ALONE, None
 
     def no_opportunity(self) -> Verdict:
         """The best plan does not cost less than the answer without robots."""
@@ -88,20 +87,20 @@ class Examiner:
             assert nothing is not None
             found = self._better(nothing)
             if found is not None:
-                return "refuted", "an opportunity", found
-            return "proved", f"no plan has {self._cut(nothing)}", None
+                return "refuted", wording.OPPORTUNITY, found
+            return "proved", self._none_better(nothing), None
         best = best_plan(call)
         if best is not None and is_help(call, (best.objective, best.cost)):
-            return "refuted", "an opportunity", best
-        return "proved", "the best plan costs no less than the answer without robots", None
+            return "refuted", wording.OPPORTUNITY, best
+        return "proved", wording.BEST_NO_LESS_THAN_ALONE, None
 
     def opportunity_is_cheaper(self) -> Verdict | None:
         """Refutes an opportunity that costs no less than doing without robots."""
         idle, score = idle_cost(self.call), self._score()
         if idle is not None and score[1] >= idle:
-            return "refuted", f"the plan costs no less than {self._amount(idle)}, robots idle", None
+            return "refuted", wording.no_cheaper(self._amount(idle)), None
         if not is_help(self.call, score):
-            return "refuted", "the human does as well without a robot", None
+            return "refuted", wording.AS_WELL_ALONE, None
         return None
 
     def savings(self) -> Verdict | None:
@@ -115,13 +114,13 @@ class Examiner:
         assert idle is not None
         alone = float(call.prices.cost(call.baseline - idle))
         if result.saving_alone != alone and not self._not_yet_known():
-            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
+            return "refuted", wording.figure("saving_alone", alone, result.saving_alone), None
         cost = self._score()[1]
         saving = float(call.prices.cost(call.baseline - cost)) if result.opportunity else 0.0
         if result.saving != saving:
-            return "refuted", f"saving is {saving:g}, the result says {result.saving}", None
+            return "refuted", wording.figure("saving", saving, result.saving), None
         if not result.opportunity and call.options.windowed and cost != call.baseline:
-            return "refuted", f"doing nothing costs {self._amount(call.baseline)}", None
+            return "refuted", wording.nothing_costs(self._amount(call.baseline)), None
         return None
 
     def _not_yet_known(self) -> bool:
@@ -132,7 +131,7 @@ class Examiner:
         """Without a way to do nothing there is no saving."""
         if self.result.saving is None and self.result.saving_alone is None:
             return None
-        return "refuted", "a saving, though doing nothing is no answer", None
+        return "refuted", wording.NOTHING_TO_COMPARE, None
 
     def lower_bound(self) -> Verdict:
         """No answer has an objective below the bound."""
@@ -142,25 +141,25 @@ class Examiner:
         least = shift + self._units_at_least(bound)
         nothing = call.do_nothing
         if nothing is not None and nothing[0] < least:
-            return "refuted", f"doing nothing has the objective {self._amount(nothing[0] - shift)}", None
+            return "refuted", wording.nothing_has_objective(self._amount(nothing[0] - shift)), None
         question = self._question().below(least - 1)
         minimum = cheapest(question) if self._endless else minimise(question, call.effort, call.plans)
         found = minimum.settled()
         if found is not None:
-            return "refuted", "a plan below the bound", found
-        return "proved", f"no plan has an objective below {bound:.12g}", None
+            return "refuted", wording.BELOW_BOUND, found
+        return "proved", wording.none_below(bound), None
 
     def infeasible(self) -> Verdict:
         """There is no plan at all."""
         call = self.call
         if call.needs_pi_h and call.human_plan is None:
             if call.plans.worth(call.task.init) is None:
-                return "proved", "all states that the human reaches alone were visited", None
-            return "refuted", "the human has a plan alone", None
+                return "proved", wording.ALL_VISITED, None
+            return "refuted", wording.HE_HAS_A_PLAN, None
         given: Answer = answer(call)
         if given.cost is None:
-            return "proved", "no plan satisfies the program", None
-        return "refuted", "a plan", given.found or call.idle_robots_plan
+            return "proved", wording.NOTHING_SATISFIES, None
+        return "refuted", wording.PLAN, given.found or call.idle_robots_plan
 
     # -- helpers
 
@@ -209,15 +208,12 @@ class Examiner:
     def _amount(self, units: int) -> str:
         return f"{float(self.call.prices.cost(units)):.12g}"
 
-    def _cut(self, score: Score) -> str:
-        words = f"an objective below {self._amount(score[0])}"
-        return f"{words}, or the same at a lower cost" if self.call.may_tie(score) else words
+    def _none_better(self, score: Score) -> str:
+        return wording.no_better(self._amount(score[0]), tie=self.call.may_tie(score))
 
-    def _describe(self, found: Solution) -> str:
-        words = f"cost {self._amount(found.cost)}, objective {self._amount(found.objective)}"
-        return (
-            words if found.window is None else f"{words}, window [{found.window.start}, {found.window.end})"
-        )
+    def _describe(self, what: str, found: Solution) -> str:
+        cost, objective = self._amount(found.cost), self._amount(found.objective)
+        return wording.described(what, cost, objective, found.window)
 
     def _require_valid(self, found: Solution) -> None:
         """Return if a counter-example stands.
@@ -230,6 +226,6 @@ class Examiner:
             opportunity = baseline is not None and found.cost < baseline
             report = self.checker.check(found_result(self.call, found, opportunity=opportunity))
         if not report.ok:
-            raise UndecidedError(f"the counter-example breaks a rule: {report.first}")
+            raise UndecidedError(wording.example_breaks(report.first))
         if report.undecided:
-            raise UndecidedError(f"a counter-example could not be checked: {report.stopped or 'too hard'}")
+            raise UndecidedError(wording.example_unchecked(report.stopped or "too hard"))

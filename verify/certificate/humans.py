@@ -3,6 +3,7 @@
 from fractions import Fraction
 from functools import cached_property
 
+from verify.base import wording
 from verify.base.subproblem import Solution
 from verify.base.undecided import UndecidedError
 from verify.calls.call import Call
@@ -22,7 +23,7 @@ class HumanExaminer(Examiner):
         cost = self._score()[1]
         found = _cheaper(self.call, cost)
         if found is not None:
-            return "refuted", "a better plan", found
+            return "refuted", wording.BETTER, found
         return "proved", self._played(cost), None
 
     def no_opportunity(self) -> Verdict:
@@ -31,15 +32,15 @@ class HumanExaminer(Examiner):
         assert cost is not None, "without goals of the robots, leaving him alone is an answer"
         found = _cheaper(self.call, cost)
         if found is not None:
-            return "refuted", "a better plan" if self.call.robots_goal else "an opportunity", found
+            return "refuted", wording.BETTER if self.call.robots_goal else wording.OPPORTUNITY, found
         if self.call.robots_goal and (self._alone is None or cost < self._alone):
-            return "refuted", "leaving the human alone costs more", None
+            return "refuted", wording.LEFT_ALONE_IS_DEARER, None
         return "proved", self._played(cost), None
 
     def opportunity_is_cheaper(self) -> Verdict | None:
         """Refutes an opportunity that costs no less than doing without robots."""
         if self._alone is not None and self._score()[1] >= self._alone:
-            return "refuted", f"the plan costs no less than {self._amount(self._alone)}, robots idle", None
+            return "refuted", wording.no_cheaper(self._amount(self._alone)), None
         return None
 
     def savings(self) -> Verdict | None:
@@ -53,10 +54,10 @@ class HumanExaminer(Examiner):
         idle = min(self._idle, call.baseline) if compared and self._idle is not None else call.baseline
         alone = float(call.prices.cost(call.baseline - idle))
         if result.saving_alone != alone and not self._not_yet_known():
-            return "refuted", f"saving_alone is {alone:g}, the result says {result.saving_alone}", None
+            return "refuted", wording.figure("saving_alone", alone, result.saving_alone), None
         saving = float(call.prices.cost(call.baseline - self._score()[1])) if result.opportunity else 0.0
         if result.saving != saving:
-            return "refuted", f"saving is {saving:g}, the result says {result.saving}", None
+            return "refuted", wording.figure("saving", saving, result.saving), None
         return None
 
     def lower_bound(self) -> Verdict:
@@ -65,10 +66,10 @@ class HumanExaminer(Examiner):
         assert bound is not None
         least = self._units_at_least(bound)
         if not self.call.robots_goal and self._alone is not None and self._alone < least:
-            return "refuted", f"without robots it costs {self._amount(self._alone)}", None
+            return "refuted", wording.without_robots(self._amount(self._alone)), None
         found = _cheaper(self.call, least)
         if found is not None:
-            return "refuted", "a plan below the bound", found
+            return "refuted", wording.BELOW_BOUND, found
         return "proved", self._played(least), None
 
     def infeasible(self) -> Verdict:
@@ -78,8 +79,8 @@ class HumanExaminer(Examiner):
             return super().infeasible()
         found = _decided(call, None)
         if found is not None:
-            return "refuted", "a plan", found
-        return "proved", "everything that robots can do was played", None
+            return "refuted", wording.PLAN, found
+        return "proved", wording.ALL_PLAYED, None
 
     @cached_property
     def _alone(self) -> int | None:
@@ -92,7 +93,7 @@ class HumanExaminer(Examiner):
         return _idle_cost(self.call)
 
     def _played(self, cost: int) -> str:
-        return f"everything that robots can do for less than {self._amount(cost)} was played"
+        return wording.all_played(self._amount(cost))
 
 
 def human_cost(call: Call) -> Fraction | None:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from serendipity.model import Result, Task
+from verify.base import wording
 from verify.base.obligations import is_mean
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.answer import answer, calls
@@ -29,7 +30,7 @@ class Solved:
 Known = dict[tuple[str, ...], Solved]
 
 
-def examine(task: Task, result: Result, effort: Effort, plans: OptimalPlans) -> Verdict:
+def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) -> Verdict:
     """Solve for every optimal ``pi_H`` and compare.
 
     Args:
@@ -50,8 +51,8 @@ def examine(task: Task, result: Result, effort: Effort, plans: OptimalPlans) -> 
     if fault is not None:
         return "refuted", fault
     if any(solved.cost is None for solved in known.values()):
-        return "refuted", "with some optimal pi_H there is no plan"
-    return _combined(result, known)
+        return "refuted", wording.TIE_WITHOUT_PLAN
+    return _compared(result, known)
 
 
 def _solved(call: Call) -> Solved:
@@ -70,14 +71,14 @@ def _listed_fault(result: Result, known: Known) -> str | None:
     for said in tied_answers(result):
         solved = known.get(said.human_plan)
         if solved is None:
-            return "statistics.ties lists a plan that is not an optimal one of the human"
+            return wording.NOT_OPTIMAL_TIE
         right = (None if solved.cost is None else float(solved.cost), solved.opportunity)
         if result.status == "optimal" and (said.cost, said.opportunity) != right:
-            return f"statistics.ties: with pi_H = {', '.join(said.human_plan)} the cost is {right[0]}"
+            return wording.tie_costs(said.human_plan, right[0])
     return None
 
 
-def _combined(result: Result, known: Known) -> Verdict:
+def _compared(result: Result, known: Known) -> Verdict:
     """Compare the figures of an answer with those that the options make of all of them."""
     ties, count = result.options.ties, len(known)
     costs = [solved.cost or Fraction(0) for solved in known.values()]
@@ -86,11 +87,11 @@ def _combined(result: Result, known: Known) -> Verdict:
         cost, objective = sum(costs, Fraction(0)) / count, sum(objectives, Fraction(0)) / count
     else:
         cost, objective = (min if ties == "optimistic" else max)(costs), min(objectives)
-    words = f"the {ties} cost over {count} optimal plans of the human is {float(cost):.12g}"
+    words = wording.over_ties(ties, count, cost)
     if result.status == "feasible":
         assert result.lower_bound is not None, "a rule"
         if result.lower_bound > float(objective):
-            return "refuted", f"{words}, and lower_bound is beyond what {ties} ties prove"
+            return "refuted", wording.ties_bound(words, ties)
         return "proved", words
     if result.plan is not None:  # one of the answers, which has an objective of its own
         objective = known[result.human_plan or ()].objective or Fraction(0)
@@ -103,5 +104,5 @@ def _combined(result: Result, known: Known) -> Verdict:
         else:
             right = (float(sum(savings, Fraction(0)) / count), 0.0)
         if (result.saving, result.saving_alone) != right:
-            return "refuted", f"{words}; expected saving and saving_alone to be {right[0]} and {right[1]}"
+            return "refuted", wording.ties_savings(words, *right)
     return "proved", words

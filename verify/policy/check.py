@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from time import perf_counter
-from typing import Final
 
 from serendipity.model import Claim, Deadline, Result, Task
+from verify.base import wording
 from verify.base.obligations import needed
 from verify.base.undecided import UNDECIDED, during, why
 from verify.policy.board import NOTHING, Board, Costs
@@ -15,8 +15,6 @@ from verify.policy.figures import StatedBounds, figure_faults, header_faults
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
-
-_NO_WALK: Final = "not examined: it takes more than a walk through the policy; verify looks at it"
 
 
 def check_policy(
@@ -52,7 +50,7 @@ class _Checker:
     def claims(self) -> Iterator[Claim]:
         result = self._result
         if len(self._task.robots) != 1:
-            yield Claim("replay", "refuted", "mode 'assistance' is for one robot")
+            yield Claim("replay", "refuted", wording.ONE_ROBOT)
             return
         fault = next(header_faults(result), None)
         if fault is not None:
@@ -71,10 +69,10 @@ class _Checker:
         elif result.lower_bound is not None:
             yield self._unless_replay_only("lower_bound") or self._bounded(board)
         else:
-            yield Claim("replay", "not_in_scope", "there is no answer to examine")
+            yield Claim("replay", "not_in_scope", wording.NOTHING_TO_EXAMINE)
 
     def _unless_replay_only(self, name: str) -> Claim | None:
-        return Claim(name, "not_in_scope", _NO_WALK) if self._replay_only else None
+        return Claim(name, "not_in_scope", wording.NEEDS_MORE_THAN_A_WALK) if self._replay_only else None
 
     def _undecided(self, reason: str) -> Iterator[Claim]:
         """Every claim that a proof needs."""
@@ -87,8 +85,8 @@ class _Checker:
         except UNDECIDED as error:
             return Claim("infeasible", "undecided", why(error))
         if end:
-            return Claim("infeasible", "refuted", "there is a policy that ends")
-        return Claim("infeasible", "proved", "whatever the supporter does, a run may go on for ever")
+            return Claim("infeasible", "refuted", wording.POLICY_ENDS)
+        return Claim("infeasible", "proved", wording.RUNS_FOR_EVER)
 
     def _with_policy(self, board: Board) -> Iterator[Claim]:
         assert self._result.policy is not None
@@ -111,14 +109,12 @@ class _Checker:
         if fault is not None:
             yield Claim(fault[0], "refuted", fault[1])
             return
-        yield Claim("replay", "proved", "closed under what the human may do, and every run ends")
-        yield Claim(
-            "cost", "proved", f"each value is what a round and the values after it make: {show(value)}"
-        )
+        yield Claim("replay", "proved", wording.FOLLOWED_BY_POLICY)
+        yield Claim("cost", "proved", wording.policy_values(show(value)))
         if self._result.status == "optimal":
             best = self._unless_replay_only("optimal") or self._optimal(board, value)
             yield best
-            yield replace(best, claim="lower_bound", reason=f"as 'optimal': {best.reason}")
+            yield replace(best, claim="lower_bound", reason=wording.same_as(best))
         else:
             yield self._unless_replay_only("lower_bound") or self._bounded(board)
 
@@ -127,16 +123,16 @@ class _Checker:
         try:
             bounds = StatedBounds(self._result)
             if self._result.lower_bound != float(bounds.least_sum):
-                return Claim("lower_bound", "refuted", f"lower_bound: expected {float(bounds.least_sum):g}")
+                return Claim("lower_bound", "refuted", wording.bound_expected(bounds.least_sum))
             if (
                 bounds.lower == NOTHING
                 or board.goal.holds(board.start)
                 or board.at_least(board.start, bounds.lower)
             ):
-                return Claim("lower_bound", "proved", f"both together pay at least {show(bounds.lower)}")
+                return Claim("lower_bound", "proved", wording.together_pay(show(bounds.lower)))
         except UNDECIDED as error:
             return Claim("lower_bound", "undecided", why(error))
-        return Claim("lower_bound", "undecided", "both together, without turns, might pay less")
+        return Claim("lower_bound", "undecided", wording.TOGETHER_MIGHT)
 
     def _optimal(self, board: Board, value: Costs) -> Claim:
         assert self._result.policy is not None
@@ -150,4 +146,4 @@ class _Checker:
             return Claim("optimal", "undecided", f"the task has no fact {error}")
         except UNDECIDED as error:
             return Claim("optimal", "undecided", why(error))
-        return Claim("optimal", "proved", "lower bounds that prove each other reach the policy's value")
+        return Claim("optimal", "proved", wording.FLOORS_REACH)

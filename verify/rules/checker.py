@@ -4,6 +4,7 @@ import time
 
 from serendipity.model import Deadline, Result, Task
 from serendipity.model.errors import LIMITS
+from verify.base import wording
 from verify.base.individual import IndividualOptimum
 from verify.base.undecided import UndecidedError, during, why
 from verify.rules.case import Case
@@ -47,7 +48,7 @@ class _Examination:
         """Check a rule, unless nothing depends on it any more."""
         claim = rule.claim
         if claim in ("cost", "window") and "replay" in self._violations:
-            self._unchecked.setdefault(claim, "the plan can't be replayed")
+            self._unchecked.setdefault(claim, wording.NO_REPLAY)
         if claim not in self._unchecked and claim not in self._violations:
             try:
                 found = rule.check(self._case)
@@ -83,7 +84,7 @@ def check(task: Task, result: Result, deadline: Deadline | None = None) -> RuleR
 
 def _out_of_scope(result: Result) -> list[tuple[str, str]]:
     if result.mode == "assistance":
-        return [(claim, "a policy, not a plan") for claim in CLAIMS]
+        return [(claim, wording.POLICY) for claim in CLAIMS]
     if result.options.human_model != "omniscient":
-        return [("window", "a human who replans is not bound to a window")]
+        return [("window", wording.NO_WINDOW_FOR_HIM)]
     return []

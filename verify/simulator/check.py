@@ -5,6 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, PlanError, Result, Step, Task
+from verify.base import wording
 from verify.base.execution import meant_by, price
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
@@ -41,7 +42,7 @@ def realised_claim(task: Task, result: Result, plans: OptimalPlans | None = None
     if fault is not None:
         return Claim("realised", "refuted", fault, seconds=seconds)
     models = ", ".join(result.realised) or result.options.human_model
-    return Claim("realised", "proved", f"played again, {models}: as the result says", seconds=seconds)
+    return Claim("realised", "proved", wording.played_again(models), seconds=seconds)
 
 
 class _Examination:

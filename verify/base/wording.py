@@ -1,0 +1,223 @@
+"""What certificates say: the reasons that claims are given, all in one place.
+
+What a broken rule says is with the rule (``verify.rules``), what is wrong with a recognition or a
+policy with those who read them.  An amount comes as text, in the domain's unit.
+"""
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Final
+
+from serendipity.model import Claim, Window
+
+# -- the rules are followed, or nobody looked
+
+FOLLOWED: Final[Mapping[str, str]] = {
+    "replay": "every step follows the rules and the goals hold at the end",
+    "cost": "every figure is the sum of what it consists of",
+    "window": "prefix, window and suffix are as the mode demands",
+}
+"""What ``verify`` says of a plan that breaks no rule, by claim."""
+
+FOLLOWED_SO_FAR: Final[Mapping[str, str]] = {**FOLLOWED, "cost": "every cost is the sum of its actions'"}
+"""The same for ``check``, which proves no saving."""
+
+FOLLOWED_BY_ALL: Final[Mapping[str, str]] = {
+    "replay": "the posterior is right, and no considered plan is broken",
+    "cost": "every expectation is the sum of what it consists of",
+    "window": "each goal's prefix, window and suffix are as the mode demands",
+    "lower_bound": "it is consistent with status and objective",
+}
+"""The same for an answer for several goals."""
+
+FOLLOWED_BY_POLICY: Final = "closed under what the human may do, and every run ends"
+
+NOT_EXAMINED: Final = "not examined"
+NEEDS_OPTIMISER: Final = "not examined: the rules alone can't prove it"
+NEEDS_MORE_THAN_A_WALK: Final = (
+    "not examined: it takes more than a walk through the policy; verify looks at it"
+)
+NOTHING_TO_EXAMINE: Final = "there is no answer to examine"
+RESULT_BREAKS_RULE: Final = "the result breaks a rule already"
+ANSWER_BREAKS_RULE: Final = "the answer breaks a rule already"
+NO_REPLAY: Final = "the plan can't be replayed"
+NO_REPLAYS: Final = "the plans can't be replayed"
+POLICY: Final = "a policy, not a plan"
+NO_WINDOW_FOR_HIM: Final = "a human who replans is not bound to a window"
+
+
+def same_as(claim: Claim) -> str:
+    """What holds for one claim holds for another."""
+    return like(claim.claim, claim.reason)
+
+
+def like(claim: str, reason: str) -> str:
+    """:func:`same_as`, by a claim's name and reason."""
+    return f"as '{claim}': {reason}"
+
+
+# -- the human's own plan
+
+PI_H_IS_CANONICAL: Final = "; pi_H is the human's canonical optimal plan"
+PI_H_IS_OPTIMAL: Final = "; pi_H is an optimal plan of the human, not the canonical one: taken as given"
+PI_H_IS_GIVEN: Final = "; pi_H is not optimal: taken as given"
+NOT_ALONE: Final = "the goal can't be reached alone"
+NO_GOAL_ALONE: Final = "no goal that is possible can be reached alone"
+ALL_VISITED: Final = "all states that the human reaches alone were visited"
+HE_HAS_A_PLAN: Final = "the human has a plan alone"
+
+
+def least_alone(cost: float) -> str:
+    """Mode ``individual``."""
+    return f"the least cost alone is {cost:.12g}"
+
+
+# -- counter-examples, and what else refutes
+
+BETTER: Final = "a better plan"
+OPPORTUNITY: Final = "an opportunity"
+BELOW_BOUND: Final = "a plan below the bound"
+PLAN: Final = "a plan"
+NOTHING_IS_BETTER: Final = "doing nothing is better"
+AS_WELL_ALONE: Final = "the human does as well without a robot"
+LEFT_ALONE_IS_DEARER: Final = "leaving the human alone costs more"
+NOTHING_TO_COMPARE: Final = "a saving, though doing nothing is no answer"
+POLICY_ENDS: Final = "there is a policy that ends"
+ONE_ROBOT: Final = "mode 'assistance' is for one robot"
+
+
+def described(example: str, cost: str, objective: str, window: Window | None) -> str:
+    """A counter-example with its figures."""
+    words = f"{example}: cost {cost}, objective {objective}"
+    return words if window is None else f"{words}, window [{window.start}, {window.end})"
+
+
+def example_breaks(rule: object) -> str:
+    """A counter-example that is none."""
+    return f"the counter-example breaks a rule: {rule}"
+
+
+def example_unchecked(why: str) -> str:
+    """A counter-example of which nobody could tell whether it is one."""
+    return f"a counter-example could not be checked: {why}"
+
+
+def optimum_is_cheaper(amount: str) -> str:
+    """The answer is an opportunity, against what it says."""
+    return f"the optimum costs less than {amount}, robots idle"
+
+
+def no_cheaper(amount: str) -> str:
+    """The answer is no opportunity, against what it says."""
+    return f"the plan costs no less than {amount}, robots idle"
+
+
+def nothing_costs(amount: str) -> str:
+    """What doing nothing costs, against what the answer says."""
+    return f"doing nothing costs {amount}"
+
+
+def nothing_has_objective(amount: str) -> str:
+    """Doing nothing is below the bound."""
+    return f"doing nothing has the objective {amount}"
+
+
+def without_robots(amount: str) -> str:
+    """Leaving the human alone is below the bound."""
+    return f"without robots it costs {amount}"
+
+
+def figure(name: str, right: float, said: float | None) -> str:
+    """A figure of the result that is wrong."""
+    return f"{name} is {right:g}, the result says {said}"
+
+
+def expected_saving_alone(right: Fraction, said: float | None) -> str:
+    """The same over several goals."""
+    return f"saving_alone is {float(right):.12g}, the answer says {said}"
+
+
+def better_for_all(cost: float, objective: float) -> str:
+    """Robots could do better for several goals."""
+    return f"better for all goals: expected cost {cost:.12g}, objective {objective:.12g}"
+
+
+def bound_expected(right: Fraction) -> str:
+    """A bound that is not what its own statement adds up to."""
+    return f"lower_bound: expected {float(right):g}"
+
+
+# -- proofs
+
+CLOSED: Final = "; closed by reachability and shortest paths, no solver call"
+NO_LESS_THAN_ALONE: Final = "the optimum costs no less than the answer without robots"
+BEST_NO_LESS_THAN_ALONE: Final = "the best plan costs no less than the answer without robots"
+NOTHING_SATISFIES: Final = "no plan satisfies the program"
+ALL_PLAYED: Final = "everything that robots can do was played"
+ALL_PLAYED_FOR_ALL: Final = "everything that robots can do was played beside all goals"
+EACH_ADDS_UP: Final = "the best answers to each goal by itself add up to it"
+RUNS_FOR_EVER: Final = "whatever the supporter does, a run may go on for ever"
+FLOORS_REACH: Final = "lower bounds that prove each other reach the policy's value"
+TOGETHER_MIGHT: Final = "both together, without turns, might pay less"
+
+
+def no_better(amount: str, *, tie: bool) -> str:
+    """No plan has a better score; ``tie``: there might be one of the same objective at a lower cost."""
+    words = f"no plan has an objective below {amount}"
+    return f"{words}, or the same at a lower cost" if tie else words
+
+
+def none_below(bound: float) -> str:
+    """The bound holds."""
+    return f"no plan has an objective below {bound:.12g}"
+
+
+def known_bound(bound: float) -> str:
+    """What is known where the rest stays undecided."""
+    return f"; no answer has an objective below {bound:.12g}"
+
+
+def all_played(amount: str) -> str:
+    """Nothing that happens with a human who replans costs less."""
+    return f"everything that robots can do for less than {amount} was played"
+
+
+def played_again(models: str) -> str:
+    """A plan turned out as promised."""
+    return f"played again, {models}: as the result says"
+
+
+def policy_values(value: str) -> str:
+    """A policy's values fit together."""
+    return f"each value is what a round and the values after it make: {value}"
+
+
+def together_pay(value: str) -> str:
+    """A bound that needs no turns."""
+    return f"both together pay at least {value}"
+
+
+# -- all optimal plans of the human at once
+
+NOT_OPTIMAL_TIE: Final = "statistics.ties lists a plan that is not an optimal one of the human"
+TIE_WITHOUT_PLAN: Final = "with some optimal pi_H there is no plan"
+
+
+def tie_costs(human_plan: tuple[str, ...], cost: float | None) -> str:
+    """One of the answers listed is wrong."""
+    return f"statistics.ties: with pi_H = {', '.join(human_plan)} the cost is {cost}"
+
+
+def over_ties(ties: str, count: int, cost: Fraction) -> str:
+    """What the answers add up to."""
+    return f"the {ties} cost over {count} optimal plans of the human is {float(cost):.12g}"
+
+
+def ties_bound(words: str, ties: str) -> str:
+    """The bound of an unproved answer is too high."""
+    return f"{words}, and lower_bound is beyond what {ties} ties prove"
+
+
+def ties_savings(words: str, saving: float | None, alone: float | None) -> str:
+    """The savings of a mean are wrong."""
+    return f"{words}; expected saving and saving_alone to be {saving} and {alone}"

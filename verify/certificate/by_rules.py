@@ -1,0 +1,62 @@
+"""What rules alone say of a result: quick, and without loading a solver."""
+
+from collections.abc import Iterable, Iterator
+from typing import Final
+
+from serendipity.model import Claim, Deadline, Result, Task
+from verify.base import wording
+from verify.base.obligations import complete
+from verify.rules import CLAIMS, check
+from verify.rules.claims import rule_claim
+
+_A_MOMENT: Final = 1.0
+"""Seconds for working out what the human would do in a policy's states."""
+
+
+def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Claim, ...]:
+    """The claims that break a rule, or follow all; what needs an optimiser is not in scope.
+
+    Args:
+        task: the task.
+        result: a result for it, of checked types.
+        deadline: what is not checked by then stays undecided.
+    """
+    return complete(result, _claims(task, result, deadline), by_rules=True)
+
+
+def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
+    if "goals" in result.statistics:
+        return _for_goals(task, result, deadline)
+    if result.mode == "assistance":
+        from verify.policy import check_policy
+
+        # a walk through the policy's states, as far as it gets within a moment (semantics 7)
+        return check_policy(task, result, deadline.within(_A_MOMENT), replay_only=True)
+    return _for_plan(task, result, deadline)
+
+
+def _for_plan(task: Task, result: Result, deadline: Deadline) -> Iterator[Claim]:
+    report = check(task, result, deadline)
+    for name in CLAIMS:
+        claim = rule_claim(result, report, name, wording.FOLLOWED_SO_FAR)
+        if claim is not None:
+            yield claim
+        elif name == "lower_bound" and result.lower_bound is not None:
+            yield Claim(name, "not_in_scope", wording.NEEDS_OPTIMISER)
+    if result.status == "infeasible":
+        yield Claim("infeasible", "not_in_scope", wording.NEEDS_OPTIMISER)
+    elif result.status == "optimal":
+        best = "optimal" if result.opportunity else "no_opportunity"
+        yield Claim(best, "not_in_scope", wording.NEEDS_OPTIMISER)
+
+
+def _for_goals(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
+    from verify.goals.check import claims_by_rules, examine, unexamined  # few results have goals
+
+    examined = examine(task, result, deadline)
+    if examined.single is not None:
+        return _for_plan(*examined.single, deadline)
+    if not examined.lines:
+        return examined.claims
+    claims = claims_by_rules(result, examined.lines)
+    return (*claims, *(unexamined(result, claims) or ()))
