@@ -62,7 +62,10 @@ def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
 
 def fits(action: GroundAction, others: Iterable[GroundAction], *, strict: bool) -> bool:
     """Whether an action can share an epoch with each of the others."""
-    return not any(conflicting(action, other, strict=strict) for other in others)
+    for other in others:  # noqa: SIM110 - a third faster than any()
+        if conflicting(action, other, strict=strict):
+            return False
+    return True
 
 
 def executed(state: State, actions: Sequence[GroundAction], *, strict: bool) -> State | None:

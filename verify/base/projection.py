@@ -5,12 +5,12 @@ whether he holds something), as long as it stays small.  Dropping the other fact
 makes actions applicable more often, so the bound is admissible.
 """
 
-import heapq
 from collections.abc import Iterable
 from typing import Final
 
 from serendipity.model import Condition, Deadline, Task
 from verify.base.operators import OwnActions
+from verify.base.shortest_paths import dijkstra
 
 _MOST_STATES: Final = 20_000
 
@@ -61,31 +61,10 @@ class ProjectedCosts:
                 if successor not in self._seen and successor not in new:
                     new.add(successor)
                     stack.append(successor)
-        known = [(self._distance[state], state) for state in edges if state in self._distance]
-        goals = [(0, state) for state in new if self._goal.holds(state)]
-        self._settle(known + goals, edges)
+        known = [(state, self._distance[state]) for state in edges if state in self._distance]
+        goals = [(state, 0) for state in new if self._goal.holds(state)]
+        self._distance |= dijkstra(known + goals, lambda state: edges.get(state, ()), self._deadline)
         self._seen |= new
-
-    def _settle(
-        self,
-        sources: Iterable[tuple[int, Projected]],
-        edges: dict[Projected, list[tuple[Projected, int]]],
-    ) -> None:
-        queue = [(distance, ticket, state) for ticket, (distance, state) in enumerate(sources)]
-        heapq.heapify(queue)
-        ticket = len(queue)
-        settled: set[Projected] = set()
-        while queue:
-            self._deadline.tick()
-            distance, _, state = heapq.heappop(queue)
-            if state in settled:
-                continue
-            settled.add(state)
-            self._distance.setdefault(state, distance)
-            for before, weight in edges.get(state, ()):
-                if before not in settled:
-                    ticket += 1
-                    heapq.heappush(queue, (distance + weight, ticket, before))
 
     def _successors(self, state: Projected) -> Iterable[tuple[Projected, int]]:
         for fact in (None, *state):

@@ -9,9 +9,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import lcm
+from typing import TypeVar
 
 from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
 from verify.base.execution import price
+
+Amount = TypeVar("Amount", int, tuple[int, int])
 
 FREE, WINDOW, EXACT, ALONE = "free", "window", "exact", "alone"
 """Rules for the human: anything (semantics 3.4), a window (3.1), exactly ``pi_H``, his own actions only."""
@@ -88,7 +91,7 @@ class Subproblem:
 
     def below(self, most: int | None, most_cost: int | None = None) -> "Subproblem":
         """The same with tighter limits on objective and cost (eq. 11)."""
-        return replace(self, most=_least(self.most, most), most_cost=_least(self.most_cost, most_cost))
+        return replace(self, most=least(self.most, most), most_cost=least(self.most_cost, most_cost))
 
     def allowed(self) -> list[int]:
         """Ids of the actions that may occur at all."""
@@ -113,7 +116,8 @@ def in_plan(task: Task, human_plan: HumanPlan) -> frozenset[int]:
     return frozenset(i for i, action in enumerate(task.actions) if action.name in names)
 
 
-def _least(a: int | None, b: int | None) -> int | None:
+def least(a: Amount | None, b: Amount | None) -> Amount | None:
+    """The lesser of two amounts, or of two scores, either of which may not be there."""
     return b if a is None else a if b is None else min(a, b)
 
 

@@ -7,13 +7,13 @@ Only sets in which actions disable each other in a circle have to stay together.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from heapq import heappop, heappush
 from typing import Final
 
 from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, Task
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import State, fits
 from verify.base.relevance import Relevant, relevant_part
+from verify.base.shortest_paths import AStar
 from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import during
 from verify.programs.automata.network import FAR, distances, goal_states
@@ -88,7 +88,7 @@ class JointSearch:
         self.wanted = part.facts.intersection([f for c in conditions for f in c.positive])
         self.unwanted = part.facts.intersection([f for c in conditions for f in c.negative])
         self.left = LeastLeft(question, part)
-        self.closed: set[State] = set()
+        self.closed = 0
         self.bound: int | None = None
 
     def run(self) -> Minimum:
@@ -96,38 +96,24 @@ class JointSearch:
         try:
             return self._search()
         except LIMITS as limit:
-            doing = f"searching joint plans, {len(self.closed):,} states so far"
+            doing = f"searching joint plans, {self.closed:,} states so far"
             return Minimum(
                 "undecided", bound=self.bound, reason=str(LimitReachedError(limit_reason(limit), doing))
             )
 
     def _search(self) -> Minimum:
-        start, closed = self.start, self.closed
-        best = {start: 0}
-        parent: dict[State, tuple[State, Bundle]] = {}
-        queue = [(self.estimate(start), 0, 0, start)]
-        number, most = 0, self._most()
-        while queue:
-            self.deadline.check()
-            estimate, _, _, state = heappop(queue)
-            if state in closed:
-                continue
-            self.bound = estimate
-            if estimate > most:
-                break
-            closed.add(state)
+        search = AStar(self.start, self._successors, self.estimate, self.deadline, self._most() + 1)
+        for state, self.bound in search:
+            self.closed += 1
             if self.is_goal(state):
-                return self._found(state, best[state], parent)
-            if len(closed) > MOST_STATES:
-                return Minimum("undecided", bound=estimate, reason=f"more than {MOST_STATES} joint states")
-            for bundle in self.applicable(state):
-                after = (state - bundle.delete) | bundle.add
-                total = best[state] + bundle.cost
-                if total < best.get(after, FAR):
-                    best[after], parent[after] = total, (state, bundle)
-                    number += 1
-                    heappush(queue, (total + self.estimate(after), -total, number, after))
+                return self._found(search.path(state), search.distance[state])
+            if self.closed > MOST_STATES:
+                return Minimum("undecided", bound=self.bound, reason=f"more than {MOST_STATES} joint states")
         return Minimum("none")
+
+    def _successors(self, state: State) -> Iterator[tuple[State, int, Bundle]]:
+        for bundle in self.applicable(state):
+            yield (state - bundle.delete) | bundle.add, bundle.cost, bundle
 
     @property
     def start(self) -> State:
@@ -142,14 +128,9 @@ class JointSearch:
         limits = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
         return min(limits, default=FAR - 1)
 
-    def _found(self, state: State, cost: int, parent: dict[State, tuple[State, Bundle]]) -> Minimum:
-        bundles = []
-        while state in parent:
-            state, bundle = parent[state]
-            bundles.append(bundle)
-        steps = tuple(
-            Step(epoch, i) for epoch, bundle in enumerate(reversed(bundles), start=1) for i in bundle.actions
-        )
+    def _found(self, bundles: list[Bundle], cost: int) -> Minimum:
+        epochs = enumerate(bundles, start=1)
+        steps = tuple(Step(epoch, i) for epoch, bundle in epochs for i in bundle.actions)
         return Minimum("found", Solution(steps, None, cost, cost), cost)
 
     def applicable(self, state: State) -> Iterator[Bundle]:
@@ -195,8 +176,9 @@ def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadl
         if len(chosen) > 1 and _strongly_connected(chosen, disables):
             found.add(tuple(sorted(chosen)))
         if len(chosen) < len(task.agents):
+            beside = [by_id[i] for i in chosen]
             for j in {j for i in chosen for j in disables[i]} - set(chosen):
-                if fits(by_id[j], (by_id[i] for i in chosen), strict=False):
+                if fits(by_id[j], beside, strict=False):
                     extend((*chosen, j))
 
     for i, _ in actions:

@@ -14,7 +14,7 @@ from typing import Final
 from serendipity.model import Step
 from verify.base.execution import State, after, applicable, fits, sets_beside
 from verify.base.relevance import relevant_part
-from verify.base.subproblem import FREE
+from verify.base.subproblem import FREE, least
 from verify.base.undecided import UndecidedError
 from verify.calls.answer import best_plan
 from verify.calls.call import Call, Score
@@ -171,7 +171,7 @@ class Together:
                 paid = price + (0 if his is None else team[his])
                 score = objective + paid + (self._units.epoch if begin else 0), cost + paid
                 if begin:
-                    ended = _least(ended, self._closed(call, after, epoch, score))
+                    ended = least(ended, self._closed(call, after, epoch, score))
                     if epoch + 1 - begin == call.options.max_window:
                         continue
                 label = begin, after
@@ -209,12 +209,12 @@ class Together:
 
     def _bound(self, k: int, line: _Line) -> Score | None:
         """The least that the goal's timeline can come to; None: nothing fits."""
-        least = line.ended
+        bound = line.ended
         for (start, state), (objective, cost) in line.labels.items():
             left = self._left[k](state)
             wait = 0 if start else self._units.epoch
-            least = _least(least, (objective + left + wait, cost + left))
-        return least
+            bound = least(bound, (objective + left + wait, cost + left))
+        return bound
 
     def _rank(self, lines: Sequence[_Line]) -> Rank | None:
         """After the last epoch."""
@@ -223,7 +223,7 @@ class Together:
             end = line.ended
             for (start, state), (objective, cost) in line.labels.items():
                 if not start and call.task.goal.holds(state):
-                    end = _least(end, (objective + self._units.epoch, cost))
+                    end = least(end, (objective + self._units.epoch, cost))
             if end is None:
                 return None
             ends.append(end)
@@ -259,10 +259,6 @@ def _left(call: Call) -> LeastLeft:
     part = relevant_part(question)
     assert part is not None, "only goals that he can reach are considered"
     return LeastLeft(question, part)
-
-
-def _least(a: Score | None, b: Score | None) -> Score | None:
-    return b if a is None else a if b is None else min(a, b)
 
 
 def _key(lines: Sequence[_Line], paid: int) -> object:

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
 from itertools import chain
 
 from serendipity.model import Deadline
+from verify.base.shortest_paths import AStar, dijkstra
 from verify.base.undecided import UndecidedError
 
 
@@ -58,12 +58,12 @@ class Moves:
             self._under.setdefault(bit, []).append(edge) if bit else self._always.append(edge)
             self._watched |= bit
 
-    def __call__(self, state: int) -> Iterator[tuple[int, int]]:
-        """Weight and state after each edge that is applicable."""
+    def __call__(self, state: int) -> Iterator[tuple[int, int, int]]:
+        """For each edge that is applicable the state after it, its weight and its action."""
         under = self._under
         for edge in chain(self._always, *(under[bit] for bit in bits_of(state & self._watched))):
             if state & edge.pre == edge.pre and not state & edge.neg:
-                yield edge.weight, state & ~edge.delete | edge.add
+                yield state & ~edge.delete | edge.add, edge.weight, edge.action
 
 
 def bits_of(mask: int) -> Iterator[int]:
@@ -110,30 +110,18 @@ class GameDistances:
             state = pending.pop()
             if state in self._known:
                 known = self._known[state]
-                ends += [] if known is None else [(known, state)]
+                ends += [] if known is None else [(state, known)]
             elif self._goal.holds(state):
-                ends.append((0, state))
+                ends.append((state, 0))
             else:
-                for weight, after in self._moves(state):
+                for after, weight, _ in self._moves(state):
                     if after not in before:
                         before[after] = []
                         pending.append(after)
-                    before[after].append((weight, state))
+                    before[after].append((state, weight))
             if len(before) > self._most:
                 raise UndecidedError(f"more than {self._most} states")
-        self._settle(ends, before)
-
-    def _settle(self, queue: list[tuple[int, int]], before: dict[int, list[tuple[int, int]]]) -> None:
-        heapify(queue)
-        found: dict[int, int] = {}
-        while queue:
-            self._deadline.tick()
-            distance, state = heappop(queue)
-            if state not in found:
-                found[state] = distance
-                for weight, earlier in before[state]:
-                    if earlier not in found:
-                        heappush(queue, (distance + weight, earlier))
+        found = dijkstra(ends, before.__getitem__, self._deadline)
         for state in self._deadline.each(before):
             self._known[state] = found.get(state)
 
@@ -161,22 +149,9 @@ def reaches_below(
     Raises:
         LimitReachedError: the deadline came first.
     """
-    queue = [(least(start), 0, start)]
-    best = {start: 0}
-    closed: set[int] = set()
-    while queue and queue[0][0] < limit:
-        deadline.check()
-        _, minus, state = heappop(queue)
-        if state in closed:
-            continue
-        closed.add(state)
+    for looked_at, (state, _) in enumerate(AStar(start, moves, least, deadline, limit)):
         if goal.holds(state):
             return True
-        if len(closed) > most:
+        if looked_at >= most:
             return None
-        for weight, after in moves(state):
-            cost = weight - minus
-            if cost + least(after) < limit and cost < best.get(after, limit):
-                best[after] = cost
-                heappush(queue, (cost + least(after), -cost, after))
     return False

@@ -7,11 +7,11 @@ that must be true before the epoch besides the action's own precondition.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from heapq import heappop, heappush
 from typing import Final
 
 from serendipity.model import Deadline
 from verify.base.relevance import Relevant
+from verify.base.shortest_paths import dijkstra
 from verify.base.subproblem import Subproblem
 from verify.programs.automata.control import ALL, OWN, SUFFIX, Control, HumanControl
 from verify.programs.automata.product import Automaton
@@ -152,29 +152,11 @@ def distances(
     for state, moves in enumerate(deadline.each(automaton.moves)):
         for action, target in moves:
             backward[target].append((state, weights[action]))
-    weight = _dijkstra(backward, goals, deadline, unit=False)
-    return weight, _dijkstra(backward, goals, deadline, unit=True)
-
-
-def _dijkstra(
-    backward: list[list[tuple[int, int]]], goals: set[int], deadline: Deadline, *, unit: bool
-) -> list[int]:
-    best = [FAR] * len(backward)
-    queue: list[tuple[int, int]] = []
-    for goal in goals:
-        best[goal] = 0
-        queue.append((0, goal))
-    while queue:
-        deadline.tick()
-        done, state = heappop(queue)
-        if done > best[state]:
-            continue
-        for source, weight in backward[state]:
-            total = done + (1 if unit else weight)
-            if total < best[source]:
-                best[source] = total
-                heappush(queue, (total, source))
-    return best
+    ends = dict.fromkeys(goals, 0)
+    least = dijkstra(ends.items(), backward.__getitem__, deadline)
+    fewest = dijkstra(ends.items(), lambda state: ((source, 1) for source, _ in backward[state]), deadline)
+    states = range(len(backward))
+    return [least.get(state, FAR) for state in states], [fewest.get(state, FAR) for state in states]
 
 
 def goal_states(question: Subproblem, automaton: Automaton) -> set[int]:
