@@ -9,7 +9,7 @@ allows, with distances in his automaton, cuts off what can't be better than the 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final
+from typing import Final, NamedTuple
 
 from serendipity.model import Step
 from verify.base.execution import State, after, applicable, fits, sets_beside
@@ -49,6 +49,34 @@ class _Line:
 
     labels: dict[Label, Score]
     ended: Score | None
+
+
+class _Node(NamedTuple):
+    """What robots have done, what it cost them, and what can have happened beside it, goal by goal."""
+
+    lines: tuple[_Line, ...]
+    spent: int
+    steps: tuple[Step, ...]
+
+
+@dataclass(slots=True)
+class _Incumbent:
+    """The best plan so far.
+
+    Attributes:
+        than: what a plan has to rank before.
+        best: the plan that does; None: none has been found.
+        looked_at: number of nodes so far.
+    """
+
+    than: Rank
+    best: Better | None = None
+    looked_at: int = 0
+
+    def offer(self, rank: Rank | None, robots: tuple[Step, ...]) -> None:
+        """Take a plan if it is better; a rank of None: it misses a goal."""
+        if rank is not None and rank < self.than:
+            self.best, self.than = Better(rank, robots), rank
 
 
 class Together:
@@ -101,34 +129,41 @@ class Together:
         return self._search(than)
 
     def _search(self, than: Rank) -> Better | None:
-        call, best = self._calls[0], None
-        start: tuple[_Line, ...] = tuple(_Line({(0, c.task.init): (0, 0)}, None) for c in self._calls)
-        layer: list[tuple[tuple[_Line, ...], int, tuple[Step, ...]]] = [(start, 0, ())]
-        count = 0
-        for epoch in range(1, self._horizon + 1):
-            following = []
-            seen: dict[object, int] = {}
-            for lines, spent, steps in layer:
-                count += 1
-                call.effort.deadline.check()
-                if count > MOST_NODES:
-                    raise UndecidedError(f"more than {MOST_NODES} robots' plans")
-                for robots in self._choices(lines):
-                    call.effort.deadline.check()
-                    after = self._after(lines, epoch, robots, than)
-                    paid = spent + sum(self._units.team[i] for i in robots)
-                    if after is None or seen.get(key := _key(after, paid), paid + 1) <= paid:
-                        continue
-                    seen[key] = paid
-                    done = (*steps, *(Step(epoch, i) for i in robots))
-                    if epoch < self._horizon:
-                        following.append((after, paid, done))
-                        continue
-                    rank = self._rank(after)
-                    if rank is not None and rank < than:
-                        best, than = Better(rank, done), rank
-            layer = following
-        return best
+        """All robots' plans, epoch by epoch; the last one's are ranked as they come."""
+        layer = [_Node(tuple(_Line({(0, call.task.init): (0, 0)}, None) for call in self._calls), 0, ())]
+        incumbent = _Incumbent(than)
+        if not self._horizon:
+            return None
+        for epoch in range(1, self._horizon):
+            layer = list(self._following(layer, epoch, incumbent))
+        for node in self._following(layer, self._horizon, incumbent):
+            incumbent.offer(self._rank(node.lines), node.steps)
+        return incumbent.best
+
+    def _following(self, layer: Sequence[_Node], epoch: int, incumbent: _Incumbent) -> Iterator[_Node]:
+        """What can come of an epoch and still rank before the incumbent; of equal lines only the cheaper.
+
+        Raises:
+            UndecidedError: there are too many robots' plans.
+            LimitReachedError: the deadline came first.
+        """
+        deadline = self._calls[0].effort.deadline
+        seen: dict[object, int] = {}
+        for node in layer:
+            incumbent.looked_at += 1
+            deadline.check()
+            if incumbent.looked_at > MOST_NODES:
+                raise UndecidedError(f"more than {MOST_NODES} robots' plans")
+            for robots in self._choices(node.lines):
+                deadline.check()
+                lines = self._after(node.lines, epoch, robots, incumbent.than)
+                if lines is None:
+                    continue
+                spent = node.spent + sum(self._units.team[i] for i in robots)
+                key = _key(lines, spent)
+                if spent < seen.get(key, spent + 1):
+                    seen[key] = spent
+                    yield _Node(lines, spent, (*node.steps, *(Step(epoch, i) for i in robots)))
 
     def _choices(self, lines: Sequence[_Line]) -> Iterator[Robots]:
         """Sets of robots' actions that are possible on some label of the goal with the fewest."""
