@@ -5,7 +5,7 @@ then, and, for a joint action, an arc of the same action for each participant.
 from collections.abc import Callable
 from typing import Final
 
-from verify.programs.automata.network import FAR, WAIT, Arc
+from verify.programs.automata.network import ACTION, FAR, WAIT, Arc, actions_of
 from verify.programs.automata.setting import Setting
 
 _MANY: Final = 50_000
@@ -54,35 +54,34 @@ class Forward:
             candidates = [self._candidates(k, epoch, fresh=fresh) for k in range(len(setting.networks))]
             blocked = self._one_sided(candidates)
             for k, arcs in enumerate(candidates):
-                self._advance(k, epoch, [arc for arc in arcs if arc[2] not in blocked] if blocked else arcs)
+                self._advance(
+                    k, epoch, [arc for arc in arcs if arc[ACTION] not in blocked] if blocked else arcs
+                )
             self._learn(epoch)
 
     def _candidates(self, k: int, epoch: int, *, fresh: bool) -> list[Arc]:
         setting, network = self.setting, self.setting.networks[k]
         reached = self.reach[k][-1]
         usable = self._usable_now()
+        found: list[Arc] = []
         if not fresh:
-            return [
-                arc
-                for arc in self.deadline.each(network.layers[epoch - 1])
-                if arc[0] in reached and usable(arc[2]) and arc[4] <= self.true
-            ]
-        found = []
+            for arc in self.deadline.each(network.layers[epoch - 1]):
+                source, _, action, _, needs = arc
+                if source in reached and usable(action) and needs <= self.true:
+                    found.append(arc)
+            return found
         if k != setting.task.human:
             nodes = self.deadline.each(reached)
-            return [arc for node in nodes for arc in network.outgoing(node, epoch) if usable(arc[2])]
+            return [arc for node in nodes for arc in network.outgoing(node, epoch) if usable(arc[ACTION])]
         weights, actions = setting.bounds
         left = setting.horizon - epoch
         for node, done in reached.items():
             self.deadline.check()
             for arc in network.outgoing(node, epoch):
-                state = network.state_of[arc[1]]
-                if (
-                    actions[state] <= left
-                    and done + arc[3] + weights[state] <= setting.most
-                    and usable(arc[2])
-                    and arc[4] <= self.true
-                ):
+                _, target, action, weight, needs = arc
+                state = network.state_of[target]
+                in_reach = actions[state] <= left and done + weight + weights[state] <= setting.most
+                if in_reach and usable(action) and needs <= self.true:
                     found.append(arc)
         return found
 
@@ -99,7 +98,7 @@ class Forward:
 
     def _one_sided(self, candidates: list[list[Arc]]) -> set[int]:
         """Joint actions for which a participant has no arc."""
-        present = [{arc[2] for arc in self.deadline.each(arcs)} for arcs in candidates]
+        present = [actions_of(arcs, self.deadline) for arcs in candidates]
         blocked = set()
         for actions in present:
             for i in self.deadline.each(actions):
@@ -125,10 +124,9 @@ class Forward:
         """Facts that may be true, or false, after the epoch."""
         setting = self.setting
         for k, network in enumerate(setting.networks):
-            for action in {arc[2] for arc in self.deadline.each(network.layers[epoch - 1])}:
-                if action != WAIT:
-                    self.true.update(setting.task.actions[action].add)
-                    self.false.update(setting.task.actions[action].delete)
+            for action in actions_of(network.layers[epoch - 1], self.deadline) - {WAIT}:
+                self.true.update(setting.task.actions[action].add)
+                self.false.update(setting.task.actions[action].delete)
             watched = self.watched[k]
             if watched:
                 for node in self.deadline.each(self.reach[k][-1]):

@@ -5,7 +5,7 @@ An arc is a tuple ``(source, target, action, weight, needs)``: node numbers, the
 that must be true before the epoch besides the action's own precondition.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -20,6 +20,8 @@ WAIT: Final = -1
 NOTHING: Final[frozenset[int]] = frozenset()
 
 Arc = tuple[int, int, int, int, frozenset[int]]
+ACTION: Final = 2
+"""Where an arc has its action; tuples, since named ones take five times as long to make."""
 
 FAR: Final = 10**15
 """More than any sum of weights: no way there."""
@@ -142,6 +144,11 @@ class HumanNetwork(Network):
     def in_suffix(self, node: int) -> bool:
         """Whether the epoch that led to ``node`` belongs to the suffix: no robot may act."""
         return self.controls[node][0] == SUFFIX
+
+
+def actions_of(arcs: Iterable[Arc], deadline: Deadline) -> set[int]:
+    """The actions that arcs stand for, :data:`WAIT` among them."""
+    return {action for _, _, action, _, _ in deadline.each(arcs)}
 
 
 def distances(

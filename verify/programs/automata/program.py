@@ -243,8 +243,8 @@ class Program:
         network, columns = self.setting.human, self.columns[self.task.human]
         for epoch, layer in enumerate(network.layers, start=1):
             wanted: dict[int, _Sum] = defaultdict(dict)
-            for arc, x in zip(self.deadline.each(layer), columns[epoch - 1], strict=True):
-                for f in arc[4]:
+            for (*_, needs), x in zip(self.deadline.each(layer), columns[epoch - 1], strict=True):
+                for f in needs:
                     wanted[f][x] = 1
             for f, sums in wanted.items():
                 self._at_most(sums, self.truth(f, epoch - 1))
@@ -329,8 +329,8 @@ class Program:
         for epoch, layer in enumerate(human.layers, start=1):
             columns = self.columns[self.task.human][epoch - 1]
             free: _Sum = {}
-            for arc, x in zip(self.deadline.each(layer), columns, strict=True):
-                if not human.in_suffix(arc[1]):
+            for (_, target, *_), x in zip(self.deadline.each(layer), columns, strict=True):
+                if not human.in_suffix(target):
                     free[x] = -1
             if len(free) == len(layer):
                 continue
@@ -374,8 +374,8 @@ class Program:
         inside = []
         for epoch, layer in enumerate(network.layers, start=1):
             columns = self.columns[self.task.human][epoch - 1]
-            for arc, x in zip(self.deadline.each(layer), columns, strict=True):
-                if values[x] and network.controls[arc[1]][0] == INSIDE:
+            for (_, target, *_), x in zip(self.deadline.each(layer), columns, strict=True):
+                if values[x] and network.controls[target][0] == INSIDE:
                     inside.append(epoch)
         return Window(inside[0], inside[-1] + 1)
 

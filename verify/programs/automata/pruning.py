@@ -11,10 +11,10 @@ Everything here is a relaxation, so that what it drops is on no plan within the 
 """
 
 from collections import defaultdict
-from collections.abc import Container
+from collections.abc import Container, Mapping, Sequence
 
 from verify.programs.automata.forward import Forward
-from verify.programs.automata.network import FAR, WAIT, Arc
+from verify.programs.automata.network import FAR, WAIT, Arc, actions_of
 from verify.programs.automata.setting import Setting
 
 MOST_ROUNDS = 6
@@ -66,7 +66,7 @@ class _Providers:
         self.his_true: set[int] = set()
         self.his_false: set[int] = set()
         for layer in setting.human.layers:
-            for action in {arc[2] for arc in setting.deadline.each(layer)} - {WAIT}:
+            for action in actions_of(layer, setting.deadline) - {WAIT}:
                 self.his_true.update(task.actions[action].add)
                 self.his_false.update(task.actions[action].delete)
         for k in robots:
@@ -123,8 +123,24 @@ class _Through:
         self.active: dict[int, int] = {}
         """By epoch: the least total with the epoch outside the suffix, so that robots may act."""
 
-    def note(self, action: int, epoch: int, needs: frozenset[int], total: int) -> None:
-        """An arc of the human's that is kept."""
+    def note(self, epoch: int, kept: Sequence[Arc], totals: Sequence[int]) -> None:
+        """An epoch's arcs that are kept, each with the least weight of a path through it."""
+        self.cheapest = min(totals, default=FAR)
+        least: dict[tuple[int, frozenset[int]], int] = {}
+        active, in_suffix = FAR, self.setting.human.in_suffix
+        for (_, target, action, _, needs), total in self.setting.deadline.each(
+            zip(kept, totals, strict=True)
+        ):
+            if total < least.get((action, needs), FAR):
+                least[action, needs] = total
+            if total < active and not in_suffix(target):
+                active = total
+        if active < FAR:
+            self.active[epoch] = active
+        for (action, needs), total in self.setting.deadline.each(least.items()):
+            self._note_uses(action, epoch, needs, total)
+
+    def _note_uses(self, action: int, epoch: int, needs: frozenset[int], total: int) -> None:
         for f in needs:
             self.true[f].append((epoch, total))
         if action == WAIT:
@@ -139,22 +155,15 @@ class _Through:
 
 
 def _human_backward(setting: Setting, forward: Forward, provided: _Providers) -> _Through:
+    """The human's network, where robots add what they must have spent for an arc to be possible."""
     network, human = setting.human, setting.task.human
     through = _Through(setting)
-    after = {
-        node: 0
-        for node in forward.reach[human][-1]
-        if network.state_of[node] in setting.finals[human] and network.ends(node)
-    }
-    through.cheapest = min((forward.reach[human][0].get(node, FAR) for node in after), default=FAR)
-    if setting.horizon:
-        through.cheapest = FAR
+    after = _ends(setting, forward, human)
     for epoch in range(setting.horizon, 0, -1):
         reached = forward.reach[human][epoch - 1]
         surcharges: dict[tuple[int, frozenset[int]], int] = {}
-        totals: dict[tuple[int, frozenset[int]], int] = {}
         kept: list[Arc] = []
-        before: dict[int, int] = {}
+        totals: list[int] = []
         for arc in setting.deadline.each(network.layers[epoch - 1]):
             source, target, action, weight, needs = arc
             if target not in after:
@@ -162,59 +171,56 @@ def _human_backward(setting: Setting, forward: Forward, provided: _Providers) ->
             key = (action, needs)
             if key not in surcharges:
                 surcharges[key] = provided.surcharge(action, epoch, needs)
-            rest = weight + after[target]
-            total = reached[source] + rest  # his own path; robots add what they spent to theirs
-            if total + surcharges[key] > setting.most:
-                continue
-            kept.append(arc)
-            if rest < before.get(source, FAR):
-                before[source] = rest
-            if total < totals.get(key, FAR):
-                totals[key] = total
-            if total < through.active.get(epoch, FAR) and not network.in_suffix(target):
-                through.active[epoch] = total
+            total = reached[source] + weight + after[target]  # his own path
+            if total + surcharges[key] <= setting.most:
+                kept.append(arc)
+                totals.append(total)
         network.layers[epoch - 1] = kept
-        for (action, needs), total in setting.deadline.each(totals.items()):
-            through.note(action, epoch, needs, total)
-        after = before
-        through.cheapest = min(totals.values(), default=FAR)
+        through.note(epoch, kept, totals)
         if not kept:
-            return through
+            break
+        after = _before(kept, after)
     return through
 
 
 def _open_backward(setting: Setting, forward: Forward, k: int, others: int, active: Container[int]) -> bool:
     """A network whose flow goes on to the end; False if it can't."""
     network = setting.networks[k]
-    after = {
-        node: 0
-        for node in forward.reach[k][-1]
-        if network.state_of[node] in setting.finals[k] and network.ends(node)
-    }
+    after = _ends(setting, forward, k)
     for epoch in range(setting.horizon, 0, -1):
         reached = forward.reach[k][epoch - 1]
         kept: list[Arc] = []
-        before: dict[int, int] = {}
         for arc in setting.deadline.each(network.layers[epoch - 1]):
-            if arc[1] not in after:
+            source, target, action, weight, _ = arc
+            if target not in after or (action != WAIT and epoch not in active):
                 continue
-            rest = arc[3] + after[arc[1]]
-            if arc[2] != WAIT and epoch not in active:
-                continue
-            if reached[arc[0]] + rest + others <= setting.most:
+            if reached[source] + weight + after[target] + others <= setting.most:
                 kept.append(arc)
-                if rest < before.get(arc[0], FAR):
-                    before[arc[0]] = rest
         network.layers[epoch - 1] = kept
-        after = before
+        after = _before(kept, after)
     return bool(after)
+
+
+def _ends(setting: Setting, forward: Forward, k: int) -> dict[int, int]:
+    """Nodes in which a network's flow may end, with nothing left to pay."""
+    network, finals = setting.networks[k], setting.finals[k]
+    last = forward.reach[k][-1]
+    return {node: 0 for node in last if network.state_of[node] in finals and network.ends(node)}
+
+
+def _before(kept: Sequence[Arc], after: Mapping[int, int]) -> dict[int, int]:
+    """Least weight from the nodes before an epoch to the end, along arcs that are kept."""
+    before: dict[int, int] = {}
+    for source, target, _, weight, _ in kept:
+        rest = weight + after[target]
+        if rest < before.get(source, FAR):
+            before[source] = rest
+    return before
 
 
 def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Through) -> None:
     """A robot that may stop anywhere: it does so after an arc of which somebody makes use."""
-    network, task = setting.networks[k], setting.task
-    uses_true = _uses(setting, k, setting.wanted_true, setting.outer_pre)
-    uses_false = _uses(setting, k, setting.wanted_false, setting.outer_neg)
+    network, use = setting.networks[k], _Use(setting, k, through)
     after: dict[int, int] = {}
     for epoch in range(setting.horizon, 0, -1):
         reached = forward.reach[k][epoch - 1]
@@ -223,25 +229,37 @@ def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Throu
         kept: list[Arc] = []
         before: dict[int, int] = {}
         for arc in setting.deadline.each(network.layers[epoch - 1]):
-            source, target, i, weight, _ = arc
-            if i not in exits:
-                action = task.actions[i]
-                if len(action.participants) > 1:
-                    with_human = task.human in action.participants
-                    worth = through.joint.get((i, epoch), FAR) if with_human else through.cheapest
-                else:
-                    worth = min(
-                        _worth(action.add, epoch, uses_true, through.true, through.cheapest),
-                        _worth(action.delete, epoch, uses_false, through.false, through.cheapest),
-                    )
-                exits[i] = max(worth, active)
-            rest = weight + min(exits[i], after.get(target, FAR))
-            if reached[source] + rest <= setting.most and (i == WAIT or active < FAR):
+            source, target, action, weight, _ = arc
+            if action not in exits:
+                exits[action] = max(use.least(action, epoch), active)
+            rest = weight + min(exits[action], after.get(target, FAR))
+            if reached[source] + rest <= setting.most and (action == WAIT or active < FAR):
                 kept.append(arc)
                 if rest < before.get(source, FAR):
                     before[source] = rest
         network.layers[epoch - 1] = kept
         after = before
+
+
+class _Use:
+    """What it is worth that a robot acts: the human's least weight where somebody makes use of it."""
+
+    def __init__(self, setting: Setting, k: int, through: _Through) -> None:
+        self.setting = setting
+        self.through = through
+        self.true = _uses(setting, k, setting.wanted_true, setting.outer_pre)
+        self.false = _uses(setting, k, setting.wanted_false, setting.outer_neg)
+
+    def least(self, action: int, epoch: int) -> int:
+        """Least weight of the human's path if an action of this epoch is made use of."""
+        ground, through = self.setting.task.actions[action], self.through
+        if len(ground.participants) > 1:
+            with_human = self.setting.task.human in ground.participants
+            return through.joint.get((action, epoch), FAR) if with_human else through.cheapest
+        return min(
+            _worth(ground.add, epoch, self.true, through.true, through.cheapest),
+            _worth(ground.delete, epoch, self.false, through.false, through.cheapest),
+        )
 
 
 def _uses(setting: Setting, k: int, wanted: frozenset[int], outer: dict[int, tuple[int, ...]]) -> set[int]:
@@ -250,7 +268,7 @@ def _uses(setting: Setting, k: int, wanted: frozenset[int], outer: dict[int, tup
     for other, network in enumerate(setting.networks):
         if other not in (k, setting.task.human):
             for layer in network.layers:
-                for action in {arc[2] for arc in setting.deadline.each(layer)} - {WAIT}:
+                for action in actions_of(layer, setting.deadline) - {WAIT}:
                     used.update(outer[action])
     return used
 

@@ -29,9 +29,9 @@ def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[d
     network = program.setting.human
     layer, columns = network.layers[xi2 - 1], program.columns[program.task.human][xi2 - 1]
     starts: dict[int, int] = {}
-    for arc, x in zip(program.deadline.each(layer), columns, strict=True):
-        begins = network.controls[arc[0]][0] == INSIDE and network.controls[arc[1]][0] == SUFFIX
-        if begins and network.true_facts(arc[0]) == state & network.automaton.facts:
+    for (source, target, *_), x in zip(program.deadline.each(layer), columns, strict=True):
+        begins = network.controls[source][0] == INSIDE and network.controls[target][0] == SUFFIX
+        if begins and network.true_facts(source) == state & network.automaton.facts:
             starts[x] = 1
     return starts, -1
 
@@ -39,7 +39,7 @@ def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[d
 def _suffix_weights(program: Program) -> dict[int, int]:
     weights: dict[int, int] = {}
     for layer, columns in zip(program.setting.human.layers, program.columns[program.task.human], strict=True):
-        for arc, x in zip(program.deadline.each(layer), columns, strict=True):
-            if arc[3] and program.setting.human.controls[arc[1]][0] == SUFFIX:
-                weights[x] = arc[3]
+        for (_, target, _, weight, _), x in zip(program.deadline.each(layer), columns, strict=True):
+            if weight and program.setting.human.controls[target][0] == SUFFIX:
+                weights[x] = weight
     return weights
