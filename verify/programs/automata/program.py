@@ -8,7 +8,7 @@ state-change family), else the exact frame, which negative preconditions need to
 
 from collections import defaultdict
 from collections.abc import Iterable
-from typing import Final
+from typing import Final, NamedTuple
 
 from serendipity.model import Condition, Step, Window
 from verify.base.subproblem import Subproblem
@@ -18,6 +18,19 @@ from verify.programs.automata.setting import Setting
 from verify.solvers.mip import BYTES_A_TERM, Model, Terms
 
 _Sum = dict[int, int]
+
+
+class Linear(NamedTuple):
+    """A linear expression: columns with their coefficients, and a constant."""
+
+    terms: Terms
+    constant: int = 0
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether it is 0 whatever the columns are."""
+        return not self.terms and not self.constant
+
 
 BYTES_AN_ARC: Final = 350 + 6 * BYTES_A_TERM
 """Memory for each arc of a program, from its column to its solution."""
@@ -42,7 +55,7 @@ class Program:
         self._flows()
         self._joint_actions()
         self.owner = {i: self._fewest_arcs(i) for i in self.deadline.each(setting.part.actions)}
-        self.values: dict[int, list[_Sum | None]] = {}
+        self.values: dict[int, list[Linear]] = {}
         self.frames: dict[int, list[int]] = {}
         shared = set(setting.part.facts) if complete else self._touched()
         for group in groups:
@@ -139,35 +152,37 @@ class Program:
 
     def _value_flow(self, group: frozenset[int]) -> None:
         """One unit of flow over the values of an exactly-one group; keeping a value is an arc."""
-        model, init = self.model, self.task.init
-        value = {f: {-1: 1} if f in init else None for f in group}  # -1 stands for the constant 1
         for f in group:
-            self.values[f] = [value[f]]
+            self.values[f] = [Linear({}, int(f in self.task.init))]
         for epoch in range(1, self.setting.horizon + 1):
-            consumed: dict[int, _Sum] = defaultdict(dict)
-            produced: dict[int, _Sum] = defaultdict(dict)
-            for i in self.deadline.each(self.present(epoch)):
-                action = self.task.actions[i]
-                for f in action.add:
-                    if f in group:
-                        produced[f].update(self.action(i, epoch))
-                        source = next(g for g in action.pre if g in group)
-                        consumed[source].update(self.action(i, epoch))
+            consumed, produced = self._transitions(group, epoch)
             for f in group:
-                before = self.values[f][-1]
-                after: _Sum = dict(produced[f])
-                if before is not None:
-                    keep = model.column(0, 1, integral=False)
-                    after[keep] = 1
-                    balance = {**consumed[f], keep: 1}
-                    right = before.get(-1, 0)
-                    for x, c in before.items():
-                        if x >= 0:
-                            balance[x] = balance.get(x, 0) - c
-                    model.add("value", balance, "==", right)
-                elif consumed[f]:
-                    model.add("value", consumed[f], "==", 0)
-                self.values[f].append(after or None)
+                value = self._next_value(self.values[f][-1], consumed[f], produced[f])
+                self.values[f].append(value)
+
+    def _transitions(self, group: frozenset[int], epoch: int) -> tuple[dict[int, _Sum], dict[int, _Sum]]:
+        """The actions that take a group's value away in an epoch, and those that bring it, by value."""
+        consumed: dict[int, _Sum] = defaultdict(dict)
+        produced: dict[int, _Sum] = defaultdict(dict)
+        for i in self.deadline.each(self.present(epoch)):
+            action = self.task.actions[i]
+            for f in action.add:
+                if f in group:
+                    produced[f].update(self.action(i, epoch))
+                    source = next(g for g in action.pre if g in group)
+                    consumed[source].update(self.action(i, epoch))
+        return consumed, produced
+
+    def _next_value(self, before: Linear, consumed: _Sum, produced: _Sum) -> Linear:
+        """A value after an epoch: what was there is taken away or kept, and what is brought comes to it."""
+        if before.is_zero:
+            if consumed:
+                self.model.add("value", consumed, "==", 0)
+            return Linear(produced)
+        keep = self.model.column(0, 1, integral=False)
+        balance = plus({**consumed, keep: 1}, before.terms, -1)
+        self.model.add("value", balance, "==", before.constant)
+        return Linear({**produced, keep: 1})
 
     def _frame(self, f: int) -> None:
         """The exact frame of one fact: (5) and (6) with their lower counterparts."""
@@ -177,17 +192,7 @@ class Program:
         for epoch in range(1, self.setting.horizon + 1):
             y, before = model.column(0, 1, integral=False), ys[-1]
             ys.append(y)
-            adders: dict[int, _Sum] = defaultdict(dict)
-            every_adder: _Sum = {}
-            deleters: _Sum = {}
-            for i in self.deadline.each(self.present(epoch)):
-                action = self.task.actions[i]
-                if f in action.add:
-                    every_adder.update(self.action(i, epoch))
-                    for agent in action.participants:
-                        adders[agent].update(self.action(i, epoch))
-                if f in action.delete:
-                    deleters.update(self.action(i, epoch))
+            every_adder, adders, deleters = self._changers(f, epoch)
             model.add("(5)", {y: 1, before: -1} | dict.fromkeys(every_adder, -1), "<=", 0)
             model.add("frame", {y: -1, before: 1} | dict.fromkeys(deleters, -1), "<=", 0)
             if deleters:
@@ -195,24 +200,41 @@ class Program:
             for sums in adders.values():
                 model.add("frame", {y: -1, **sums}, "<=", 0)
 
-    def truth(self, f: int, epoch: int) -> tuple[_Sum, int]:
-        """``y[f, epoch]``: a sum of columns and a constant."""
+    def _changers(self, f: int, epoch: int) -> tuple[_Sum, dict[int, _Sum], _Sum]:
+        """The actions that add a fact in an epoch, the same by agent, and those that delete it."""
+        every_adder: _Sum = {}
+        adders: dict[int, _Sum] = defaultdict(dict)
+        deleters: _Sum = {}
+        for i in self.deadline.each(self.present(epoch)):
+            action = self.task.actions[i]
+            if f in action.add:
+                every_adder.update(self.action(i, epoch))
+                for agent in action.participants:
+                    adders[agent].update(self.action(i, epoch))
+            if f in action.delete:
+                deleters.update(self.action(i, epoch))
+        return every_adder, adders, deleters
+
+    def truth(self, f: int, epoch: int) -> Linear:
+        """``y[f, epoch]``."""
         if f in self.inside:
-            k = self.inside[f]
-            network = self.setting.networks[k]
-            if epoch == 0:
-                return {}, int(f in network.true_facts(network.start))
-            sums: _Sum = {}
-            for node, into in self.inflow[k][epoch - 1].items():
-                if f in network.true_facts(node):
-                    sums.update(into)
-            return sums, 0
+            return self._truth_inside(self.inside[f], f, epoch)
         if f in self.values:
-            terms = dict(self.values[f][epoch] or {})
-            return terms, terms.pop(-1, 0)
+            return self.values[f][epoch]
         if f in self.frames:
-            return {self.frames[f][epoch]: 1}, 0
-        return {}, int(f in self.task.init)
+            return Linear({self.frames[f][epoch]: 1})
+        return Linear({}, int(f in self.task.init))
+
+    def _truth_inside(self, k: int, f: int, epoch: int) -> Linear:
+        """The same for a fact of an agent's automaton: the flow into the nodes in which it is true."""
+        network = self.setting.networks[k]
+        if epoch == 0:
+            return Linear({}, int(f in network.true_facts(network.start)))
+        sums: _Sum = {}
+        for node, into in self.inflow[k][epoch - 1].items():
+            if f in network.true_facts(node):
+                sums.update(into)
+        return Linear(sums)
 
     # -- what arcs need
 
@@ -234,9 +256,8 @@ class Program:
                 terms, constant = self.truth(f, epoch - 1)
                 self.model.add("(4)", plus(sums, terms), "<=", 1 - constant)
 
-    def _at_most(self, sums: _Sum, truth: tuple[_Sum, int]) -> None:
-        terms, constant = truth
-        self.model.add("(4)", plus(sums, terms, -1), "<=", constant)
+    def _at_most(self, sums: Terms, truth: Linear) -> None:
+        self.model.add("(4)", plus(sums, truth.terms, -1), "<=", truth.constant)
 
     def _needs(self) -> None:
         """Facts that must hold where a suffix starts (preservation = state)."""
