@@ -22,7 +22,7 @@ def _cover(seed: int, columns: int, rows: int) -> Model:
     for _ in range(columns):
         model.objective[model.binary()] = dice.randint(1, 20)
     for _ in range(rows):
-        model.add("cover", dict.fromkeys(dice.sample(range(columns), 6), 1), ">=", 1)
+        model.add(dict.fromkeys(dice.sample(range(columns), 6), 1), ">=", 1)
     return model
 
 
@@ -52,8 +52,8 @@ def test_optimum_is_the_least(solver: str, seed: int) -> None:
 def test_infeasible_is_a_proof_without_values(solver: str) -> None:
     model = Model()
     x, y = model.binary(), model.binary()
-    model.add("both", {x: 1, y: 1}, ">=", 2)
-    model.add("one", {x: 1, y: 1}, "<=", 1)
+    model.add({x: 1, y: 1}, ">=", 2)
+    model.add({x: 1, y: 1}, "<=", 1)
     outcome = optimise(model, solver=solver)
     assert (outcome.status, outcome.values) == ("infeasible", None)
 
@@ -78,7 +78,7 @@ def test_no_time_at_all_is_no_proof() -> None:
 def test_rows_without_columns_are_checked(sense: str, right: int, status: str) -> None:
     model = Model()
     model.binary()
-    model.add("empty", {}, sense, right)
+    model.add({}, sense, right)
     assert optimise(model).status == status
 
 
@@ -127,7 +127,7 @@ def test_a_process_says_what_a_call_says(seed: int, presolve: bool, monkeypatch:
     monkeypatch.setattr(highs, "_SMALL", 0)
     apart = optimise(model)
     assert (apart.status, apart.values, apart.bound) == (here.status, here.values, here.bound)
-    model.add("none", {0: 1}, ">=", 2)
+    model.add({0: 1}, ">=", 2)
     assert optimise(model).status == "infeasible"
 
 

@@ -75,7 +75,7 @@ class PaperEncoding:
     def equations_1_and_2(self) -> None:
         """The initial state."""
         for f in range(len(self.task.facts)):
-            self.model.add("(1, 2)", {self.y[f, 0]: 1}, "==", int(f in self.task.init))
+            self.model.add({self.y[f, 0]: 1}, "==", int(f in self.task.init))
 
     def equation_3(self) -> None:
         """The goals hold in the last state."""
@@ -84,17 +84,17 @@ class PaperEncoding:
             conditions.append(self.task.robot_goal)
         for condition in conditions:
             for f in condition.positive:
-                self.model.add("(3)", {self.y[f, self.last]: 1}, "==", 1)
+                self.model.add({self.y[f, self.last]: 1}, "==", 1)
             for f in condition.negative:
-                self.model.add("(3)", {self.y[f, self.last]: 1}, "==", 0)
+                self.model.add({self.y[f, self.last]: 1}, "==", 0)
 
     def equation_4(self) -> None:
         """Preconditions, negative ones too."""
         for (a, t), x in self.x.items():
             for f in self.task.actions[a].pre:
-                self.model.add("(4)", {x: 1, self.y[f, t - 1]: -1}, "<=", 0)
+                self.model.add({x: 1, self.y[f, t - 1]: -1}, "<=", 0)
             for f in self.task.actions[a].neg:
-                self.model.add("(4)", {x: 1, self.y[f, t - 1]: 1}, "<=", 1)
+                self.model.add({x: 1, self.y[f, t - 1]: 1}, "<=", 1)
 
     def equation_5(self) -> None:
         """A fact becomes true by an add effect only, and then it does: the exact frame."""
@@ -102,9 +102,9 @@ class PaperEncoding:
             adders = [a for a in self.deadline.each(self.actions) if f in self.task.actions[a].add]
             for t in self.epochs:
                 sums = {self.x[a, t]: -1 for a in adders}
-                self.model.add("(5)", {self.y[f, t]: 1, self.y[f, t - 1]: -1, **sums}, "<=", 0)
+                self.model.add({self.y[f, t]: 1, self.y[f, t - 1]: -1, **sums}, "<=", 0)
                 for a in adders:
-                    self.model.add("(5)", {self.y[f, t]: -1, self.x[a, t]: 1}, "<=", 0)
+                    self.model.add({self.y[f, t]: -1, self.x[a, t]: 1}, "<=", 0)
 
     def equation_6(self) -> None:
         """A fact becomes false by one delete effect only, and then it does."""
@@ -113,9 +113,9 @@ class PaperEncoding:
             for t in self.epochs:
                 sums = {self.x[a, t]: 1 for a in deleters}
                 if sums:
-                    self.model.add("(6)", {self.y[f, t]: 1, **sums}, "<=", 1)
+                    self.model.add({self.y[f, t]: 1, **sums}, "<=", 1)
                 frame = {self.y[f, t - 1]: 1, self.y[f, t]: -1}
-                self.model.add("(6)", {**frame, **dict.fromkeys(sums, -1)}, "<=", 0)
+                self.model.add({**frame, **dict.fromkeys(sums, -1)}, "<=", 0)
 
     def equation_10(self) -> None:
         """Each agent takes part in at most one action an epoch."""
@@ -124,7 +124,7 @@ class PaperEncoding:
             for t in self.epochs:
                 terms = {self.x[a, t]: 1 for a in self.deadline.each(his)}
                 if terms:
-                    self.model.add("(10)", terms, "<=", 1)
+                    self.model.add(terms, "<=", 1)
 
     def strict_interference(self) -> None:
         """For-all-step semantics, where asked for: nobody spoils what another action needs."""
@@ -136,24 +136,24 @@ class PaperEncoding:
                 other = self.task.actions[b]
                 if a != b and (set(one.pre) & set(other.delete) or set(one.neg) & set(other.add)):
                     for t in self.epochs:
-                        self.model.add("strict", {self.x[a, t]: 1, self.x[b, t]: 1}, "<=", 1)
+                        self.model.add({self.x[a, t]: 1, self.x[b, t]: 1}, "<=", 1)
 
     def equation_11(self) -> None:
         """Limits on objective and cost."""
         question = self.question
         if question.most is not None and self.model.objective:
-            self.model.add("(11)", dict(self.model.objective), "<=", question.most)
+            self.model.add(dict(self.model.objective), "<=", question.most)
         items = self.deadline.each(self.x.items())
         cost = {x: question.prices.team[a] for (a, _), x in items if question.prices.team[a]}
         if question.most_cost is not None and cost:
-            self.model.add("(11)", cost, "<=", question.most_cost)
+            self.model.add(cost, "<=", question.most_cost)
 
     def executes_pi_h(self) -> None:
         """He does ``pi_H[t]`` in each epoch, and nothing after its end."""
         for t in self.epochs:
             planned = self._planned(t)
             for a in self.his:
-                self.model.add("(7)", {self.x[a, t]: 1}, "==", int(a == planned))
+                self.model.add({self.x[a, t]: 1}, "==", int(a == planned))
 
     # -- windows
 
@@ -175,12 +175,12 @@ class PaperEncoding:
     def equation_12(self) -> None:
         """xi1 < xi2, both exist, and ``K (xi2 - xi1)`` joins the objective."""
         model, weight = self.model, self.question.prices.epoch
-        model.add("(12)", dict.fromkeys(self.begins.values(), 1), "==", 1)
-        model.add("(12)", dict.fromkeys(self.ends.values(), 1), "==", 1)
+        model.add(dict.fromkeys(self.begins.values(), 1), "==", 1)
+        model.add(dict.fromkeys(self.ends.values(), 1), "==", 1)
         length = {b: -t for t, b in self.begins.items()} | {e: t for t, e in self.ends.items()}
-        model.add("(12)", length, ">=", 1)
+        model.add(length, ">=", 1)
         if self.question.options.max_window is not None:
-            model.add("(12)", length, "<=", self.question.options.max_window)
+            model.add(length, "<=", self.question.options.max_window)
         if weight:
             model.objective.update({column: weight * t for column, t in length.items()})
 
@@ -189,7 +189,7 @@ class PaperEncoding:
         for t in self.epochs:
             planned = self._planned(t)
             if planned is not None:
-                self.model.add("(7b)", {self.x[planned, t]: 1, **self._later_begin(t, -1)}, ">=", 0)
+                self.model.add({self.x[planned, t]: 1, **self._later_begin(t, -1)}, ">=", 0)
 
     def second_equation_7b(self) -> None:
         """Before xi1 he does actions of ``pi_H`` only, or waits."""
@@ -197,38 +197,38 @@ class PaperEncoding:
         for t in self.epochs:
             for a in self.his:
                 if a not in planned or self.task.actions[a].joint:
-                    self.model.add("(7b)", {self.x[a, t]: 1, **self._later_begin(t, 1)}, "<=", 1)
+                    self.model.add({self.x[a, t]: 1, **self._later_begin(t, 1)}, "<=", 1)
 
     def equation_8(self) -> None:
         """From xi2 on no robot takes part in anything, joint actions included."""
         for (a, t), x in self.x.items():
             if self.task.actions[a].participants != (self.human,):
-                self.model.add("(8)", {x: 1, **self._ended(t, 1)}, "<=", 1)
+                self.model.add({x: 1, **self._ended(t, 1)}, "<=", 1)
 
     def equation_9(self) -> None:
         """Def. 2.0: from xi2 on a subsequence of ``pi_H``, each index once and in order."""
         place = {(k, t): self.model.binary() for k in self._indices for t in self.epochs}
         self._follow_indices(place)
         for k in self._indices:
-            self.model.add("(9)", {place[k, t]: 1 for t in self.epochs}, "<=", 1)
+            self.model.add({place[k, t]: 1 for t in self.epochs}, "<=", 1)
 
     def preserved_state(self) -> None:
         """Def. 3.1 read literally: the state contains ``delta(I, pi_H[1..j])``; ``pi_H[j+1..]`` follows."""
         model, expected = self.model, expected_states(self.question)
         place = {(k, t): model.binary() for k in self._indices for t in self.epochs}
         chosen = [model.binary() for _ in expected]
-        model.add("(3.1)", dict.fromkeys(chosen, 1), "==", 1)
+        model.add(dict.fromkeys(chosen, 1), "==", 1)
         order = {column: j for j, column in enumerate(chosen)}
-        model.add("(3.1)", {**order, **{b: -t for t, b in self.begins.items()}}, ">=", -1)
+        model.add({**order, **{b: -t for t, b in self.begins.items()}}, ">=", -1)
         self._follow_indices(place)
         for k in self._indices:
             # pi_H[k] (from 0) is done in the suffix exactly if j <= k
             done = {place[k, t]: 1 for t in self.epochs} | {chosen[j]: -1 for j in range(k + 1)}
-            model.add("(3.1)", done, "==", 0)
+            model.add(done, "==", 0)
         for j, facts in enumerate(expected):
             for t, end in self.ends.items():
                 for f in facts:
-                    model.add("(3.1)", {chosen[j]: 1, end: 1, self.y[f, t - 1]: -1}, "<=", 1)
+                    model.add({chosen[j]: 1, end: 1, self.y[f, t - 1]: -1}, "<=", 1)
 
     def _follow_indices(self, place: dict[tuple[int, int], int]) -> None:
         """``place[k, t]``: he does ``pi_H[k]`` in epoch t of the suffix, indices rising."""
@@ -236,14 +236,14 @@ class PaperEncoding:
         for t in self.epochs:
             for a in self.his:
                 uses = {place[k, t]: -1 for k in self._indices if plan[k] == a}
-                model.add("(9)", {self.x[a, t]: 1, **uses, **self._ended(t, 1)}, "<=", 1)
+                model.add({self.x[a, t]: 1, **uses, **self._ended(t, 1)}, "<=", 1)
             for k in self._indices:
-                model.add("(9)", {place[k, t]: 1, self.x[plan[k], t]: -1}, "<=", 0)
-                model.add("(9)", {place[k, t]: 1, **self._ended(t, -1)}, "<=", 0)
+                model.add({place[k, t]: 1, self.x[plan[k], t]: -1}, "<=", 0)
+                model.add({place[k, t]: 1, **self._ended(t, -1)}, "<=", 0)
                 later = {place[i, s]: 1 for i in self._indices if i <= k for s in self.epochs if s > t}
                 for column in later:
-                    model.add("(9)", {place[k, t]: 1, column: 1}, "<=", 1)
-            model.add("(9)", {place[k, t]: 1 for k in self._indices}, "<=", 1)
+                    model.add({place[k, t]: 1, column: 1}, "<=", 1)
+            model.add({place[k, t]: 1 for k in self._indices}, "<=", 1)
 
     def _later_begin(self, t: int, sign: int) -> _Sum:
         """Whether xi1 > t."""
@@ -286,11 +286,11 @@ class PaperEncoding:
             differs[self.y[f, xi2 - 1]] = 1 if f in state else -1
             true += f in state
         if least is None:
-            self.model.add("(8)", differs, "<=", true)
+            self.model.add(differs, "<=", true)
             return
         prices = self.question.prices
         his = set(self.his)
         items = self.deadline.each(self.x.items())
         weights = {x: prices.team[a] + prices.talk[a] for (a, t), x in items if t >= xi2 and a in his}
         terms = {column: -least * c for column, c in differs.items()} | weights
-        self.model.add("(8)", terms, ">=", -least * true)
+        self.model.add(terms, ">=", -least * true)

@@ -56,7 +56,7 @@ def _mps(model: Model, deadline: Deadline) -> Iterator[str]:
     Every column is in the objective, with 0 if need be: CBC would forget those that are nowhere.
     """
     yield "NAME          m\nROWS\n N  GOAL\n"
-    for number, (_, sense, _) in enumerate(deadline.each(model.heads)):
+    for number, (sense, _) in enumerate(deadline.each(model.heads)):
         yield f" {_SENSES[sense]}  R{number:07}\n"
     entries: list[list[str]] = [[] for _ in model.upper]
     for number, row in enumerate(deadline.each(model.rows)):
@@ -68,7 +68,7 @@ def _mps(model: Model, deadline: Deadline) -> Iterator[str]:
         yield f"    X{x:07}  GOAL      {model.objective.get(x, 0)}\n"
         yield from entries[x]
     yield "RHS\n"
-    for number, (_, _, right) in enumerate(deadline.each(model.heads)):
+    for number, (_, right) in enumerate(deadline.each(model.heads)):
         yield f"    RHS       R{number:07}  {right}\n"
     yield "BOUNDS\n"
     for x, (lower, upper) in enumerate(zip(model.lower, deadline.each(model.upper), strict=True)):

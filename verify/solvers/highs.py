@@ -76,7 +76,7 @@ def _end(deadline: Deadline) -> float:
 def _tables(model: Model, deadline: Deadline) -> worker.Tables:
     columns = range(len(model.upper))
     start, row_lower, row_upper = array("i", [0]), array("d"), array("d")
-    for end, (_, sense, right) in zip(deadline.each(model.ends), model.heads, strict=True):
+    for end, (sense, right) in zip(deadline.each(model.ends), model.heads, strict=True):
         if end > start[-1]:
             start.append(end)
             row_lower.append(-inf if sense == "<=" else right)

@@ -109,7 +109,7 @@ def _optimise(model: Model, solver: str, deadline: Deadline) -> SolverOutcome:
     return _outcome(minimise(model, deadline), model, deadline)
 
 
-def _rows_without_terms(model: Model, deadline: Deadline) -> Iterator[tuple[str, str, int]]:
+def _rows_without_terms(model: Model, deadline: Deadline) -> Iterator[tuple[str, int]]:
     start = 0
     for end, head in zip(deadline.each(model.ends), model.heads, strict=True):
         if end == start:
@@ -117,15 +117,15 @@ def _rows_without_terms(model: Model, deadline: Deadline) -> Iterator[tuple[str,
         start = end
 
 
-def _true(head: tuple[str, str, int]) -> bool:
+def _true(head: tuple[str, int]) -> bool:
     """Whether a row without columns holds."""
-    _, sense, right = head
+    sense, right = head
     return {"<=": right >= 0, ">=": right <= 0, "==": right == 0}[sense]
 
 
 def _largest(model: Model, deadline: Deadline) -> int:
     """The largest absolute value of all numbers in a program."""
-    numbers = (model.objective.values(), (right for _, _, right in model.heads), model.coefficients)
+    numbers = (model.objective.values(), (right for _, right in model.heads), model.coefficients)
     return max(map(abs, deadline.each(chain(*numbers))), default=0)
 
 

@@ -17,9 +17,8 @@ Terms = Mapping[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One linear constraint ``terms sense right``; ``family`` names its equation."""
+    """One linear constraint ``terms sense right``."""
 
-    family: str
     terms: Terms
     sense: str
     right: int
@@ -40,7 +39,7 @@ class Model:
         index: columns of all rows' terms, one row after the other.
         coefficients: their coefficients.
         ends: for each row, the end of its terms in both.
-        heads: for each row, its family, sense and right-hand side.
+        heads: for each row, its sense and right-hand side.
     """
 
     def __init__(self, deadline: Deadline | None = None, *, presolve: bool = False) -> None:
@@ -52,7 +51,7 @@ class Model:
         self.index = array("i")
         self.coefficients: list[int] = []
         self.ends: list[int] = []
-        self.heads: list[tuple[str, str, int]] = []
+        self.heads: list[tuple[str, int]] = []
         self._deadline = deadline or Deadline()
 
     def binary(self) -> int:
@@ -67,21 +66,21 @@ class Model:
         self.integral.append(integral)
         return len(self.upper) - 1
 
-    def add(self, family: str, terms: Terms, sense: str, right: int) -> None:
+    def add(self, terms: Terms, sense: str, right: int) -> None:
         """A new row."""
         self._deadline.check()  # most of the work was to find its terms
         self.index.extend(terms)
         self.coefficients.extend(terms.values())
         self.ends.append(len(self.index))
-        self.heads.append((family, sense, right))
+        self.heads.append((sense, right))
 
     @property
     def rows(self) -> Iterator[Row]:
         """The rows, one by one."""
         start = 0
-        for end, (family, sense, right) in zip(self.ends, self.heads, strict=True):
+        for end, (sense, right) in zip(self.ends, self.heads, strict=True):
             terms = dict(zip(self.index[start:end], self.coefficients[start:end], strict=True))
-            yield Row(family, terms, sense, right)
+            yield Row(terms, sense, right)
             start = end
 
     @property

@@ -102,14 +102,14 @@ class Program:
         """What leaves a node came into it; an agent that may stop anywhere may leave less."""
         sense = "==" if self.setting.networks[k].open_end else "<="
         if epoch == 1:
-            self.model.add("flow", out[self.setting.networks[k].start], sense, 1)
+            self.model.add(out[self.setting.networks[k].start], sense, 1)
             return
         for node in {**into, **out}:
             terms = dict(out.get(node, {}))
             for x in into.get(node, {}):
                 terms[x] = terms.get(x, 0) - 1
             if sense == "==" or out.get(node):
-                self.model.add("flow", terms, sense, 0)
+                self.model.add(terms, sense, 0)
 
     def _joint_actions(self) -> None:
         """Every participant does his part of a joint action, or none does (eq. 10)."""
@@ -120,7 +120,7 @@ class Program:
                 for agent in agents[1:]:
                     other = self.by_action[agent][t].get(i, {})
                     if first or other:
-                        self.model.add("joint", {**first, **dict.fromkeys(other, -1)}, "==", 0)
+                        self.model.add({**first, **dict.fromkeys(other, -1)}, "==", 0)
 
     def _fewest_arcs(self, i: int) -> int:
         """The participant in whose network an action has the fewest arcs."""
@@ -177,11 +177,11 @@ class Program:
         """A value after an epoch: what was there is taken away or kept, and what is brought comes to it."""
         if before.is_zero:
             if consumed:
-                self.model.add("value", consumed, "==", 0)
+                self.model.add(consumed, "==", 0)
             return Linear(produced)
         keep = self.model.column(0, 1, integral=False)
         balance = plus({**consumed, keep: 1}, before.terms, -1)
-        self.model.add("value", balance, "==", before.constant)
+        self.model.add(balance, "==", before.constant)
         return Linear({**produced, keep: 1})
 
     def _frame(self, f: int) -> None:
@@ -193,12 +193,12 @@ class Program:
             y, before = model.column(0, 1, integral=False), ys[-1]
             ys.append(y)
             every_adder, adders, deleters = self._changers(f, epoch)
-            model.add("(5)", {y: 1, before: -1} | dict.fromkeys(every_adder, -1), "<=", 0)
-            model.add("frame", {y: -1, before: 1} | dict.fromkeys(deleters, -1), "<=", 0)
+            model.add({y: 1, before: -1} | dict.fromkeys(every_adder, -1), "<=", 0)
+            model.add({y: -1, before: 1} | dict.fromkeys(deleters, -1), "<=", 0)
             if deleters:
-                model.add("(6)", {y: 1, **deleters}, "<=", 1)
+                model.add({y: 1, **deleters}, "<=", 1)
             for sums in adders.values():
-                model.add("frame", {y: -1, **sums}, "<=", 0)
+                model.add({y: -1, **sums}, "<=", 0)
 
     def _changers(self, f: int, epoch: int) -> tuple[_Sum, dict[int, _Sum], _Sum]:
         """The actions that add a fact in an epoch, the same by agent, and those that delete it."""
@@ -254,10 +254,10 @@ class Program:
                 self._at_most(sums, self.truth(f, epoch - 1))
             for (_, f), sums in negative.items():
                 terms, constant = self.truth(f, epoch - 1)
-                self.model.add("(4)", plus(sums, terms), "<=", 1 - constant)
+                self.model.add(plus(sums, terms), "<=", 1 - constant)
 
     def _at_most(self, sums: Terms, truth: Linear) -> None:
-        self.model.add("(4)", plus(sums, truth.terms, -1), "<=", truth.constant)
+        self.model.add(plus(sums, truth.terms, -1), "<=", truth.constant)
 
     def _needs(self) -> None:
         """Facts that must hold where a suffix starts (preservation = state)."""
@@ -278,11 +278,11 @@ class Program:
         for f in self.task.goal.positive + robot_goal.positive:
             if f in self.setting.part.facts and f not in inside:
                 terms, constant = self.truth(f, last)
-                self.model.add("(3)", terms, ">=", 1 - constant)
+                self.model.add(terms, ">=", 1 - constant)
         for f in self.task.goal.negative + robot_goal.negative:
             if f in self.setting.part.facts and f not in inside:
                 terms, constant = self.truth(f, last)
-                self.model.add("(3)", terms, "<=", -constant)
+                self.model.add(terms, "<=", -constant)
         for node, into in self.inflow[self.task.human][last - 1].items():
             choices = self.setting.human.ends(node)
             if frozenset() not in choices:
@@ -328,7 +328,7 @@ class Program:
             for i in adders:
                 if agent in self.task.actions[i].participants:
                     terms.update(self.action(i, epoch))
-            self.model.add("(6)", terms, "<=", 1)
+            self.model.add(terms, "<=", 1)
 
     def _exclude_needs(self, epoch: int, needers: list[int], against: list[int]) -> None:
         """For-all-step semantics: nobody deletes or negates what another action needs."""
@@ -342,7 +342,7 @@ class Program:
                 if a not in self.task.actions[i].participants:
                     others[self.owner[i]].update(self.action(i, epoch))
             for sums in others.values():
-                self.model.add("strict", {**mine, **sums}, "<=", 1)
+                self.model.add({**mine, **sums}, "<=", 1)
 
     def _idle_robots(self) -> None:
         """Eq. (8), with joint actions: no robot acts in an epoch of the suffix."""
@@ -361,13 +361,13 @@ class Program:
                     if i != WAIT and k != self.task.human:
                         busy.update(sums)
                 if busy:
-                    self.model.add("(8)", {**busy, **free}, "<=", 0)
+                    self.model.add({**busy, **free}, "<=", 0)
 
     def _limits(self) -> None:
         """The cut-off: nothing cheaper than the candidate (eq. 11)."""
         question = self.question
         if question.most is not None and self.model.objective:
-            self.model.add("(11)", dict(self.model.objective), "<=", question.most)
+            self.model.add(dict(self.model.objective), "<=", question.most)
         if question.most_cost is not None:
             cost: _Sum = {}
             for epoch in range(1, question.horizon + 1):
@@ -375,7 +375,7 @@ class Program:
                     if question.prices.team[i]:
                         cost.update(dict.fromkeys(self.action(i, epoch), question.prices.team[i]))
             if cost:
-                self.model.add("(11)", cost, "<=", question.most_cost)
+                self.model.add(cost, "<=", question.most_cost)
 
     # -- reading a solution
 

@@ -18,10 +18,10 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
         literals = plus(literals, terms, sign)
         constant += fixed - 1 if f in state else -fixed
     if least is None:
-        program.model.add("(8)", literals, "<=", -1 - constant)
+        program.model.add(literals, "<=", -1 - constant)
     else:
         scaled = {x: -least * c for x, c in literals.items()}
-        program.model.add("(8)", plus(scaled, _suffix_weights(program)), ">=", least * (constant + 1))
+        program.model.add(plus(scaled, _suffix_weights(program)), ">=", least * (constant + 1))
 
 
 def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[dict[int, int], int]:
