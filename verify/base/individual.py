@@ -8,7 +8,7 @@ from typing import Final
 from serendipity.model import Deadline, Task
 from verify.base.operators import Operator, OwnActions
 from verify.base.projection import ProjectedCosts
-from verify.base.shortest_paths import AStar
+from verify.base.shortest_paths import PathSearch
 from verify.base.undecided import TooManyStatesError, during
 
 _MOST_EXPANSIONS: Final = 200_000
@@ -54,7 +54,7 @@ class IndividualOptimum:
         return self._known[start]
 
     def _search(self, start: State) -> int | None:
-        search = AStar(start, self._successors, self._projection.bound, self.deadline)
+        search = PathSearch(start, self._successors, self._projection.bound, self.deadline)
         for expansions, (state, _) in enumerate(search):
             if self._task.goal.holds(state):
                 return search.distance[state]

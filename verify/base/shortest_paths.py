@@ -44,7 +44,7 @@ def dijkstra(
     return best
 
 
-class AStar(Generic[N, L]):
+class PathSearch(Generic[N, L]):
     """A* as an iteration: nodes in the order of distance and estimate, until the caller has seen enough.
 
     With a consistent estimate every node comes once, at its least distance; with another one it comes

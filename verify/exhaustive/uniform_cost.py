@@ -13,7 +13,7 @@ from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, T
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import State, fits
 from verify.base.relevance import Relevant, relevant_part
-from verify.base.shortest_paths import AStar
+from verify.base.shortest_paths import PathSearch
 from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import during
 from verify.programs.automata.network import FAR, distances, goal_states
@@ -102,7 +102,7 @@ class JointSearch:
             )
 
     def _search(self) -> Minimum:
-        search = AStar(self.start, self._successors, self.estimate, self.deadline, self._most() + 1)
+        search = PathSearch(self.start, self._successors, self.estimate, self.deadline, self._most() + 1)
         for state, self.bound in search:
             self.closed += 1
             if self.is_goal(state):

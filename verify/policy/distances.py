@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import chain
 
 from serendipity.model import Deadline
-from verify.base.shortest_paths import AStar, dijkstra
+from verify.base.shortest_paths import PathSearch, dijkstra
 from verify.base.undecided import UndecidedError
 
 
@@ -149,7 +149,7 @@ def reaches_below(
     Raises:
         LimitReachedError: the deadline came first.
     """
-    for looked_at, (state, _) in enumerate(AStar(start, moves, least, deadline, limit)):
+    for looked_at, (state, _) in enumerate(PathSearch(start, moves, least, deadline, limit)):
         if goal.holds(state):
             return True
         if looked_at >= most:
