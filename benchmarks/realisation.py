@@ -78,7 +78,6 @@ def main() -> None:
     tallies = {discount: Tally() for discount in arguments.discounts.split(",")}
     for folder in _folders(arguments.folder, arguments.limit):
         task = serendipity.load(folder, human=arguments.human)
-        task.variables  # noqa: B018 - found once per task, like its facts
         for discount, tally in tallies.items():
             tally.add(task, discount, certify=arguments.certify)
     _print_realised(tallies)

@@ -140,9 +140,7 @@ def _doubted(task: Task, deadline: Deadline) -> Task:
             found.append(variable)
         else:
             found += [Variable((fact,)) for fact in variable.facts]
-    doubted = replace(task)
-    doubted.__dict__["variables"] = tuple(sorted(found, key=lambda variable: variable.facts))
-    return doubted
+    return replace(task, known_variables=tuple(sorted(found, key=lambda variable: variable.facts)))
 
 
 def _naming(encoding: PackedTask, places: Surroundings) -> dict[str, int]:

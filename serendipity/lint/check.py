@@ -44,7 +44,7 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
             for agent, name in enumerate(task.agents)
         },
         facts=len(task.facts),
-        variables=len(task.variables_within(limits)),
+        variables=len(task.variables),
         actions=dict(Counter(_origin(task, action) for action in limits.each(task.actions)).most_common()),
         findings=_sorted(found),
     )

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import InitVar, dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, Concatenate, ParamSpec, TypeVar
@@ -45,6 +45,12 @@ class Task:
             does: a given plan may name them.
         disjunctions: what those facts stand for that are not of the input; the actions
             keep them true to it.
+        variables: finite-domain variables behind the facts; each fact is in exactly one.  They
+            follow from facts, initial state and actions.
+
+    Args:
+        known_variables: the variables, where the caller knows them (finding them takes as long as
+            reading the task does, see :func:`.find_variables`); None has them found, without a deadline.
     """
 
     name: str
@@ -58,10 +64,15 @@ class Task:
     warnings: tuple[str, ...] = ()
     waiting: frozenset[tuple[str, int]] = frozenset()
     disjunctions: tuple[Disjunction, ...] = ()
+    variables: tuple[Variable, ...] = field(init=False, repr=False, compare=False)
+    known_variables: InitVar[tuple[Variable, ...] | None] = field(default=None, kw_only=True)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, known_variables: tuple[Variable, ...] | None) -> None:
         if not 0 <= self.human < len(self.agents):
             raise UsageError("a task needs exactly one human among its agents")
+        if known_variables is None:
+            known_variables = find_variables(len(self.facts), self.init, self.actions)
+        object.__setattr__(self, "variables", known_variables)
 
     @property
     def robots(self) -> tuple[int, ...]:
@@ -73,26 +84,10 @@ class Task:
         """Ids of the actions that the human does alone."""
         return tuple(i for i, a in enumerate(self.actions) if a.participants == (self.human,))
 
-    @cached_property
+    @property
     def named(self) -> Mapping[str, tuple[int, ...]]:
         """Action ids by name (names are not unique, see the class)."""
         return ActionNames(self.actions)
-
-    @cached_property
-    def variables(self) -> tuple[Variable, ...]:
-        """Finite-domain variables behind the facts; each fact is in exactly one."""
-        return find_variables(len(self.facts), self.init, self.actions)
-
-    def variables_within(self, deadline: Deadline) -> tuple[Variable, ...]:
-        """:attr:`variables`, found under a deadline where they are not known yet.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
-        if "variables" not in self.__dict__:
-            found = find_variables(len(self.facts), self.init, self.actions, deadline)
-            self.__dict__["variables"] = found
-        return self.variables
 
     @cached_property
     def _derived(self) -> dict[Any, Any]:
@@ -187,35 +182,35 @@ class Task:
 
     def cost_of(self, plan: HumanPlan) -> Fraction:
         """Sum of the undiscounted costs of a human plan."""
-        costs = [self.actions[i].cost for i in plan]
-        by_identity = {id(cost): cost for cost in costs}  # few different ones: sums of rationals are slow
-        times = Counter(map(id, costs))
-        return sum((by_identity[key] * times[key] for key in times), Fraction(0))
+        # A few different ones: sums of rationals are slow.
+        times = Counter(self.actions[i].cost.as_integer_ratio() for i in plan)
+        return sum((Fraction(over * n, under) for (over, under), n in times.items()), Fraction(0))
 
-    def at(self, state: frozenset[int]) -> "Task":
+    def at(self, state: frozenset[int], deadline: Deadline | None = None) -> "Task":
         """The same task from another state; variables stay where they still fit it.
 
         What the state says of facts that stand for disjunctions is made to fit the others.
+
+        Args:
+            state: ids of the facts that are true in it.
+            deadline: asked for time where variables have to be found anew.
+
+        Raises:
+            LimitReachedError: the deadline came first.
         """
         held = {d.fact for d in self.disjunctions if d.holds(state)}
         state = state.difference([d.fact for d in self.disjunctions]) | held
-        moved = self._with_tables(replace(self, init=state), "human_actions")
         groups = (variable for variable in self.variables if not variable.boolean)
         if all(len(state.intersection(group.facts)) == 1 for group in groups):
-            moved.__dict__["variables"] = self.variables  # what the cached property would find, or better
-        return moved
+            variables = self.variables  # what would be found, or better
+        else:
+            variables = find_variables(len(self.facts), state, self.actions, deadline)
+        return replace(self, init=state, known_variables=variables)
 
     def with_goal(self, goal: Condition, robot_goal: Condition | None = None) -> "Task":
         """The same task with another goal of the human's and, unless that is None, of the robots'."""
-        other = replace(self, goal=goal, robot_goal=self.robot_goal if robot_goal is None else robot_goal)
-        return self._with_tables(other, "human_actions", "variables")
-
-    def _with_tables(self, other: "Task", *tables: str) -> "Task":
-        """``other``, with those cached properties of this task that hold for it as well."""
-        for table in tables:
-            if table in self.__dict__:
-                other.__dict__[table] = self.__dict__[table]
-        return other
+        theirs = self.robot_goal if robot_goal is None else robot_goal
+        return replace(self, goal=goal, robot_goal=theirs, known_variables=self.variables)
 
     def with_human(self, human: str) -> "Task":
         """The same task with another agent as the human.
@@ -226,10 +221,7 @@ class Task:
         name = canonical_name(human)
         if name not in self.agents:
             raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human}'")
-        other = replace(self, human=self.agents.index(name))
-        if "variables" in self.__dict__:  # they are the same for every human
-            other.__dict__["variables"] = self.variables
-        return other
+        return replace(self, human=self.agents.index(name), known_variables=self.variables)
 
     def _first_unmet(self, action: GroundAction, state: frozenset[int]) -> str:
         missing = next((f for f in action.pre if f not in state), None)

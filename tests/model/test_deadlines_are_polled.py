@@ -31,9 +31,8 @@ def test_memory_of_a_process_that_works_for_us_counts() -> None:
         Deadline(memory_limit=1.5 * used).check_child(os.getpid())
 
 
-def test_variables_are_found_under_a_deadline_once() -> None:
+def test_variables_are_found_anew_under_a_deadline_where_they_no_longer_fit() -> None:
     task = case_4()
+    assert task.at(task.init, Deadline(0)).variables is task.variables
     with pytest.raises(LimitReachedError):
-        task.variables_within(Deadline(0))
-    assert task.variables_within(Deadline()) == case_4().variables
-    assert task.variables_within(Deadline(0)) is task.variables
+        task.at(frozenset(), Deadline(0))

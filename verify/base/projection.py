@@ -81,7 +81,7 @@ def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset
             shared.update(action.add, action.delete)
     kept: set[int] = set()
     size = 1
-    for variable in sorted(task.variables_within(deadline), key=lambda v: -len(v.facts)):
+    for variable in sorted(task.variables, key=lambda v: -len(v.facts)):
         facts = own.facts.intersection(variable.facts)
         values = len(facts) + 1
         if facts and shared.isdisjoint(variable.facts) and size * values <= _MOST_STATES:

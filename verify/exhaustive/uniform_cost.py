@@ -60,7 +60,7 @@ class LeastLeft:
 
     def __init__(self, question: Subproblem, part: Relevant) -> None:
         deadline = question.deadline
-        groups = [frozenset(variable.facts) for variable in question.task.variables_within(deadline)]
+        groups = [frozenset(variable.facts) for variable in question.task.variables]
         machine = automata(question.task, part, groups, deadline)[question.task.human]
         weights = list(question.prices.team)
         left = distances(machine, weights, goal_states(question, machine), deadline)[0]

@@ -209,4 +209,4 @@ def _certain(task: Task, result: Result, goal: Believed, entry: StatedGoal) -> E
     if same != (result.human_plan, result.cost, result.window, result.plan):
         return Examined((Claim("replay", "refuted", f"goal '{goal.name}': the entry is not the answer"),))
     left = {k: v for k, v in result.statistics.items() if k not in ("goals", "recognition")}
-    return Examined(single=(replace(task, goal=goal.goal), replace(result, statistics=left)))
+    return Examined(single=(task.with_goal(goal.goal), replace(result, statistics=left)))

@@ -72,7 +72,7 @@ def timelines(
     total = sum(weights, Fraction(0))
     found = []
     for goal, entry, share in zip(goals, served, weights, strict=True):
-        own = replace(task, goal=goal, robot_goal=Condition())
+        own = task.with_goal(goal, Condition())
         answer = replace(
             result,
             status="feasible",

@@ -106,7 +106,6 @@ def play(
     if human_model != "local":
         visible = None
     elif visible is None:
-        task.variables_within(deadline)
         visible = surroundings(task, deadline.tick).visible
     game = Play(task, options, person, visible)
     last = max(orders, default=0)

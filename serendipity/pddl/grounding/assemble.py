@@ -10,7 +10,7 @@ from typing import Final
 from serendipity.model import GroundAction, InputError, Task
 from serendipity.model.actions import NOOP
 from serendipity.pddl.grounding.blocks import Block
-from serendipity.pddl.grounding.disjunctive import NotExactError, with_disjunctions
+from serendipity.pddl.grounding.disjunctive import NotExactError, variables_behind, with_disjunctions
 from serendipity.pddl.grounding.goals import Goal, read_goal
 from serendipity.pddl.grounding.instantiate import Instantiator, Participants
 from serendipity.pddl.grounding.join import Relations
@@ -79,6 +79,7 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
         blueprint.warnings.append(_no_goal(blueprint))
     facts, blocks = _grounded(blueprint, relations, work)
     numbering = _numbered(facts, blocks, relations, goal, robot_goals, work)
+    actions = tuple(_actions(numbering, blueprint))
     task = Task(
         name=blueprint.name,
         agents=blueprint.agents,
@@ -86,12 +87,13 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
         facts=numbering.names,
         init=numbering.init,
         goal=numbering.condition(goal.literals),
-        actions=tuple(_actions(numbering, blueprint)),
+        actions=actions,
         robot_goal=numbering.condition(chain.from_iterable(one.literals for one in robot_goals)),
         warnings=tuple(blueprint.warnings),
         waiting=frozenset(numbering.waiting),
+        known_variables=variables_behind(numbering.names, numbering.init, actions, work),
     )
-    return _settled(task, numbering, goal, robot_goals, work)
+    return _with_disjunctive_goals(task, numbering, goal, robot_goals, work)
 
 
 def _relations(sources: Iterable[Source]) -> Relations:
@@ -182,8 +184,9 @@ def _actions(numbering: Numbering, blueprint: Blueprint) -> list[GroundAction]:
     raise unit.domain_error(message, next(s.line for s in unit.domain.schemas if s.name == NOOP))
 
 
-def _settled(task: Task, numbering: Numbering, goal: Goal, robot_goals: Iterable[Goal], work: Work) -> Task:
-    """The task with its disjunctive goals, and with its variables."""
+def _with_disjunctive_goals(
+    task: Task, numbering: Numbering, goal: Goal, robot_goals: Iterable[Goal], work: Work
+) -> Task:
     for one in (goal, *robot_goals):
         if one.disjunctions:
             work.stage("compiling disjunctive goals")
@@ -192,7 +195,4 @@ def _settled(task: Task, numbering: Numbering, goal: Goal, robot_goals: Iterable
                 task = with_disjunctions(task, found, work, robots=one is not goal)
             except NotExactError as error:
                 raise one.error(f"goal: {error}") from None
-    # Part of grounding: found here, so that no planning call's deadline pays for it.
-    work.stage(f"finding variables of {len(task.facts):,} facts")
-    task.variables_within(work.deadline)
     return task

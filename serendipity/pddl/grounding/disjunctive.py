@@ -17,6 +17,7 @@ from itertools import islice
 
 from serendipity.model import Condition, GroundAction, Task
 from serendipity.model.actions import Disjunction
+from serendipity.model.variables import Variable, find_variables
 from serendipity.pddl.grounding.normal import MAX_CASES
 from serendipity.pddl.grounding.numbering import in_order
 from serendipity.pddl.parsing.tree import quoted
@@ -42,18 +43,33 @@ def with_disjunctions(
         NotExactError: one of them can't be expressed exactly.
         LimitReachedError: a limit came first.
     """
-    task.variables_within(work.deadline)
     compiled = _Compiled(task, work)
     literals = [literal for disjunction in disjunctions for literal in compiled.literals(disjunction)]
+    facts = (*task.facts, *compiled.names)
+    init = task.init.union(d.fact for d in compiled.extra if d.holds(task.init))
+    actions = tuple(in_order(compiled.actions))
     return replace(
         task,
-        facts=(*task.facts, *compiled.names),
-        init=task.init.union(d.fact for d in compiled.extra if d.holds(task.init)),
+        facts=facts,
+        init=init,
         goal=task.goal if robots else _more(task.goal, literals),
         robot_goal=_more(task.robot_goal, literals) if robots else task.robot_goal,
-        actions=tuple(in_order(compiled.actions)),
+        actions=actions,
         disjunctions=(*task.disjunctions, *compiled.extra),
+        known_variables=variables_behind(facts, init, actions, work),
     )
+
+
+def variables_behind(
+    facts: Sequence[str], init: frozenset[int], actions: Sequence[GroundAction], work: Work
+) -> tuple[Variable, ...]:
+    """The finite-domain variables of a task: part of reading it, so that no planning call pays for it.
+
+    Raises:
+        LimitReachedError: a limit came first.
+    """
+    work.stage(f"finding variables of {len(facts):,} facts")
+    return find_variables(len(facts), init, actions, work.deadline)
 
 
 def _more(condition: Condition, literals: Sequence[Literal]) -> Condition:

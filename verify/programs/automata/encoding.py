@@ -38,8 +38,7 @@ class AutomataEncoding:
         part = relevant_part(question, frozenset().union(*expected))
         if part is None:
             return
-        variables = question.task.variables_within(self.deadline)
-        groups = [frozenset(variable.facts) for variable in variables]
+        groups = [frozenset(variable.facts) for variable in question.task.variables]
         groups = [group for group in groups if _moves_by_value(question, part, group)]
         with during("building the agents' automata"):
             setting = self._setting(part, groups, expected)
