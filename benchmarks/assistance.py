@@ -19,6 +19,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import serendipity
+from search import PreparedTask
 from search.assistance import joint_optimum
 from serendipity import Task
 from serendipity.model.deadline import Deadline
@@ -121,7 +122,7 @@ def _pair(texts: list[str]) -> Costs:
 
 def _bound(task: Task, time_limit: float) -> Bounds:
     try:
-        value = joint_optimum(task, Deadline(time_limit))
+        value = joint_optimum(PreparedTask(task), Deadline(time_limit))
     except LimitReachedError:
         value = None
     return (value, value) if value is not None else ((Fraction(0), Fraction(0)), None)

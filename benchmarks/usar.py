@@ -73,10 +73,10 @@ def _reading(folders: list[Path]) -> None:
 def _searching(tasks: list[Task], name: str, options: dict[str, Any]) -> None:
     first, others = [], []
     for task in tasks:
-        prepare(task, afresh=True)
+        prepared = prepare(task)
         for discount in DISCOUNTS:
             chosen = Options(discount=discount, **options)
-            seconds = _timed(lambda task=task, chosen=chosen: list(solve(task, chosen)))
+            seconds = _timed(lambda prepared=prepared, chosen=chosen: list(solve(prepared, chosen)))
             (others if discount != DISCOUNTS[0] else first).append(seconds)
     _row(f"search, {name}, six discounts in turn", first + others)
     _row("   the first of them", first)

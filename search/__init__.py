@@ -1,21 +1,20 @@
 """Best-first search over interruption windows, with the human's replanning simulated.
 
-Knows the model (``serendipity.model``) and nothing of ``verify``.
+Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call takes a
+:class:`PreparedTask`, which its caller makes, holds and moves.
 """
 
-from search.cache_transfer import at_state
 from search.engine.outcome import Outcome
 from search.human.individual_planner import PlanGraph
-from search.planner import optimal_human_plan, optimal_human_plans, solve
-from search.prepare import prepare
+from search.planner import optimal_human_plans, solve
+from search.prepared_task import PreparedTask, prepare
 from search.tie_bound import least_over_ties
 
 __all__ = [
     "Outcome",
     "PlanGraph",
-    "at_state",
+    "PreparedTask",
     "least_over_ties",
-    "optimal_human_plan",
     "optimal_human_plans",
     "prepare",
     "solve",

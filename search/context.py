@@ -5,11 +5,13 @@ from functools import cached_property
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
 from search.human.individual_planner import IndividualPlanner, PlanGraph, PricedPlanner
-from search.human.pattern_database import PatternDatabase, human_projection, human_steps
+from search.human.pattern_database import PatternDatabase, in_keys
 from search.packed.cost_vector import Weights
 from search.packed.operators import Operator
-from search.packed.packed_task import PackedGoal, PackedTask, human_facts, pack, pack_fully
+from search.packed.packed_task import PackedGoal
+from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction, Successors, as_option
+from search.prepared_task import PreparedTask, Tables
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
@@ -18,58 +20,75 @@ from serendipity.model.task import HumanPlan, Task
 
 
 class SearchContext:
-    """Tables of one call.
+    """What one call works with: the prepared task under its options.
 
     Args:
-        task: the task.
+        prepared: the task.
         options: options in force.
         deadline: asked for time while tables are built.
         plan: ``pi_H`` where it is known; None while it is being predicted.
+        tables: a packing of the task, with its tables; None for the one that the options ask for.
     """
 
     def __init__(
-        self, task: Task, options: Options, deadline: Deadline, plan: HumanPlan | None = None
+        self,
+        prepared: PreparedTask,
+        options: Options,
+        deadline: Deadline,
+        plan: HumanPlan | None = None,
+        tables: Tables | None = None,
     ) -> None:
-        self.task = task
+        self.prepared = prepared
+        self.task = prepared.task
         self.options = options
         self.deadline = deadline
-        packing = pack_fully if options.preservation == "state" else pack
-        self.packed = packing(task, deadline)
-        if plan is not None and not self._covers(plan):
-            needed = {f for i in plan for f in (*task.actions[i].pre, *task.actions[i].neg)}
-            extra = human_facts(task) if options.preservation == "state" else frozenset()
-            self.packed = PackedTask(task, extra | needed, deadline)
-        self.weights = Weights(self.packed, options, plan)
+        if tables is None:
+            whole = options.preservation == "state"
+            tables = prepared.with_human_facts(deadline) if whole else prepared.plain(deadline)
+        self.tables = tables
+        self.packed = tables.packed
+        self.weights = Weights(self.packed, tables.scales, options, plan)
         self.keys = self.weights.keys
 
     def for_plan(self, plan: HumanPlan) -> "SearchContext":
-        """Tables in which ``pi_H`` is known; these ones, where that makes no difference."""
+        """The context in which ``pi_H`` is known; this one, where that makes no difference."""
         announces = self.options.mode == "communication" and self.options.communication_weight > 0
-        if announces or not self._covers(plan):
-            return SearchContext(self.task, self.options, self.deadline, plan)
-        return self
+        covered = self._covers(plan)
+        if covered and not announces:
+            return self
+        tables = self.tables if covered else self._covering(plan)
+        return SearchContext(self.prepared, self.options, self.deadline, plan, tables)
 
     def _covers(self, plan: HumanPlan) -> bool:
-        """Whether the encoding packs what every action of a plan asks for."""
+        """Whether what every action of a plan asks for is packed."""
         bits = self.packed.fact_bits
         actions = (self.task.actions[i] for i in plan)
         return all(bits[f] is not None for action in actions for f in (*action.pre, *action.neg))
 
+    def _covering(self, plan: HumanPlan) -> Tables:
+        """A packing, for this call, of what every action of a plan asks for as well."""
+        needed = frozenset(f for i in plan for f in (*self.task.actions[i].pre, *self.task.actions[i].neg))
+        if self.options.preservation == "state":
+            needed |= human_facts(self.task)
+        return self.prepared.including(needed, self.deadline)
+
     @cached_property
     def bound(self) -> PatternDatabase:
         """Lower bound on what the human still has to pay for ``G_H``."""
-        return human_projection(self.packed, self.weights, self.deadline)
+        return in_keys(self.tables.human.projection(self.deadline), self.weights)
 
     @property
     def steps(self) -> PatternDatabase:
         """Lower bound on the number of his actions to ``G_H``."""
-        return self.packed.derived(human_steps, self.deadline)
+        return self.tables.human.steps(self.deadline)
 
     @cached_property
     def alone(self) -> IndividualPlanner | PricedPlanner:
         """The human by himself, to ``G_H``."""
         if not self.weights.announces:
-            return PricedPlanner(self.packed, self.weights, self.deadline)
+            human = self.tables.human
+            bound = human.projection(self.deadline)
+            return PricedPlanner(self.packed, bound, human.memory(), self.weights, self.deadline)
         return IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, self.deadline)
 
     @cached_property
@@ -89,14 +108,13 @@ class SearchContext:
     @property
     def interactions(self) -> Interactions:
         """What the human's ops mention."""
-        return self.packed.derived(Interactions, self.deadline)
+        return self.tables.interactions(self.deadline)
 
     @cached_property
     def ways(self) -> PrivateDistances:
         """The human's ways to his touches."""
-        return PrivateDistances(
-            self.packed, self.interactions, self.bound, self.steps, self.weights, self.deadline
-        )
+        own = self.tables.private_distances
+        return PrivateDistances(own, self.interactions, self.bound, self.steps, self.weights, self.deadline)
 
     def successors(self, *, idle: bool = False) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing."""
@@ -108,7 +126,7 @@ class SearchContext:
         """Robots' walks where they can be folded, and it pays: with several robots."""
         if len(self.task.robots) < 2 or self.options.preservation == "state":
             return None
-        walks = self.packed.derived(Decoupled, self.deadline)
+        walks = self.tables.robots.decoupled(self.deadline)
         if not walks.foldable or walks.touched_by(map(self.packed.op, plan)):
             return None
         return walks

@@ -15,11 +15,12 @@ from search.engine.outcome import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.planner import left_alone
+from search.prepared_task import PreparedTask
 from search.spaces.fixed_window import FixedWindow, Weighed
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task import HumanPlan
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +62,7 @@ class Interruptions:
 
 
 def interruptions(
-    task: Task,
+    prepared: PreparedTask,
     options: Options,
     *,
     human_plan: HumanPlan | None = None,
@@ -71,7 +72,7 @@ def interruptions(
     """The report of semantics 3.2, or None where the human has no plan alone.
 
     Args:
-        task: the task.
+        prepared: the task.
         options: discount, horizon, suffix, preservation and interference count.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         deadline: deadline and cancellation.
@@ -84,7 +85,7 @@ def interruptions(
     asked = options.but(
         mode="serendipity", max_cost=None, max_window=None, keep_prefix=False, window_weight=0
     )
-    context = SearchContext(task, asked, deadline or Deadline())
+    context = SearchContext(prepared, asked, deadline or Deadline())
     nothing = left_alone(context, human_plan)
     if nothing is None:
         return None

@@ -10,6 +10,7 @@ from search.engine.outcome import Outcome, path_sets, path_steps, plan_steps
 from search.human.individual_planner import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
+from search.prepared_task import PreparedTask
 from search.spaces.factory import free_bounds, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
 from search.spaces.unrestricted import Unrestricted
@@ -21,12 +22,16 @@ from serendipity.model.task import HumanPlan, Task
 
 
 def solve(
-    task: Task, options: Options, *, human_plan: HumanPlan | None = None, deadline: Deadline | None = None
+    prepared: PreparedTask,
+    options: Options,
+    *,
+    human_plan: HumanPlan | None = None,
+    deadline: Deadline | None = None,
 ) -> Iterator[Outcome]:
     """Answers with falling objective and rising lower bound; the last one is the best known.
 
     Args:
-        task: the task.
+        prepared: the task.
         options: options in force; ``mode`` is not ``assistance``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         deadline: deadline and cancellation.
@@ -36,7 +41,7 @@ def solve(
     """
     deadline = deadline or Deadline(options.time_limit)
     try:
-        context = SearchContext(task, options, deadline)
+        context = SearchContext(prepared, options, deadline)
         predicted = context.optimal_plans() if human_plan is None else None
         plan = human_plan if predicted is None else predicted.canonical()
         if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
@@ -50,19 +55,13 @@ def solve(
     yield from answers
 
 
-def optimal_human_plan(task: Task) -> HumanPlan | None:
-    """The canonical optimal plan of the human alone, or None (semantics 1)."""
-    graph = optimal_human_plans(task)
-    return None if graph is None else graph.canonical()
-
-
-def optimal_human_plans(task: Task, deadline: Deadline | None = None) -> PlanGraph | None:
+def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
     """All optimal plans of the human alone, or None where he has none.
 
     Raises:
         LimitReachedError: the deadline ran out.
     """
-    return SearchContext(task, Options(), deadline or Deadline()).optimal_plans()
+    return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +83,7 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
     """Doing nothing for the human, in a mode with windows; None where he has no plan alone.
 
     Args:
-        tables: tables of the call.
+        context: of the call.
         human_plan: ``pi_H``, already replayed, or None to predict it.
 
     Raises:

@@ -18,19 +18,22 @@ from search.packed.cost_vector import CostLayout
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import JointAction
 from search.planner import solve
+from search.prepared_task import PreparedTask
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.windowed import Unscheduled, Windowed
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task import HumanPlan
 
 
-def least_over_ties(task: Task, options: Options, graph: PlanGraph, deadline: Deadline) -> Fraction | None:
+def least_over_ties(
+    prepared: PreparedTask, options: Options, graph: PlanGraph, deadline: Deadline
+) -> Fraction | None:
     """A lower bound on the cost of the answers to all of his optimal plans; None if time is up.
 
     Args:
-        task: the task; robots have no goals of their own.
+        prepared: the task; robots have no goals of their own.
         options: of the call, in mode ``serendipity`` or ``communication``.
         graph: his optimal plans from the initial state.
         deadline: deadline and cancellation.
@@ -40,7 +43,7 @@ def least_over_ties(task: Task, options: Options, graph: PlanGraph, deadline: De
     replans = options.suffix == "replan" and options.preservation == "kernel"
     try:
         if options.mode == "serendipity" and options.human_model == "omniscient" and replans and plan:
-            return _by_windows(task, options, graph, plan, horizon, deadline)
+            return _by_windows(prepared, options, graph, plan, horizon, deadline)
     except LIMITS:
         return None
     told = Options(
@@ -49,18 +52,23 @@ def least_over_ties(task: Task, options: Options, graph: PlanGraph, deadline: De
         horizon=horizon,
         interference=options.interference,
     )
-    *_, outcome = solve(task, told, deadline=deadline)
+    *_, outcome = solve(prepared, told, deadline=deadline)
     return outcome.cost if outcome.status == "optimal" else None
 
 
 def _by_windows(
-    task: Task, options: Options, graph: PlanGraph, plan: HumanPlan, horizon: int, deadline: Deadline
+    prepared: PreparedTask,
+    options: Options,
+    graph: PlanGraph,
+    plan: HumanPlan,
+    horizon: int,
+    deadline: Deadline,
 ) -> Fraction:
     most = horizon if options.max_window is None else options.max_window
     if options.window_weight:
-        most = min(most, int(task.cost_of(plan) / options.window_weight) + 1)
+        most = min(most, int(prepared.task.cost_of(plan) / options.window_weight) + 1)
     free = options.but(window_weight=0, max_window=most, max_cost=None)
-    context = SearchContext(task, free, deadline)
+    context = SearchContext(prepared, free, deadline)
     steps = [context.followed(tuple(sorted(layer))) for layer in graph.layers()]
     space = Windowed(
         initial=context.packed.init,

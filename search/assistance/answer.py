@@ -14,12 +14,13 @@ from search.assistance.phase import PhaseDeadline
 from search.assistance.solvers.astar import AStar
 from search.assistance.solvers.lao_star import LaoStar
 from search.assistance.writing import Writer
+from search.prepared_task import PreparedTask
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.policy import Policy
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task import HumanPlan
 
 _T = TypeVar("_T")
 
@@ -52,11 +53,11 @@ class Assistance:
     expanded: int = 0
 
 
-def assist(task: Task, options: Options, deadline: Deadline) -> Iterator[Assistance]:
+def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iterator[Assistance]:
     """Answers of falling value; the last one is the best known.
 
     Args:
-        task: one human and one robot.
+        prepared: a task of one human and one robot.
         options: ``ties`` and ``no_block`` count.
         deadline: deadline and cancellation.
 
@@ -66,7 +67,7 @@ def assist(task: Task, options: Options, deadline: Deadline) -> Iterator[Assista
     left = deadline.left()
     own_deadline = PhaseDeadline(deadline, None if left is None else left / 2)
     try:
-        game = Game(task, deadline, own_deadline)
+        game = Game(prepared, deadline, own_deadline)
     except LIMITS as limit:
         yield Assistance("unknown", ZERO, reason=limit_reason(limit))
         return
@@ -180,11 +181,11 @@ def _in_time(write: Callable[[], _T]) -> _T | None:
         return None
 
 
-def joint_optimum(task: Task, deadline: Deadline | None = None) -> Costs | None:
+def joint_optimum(prepared: PreparedTask, deadline: Deadline | None = None) -> Costs | None:
     """The bound on every policy from ``I``: both together, without turns, or a relaxation of it.
 
     None where not even both together reach the goal.
     """
-    game = Game(task, deadline or Deadline())
+    game = Game(prepared, deadline or Deadline())
     value = Bound(game)(game.init)
     return None if value >= INFINITE else game.pair(value)

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heappop, heappush
 
-from search.human.pattern_database import human_projection
-from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.context import SearchContext
+from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import OperatorIndex, forms_of
-from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Lookup
+from search.prepared_task import PreparedTask
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
@@ -61,15 +61,17 @@ class _Search:
     def __init__(self, task: Task, observed: tuple[str, ...], deadline: Deadline) -> None:
         seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
         asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
-        packed = PackedTask(task, frozenset(asked), deadline)
-        weights = Weights(packed, Options(), None)
+        prepared = PreparedTask(task)
+        tables = prepared.including(frozenset(asked), deadline)
+        context = SearchContext(prepared, Options(), deadline, tables=tables)
+        packed = context.packed
         own = sorted({op.action for op in packed.own} | seen)
         forms = forms_of((packed.op(i) for i in own), packed.all_ones, deadline)
-        self._lookup = Lookup(OperatorIndex(forms, packed.fields, deadline), weights.alone)
-        self._keys = weights.keys
+        self._lookup = Lookup(OperatorIndex(forms, packed.fields, deadline), context.weights.alone)
+        self._keys = context.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal
-        self._bound = human_projection(packed, weights, deadline)
+        self._bound = context.bound
         self._observed = observed
         self._deadline = deadline
         self._start: _At = (packed.init, 0)

@@ -18,18 +18,20 @@ from heapq import heappop, heappush
 from itertools import count
 from math import lcm
 
+from search.context import SearchContext
 from search.engine.outcome import Outcome, path_steps, plan_steps
-from search.goals.context import SharedContext, shared_packing, task_for, timeline
 from search.goals.outcome import Candidate, Expected, ServedGoal
-from search.goals.timeline import Ended, Situation
+from search.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.packings import human_facts
 from search.packed.successor_generator import NOTHING, JointAction, Successors, as_option, together
 from search.planner import solve
+from search.prepared_task import PreparedTask
+from search.spaces.factory import suffix_rule
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window
-from serendipity.model.task import Task
 
 _Rank = tuple[int, ...]
 """Objective and cost, then window length, lateness and number of actions, weighted sums of each."""
@@ -39,17 +41,20 @@ _SAME = 2
 
 
 def solve_expected(
-    task: Task, options: Options, candidates: Sequence[Candidate], deadline: Deadline | None = None
+    prepared: PreparedTask,
+    options: Options,
+    candidates: Sequence[Candidate],
+    deadline: Deadline | None = None,
 ) -> Expected:
     """The robots' plan of least expected objective, or doing nothing if none is cheaper than that.
 
     Args:
-        task: the task; its own goal plays no part, and robots have none.
+        prepared: the task; its own goal plays no part, and robots have none.
         options: mode ``serendipity``; ``horizon`` None means the length of the longest plan.
         candidates: at least one; weights add up to 1.
         deadline: deadline and cancellation.
     """
-    search = _Search(task, options, candidates, deadline or Deadline(options.time_limit))
+    search = _Search(prepared, options, candidates, deadline or Deadline(options.time_limit))
     try:
         search.prepare()
         search.run()
@@ -83,9 +88,9 @@ class _Search:
     """One call."""
 
     def __init__(
-        self, task: Task, options: Options, candidates: Sequence[Candidate], deadline: Deadline
+        self, prepared: PreparedTask, options: Options, candidates: Sequence[Candidate], deadline: Deadline
     ) -> None:
-        self._task = task
+        self._prepared = prepared
         self._candidates = candidates
         longest = max(len(candidate.plan) for candidate in candidates)
         self._horizon = int(options.horizon) if options.horizon is not None else longest
@@ -103,17 +108,13 @@ class _Search:
 
     def prepare(self) -> None:
         """Tables, incumbents and floors: what each candidate alone would allow."""
-        packed = shared_packing(self._task, self._options, self._candidates, self._deadline)
-        context = [
-            SharedContext(packed, task_for(self._task, candidate), self._options, self._deadline)
-            for candidate in self._candidates
-        ]
+        context = [SearchContext(own, self._options, self._deadline) for own in self._over_one_packing()]
         self._keys = context[0].keys
         self._team = context[0].weights.team
-        self._packed = packed
+        self._packed = context[0].packed
         self._acting = context[0].successors()
         self._timelines = [
-            timeline(own, candidate, self._horizon)
+            _timeline(own, candidate, self._horizon)
             for own, candidate in zip(context, self._candidates, strict=True)
         ]
         self._offer({}, context[0].successors(idle=True))
@@ -124,10 +125,21 @@ class _Search:
             self._floors[i] = self._floor(candidate, outcome)
             self._offer(self._own_actions(outcome), self._acting)
 
+    def _over_one_packing(self) -> list[PreparedTask]:
+        """The task with each candidate as its goal, packed with what any of them or its plan asks for."""
+        task, asked = self._prepared.task, set[int]()
+        if self._options.preservation == "state":
+            asked.update(human_facts(task))
+        for candidate in self._candidates:
+            for action in (task.actions[i] for i in candidate.plan):
+                asked.update(action.pre, action.neg)
+        goals = [candidate.goal for candidate in self._candidates]
+        return self._prepared.with_goals(goals, frozenset(asked), self._deadline)
+
     def _alone_known(self, candidate: Candidate) -> Outcome:
         """The answer of section 3, were this the goal for certain."""
-        task = task_for(self._task, candidate)
-        *_, last = solve(task, self._options, human_plan=candidate.plan, deadline=self._deadline)
+        own = self._prepared.with_goal(candidate.goal)
+        *_, last = solve(own, self._options, human_plan=candidate.plan, deadline=self._deadline)
         self._expanded += last.expanded
         self._generated += last.generated
         return last
@@ -151,7 +163,7 @@ class _Search:
         """What robots do by themselves in an answer, by epoch."""
         found: dict[int, JointAction] = {}
         for step in outcome.steps or ():
-            if self._task.human not in self._task.actions[step.action].participants:
+            if self._prepared.task.human not in self._prepared.task.actions[step.action].participants:
                 op = self._packed.op(step.action)
                 found[step.epoch] = together(found.get(step.epoch, NOTHING), as_option(op, self._team(op)))
         return found
@@ -275,7 +287,7 @@ class _Search:
 
     def answer(self, status: str) -> Expected:
         """The incumbent if it is cheaper than idle robots, else: do nothing."""
-        plans = [(c.weight, self._task.cost_of(c.plan)) for c in self._candidates]
+        plans = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
         baseline = sum((weight * cost for weight, cost in plans), Fraction(0))
         best = self._best
         helps = best is not None and self._idle is not None and best.rank[1] < self._idle.rank[1]
@@ -319,6 +331,24 @@ class _Search:
         return ServedGoal(
             path_steps(end.node) + plan_steps(end.tail, end.end), window, self._keys.cost(end.key)
         )
+
+
+def _timeline(context: SearchContext, candidate: Candidate, horizon: int) -> GoalTimeline:
+    """The rules of semantics 3.1 for one candidate, under the options of its context."""
+    options = context.options
+    return GoalTimeline(
+        packed=context.packed,
+        goal=context.packed.goal,
+        steps=context.followed(candidate.plan),
+        suffix=suffix_rule(context, candidate.plan),
+        private=context.bound,
+        keys=context.keys,
+        horizon=horizon,
+        max_window=options.max_window or horizon,
+        per_start=options.preservation == "state",
+        strict=options.strict,
+        deadline=context.deadline,
+    )
 
 
 def _is_new(node: _Node, seen: dict[object, int]) -> bool:

@@ -20,7 +20,7 @@ from search.heuristics.interactions import Need
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, forms_of
 from search.packed.packed_task import PackedTask
-from search.robots.transition_graphs import PositionVariables, TransitionGraphs, by_value, with_anything
+from search.robots.transition_graphs import TransitionGraphs, by_value, with_anything
 from serendipity.model.deadline import Deadline
 
 Spot = tuple[int, int, int, int]
@@ -42,7 +42,8 @@ class AchieverAutomaton:
     """Distances in the automaton of one outside field.
 
     Args:
-        encoding: the packed task.
+        packed: the packed task.
+        transitions: what robots' ops do to each variable.
         field: the outside field.
         needs: ids of the needs that are judged by this field, with the needs.
         weights: key increment of a robots' op by the index of its cost.
@@ -57,19 +58,20 @@ class AchieverAutomaton:
     def __init__(
         self,
         packed: PackedTask,
+        transitions: TransitionGraphs,
         field: int,
         needs: Sequence[tuple[int, Need]],
         weights: Sequence[int],
         flips: Iterable[Operator],
         deadline: Deadline,
     ) -> None:
-        self._places = packed.derived(PositionVariables, deadline)
+        self._places = transitions.places
         self._field = field
         self._weights = weights
         self._deadline = deadline
         self._initial = packed.init
         self._packed = packed
-        self._acts = packed.derived(TransitionGraphs, deadline).on(field)
+        self._acts = transitions.on(field)
         changing = (op for op in flips if field & ~op.keep)
         self._flips = by_value(field, forms_of(changing, packed.all_ones, deadline))
         self._anyhow: dict[int, list[int]] = {}

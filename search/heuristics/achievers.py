@@ -11,7 +11,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Idle
-from search.robots.transition_graphs import PositionVariables
+from search.robots.transition_graphs import PositionVariables, TransitionGraphs
 from serendipity.model.deadline import Deadline
 
 
@@ -72,8 +72,9 @@ class Achievers:
     """The robots' side.
 
     Args:
-        encoding: the packed task.
-        touches: what the human's ops mention.
+        packed: the packed task.
+        transitions: what robots' ops do to each variable.
+        interactions: what the human's ops mention.
         weights: key increment of a robots' op by the index of its cost.
         followed: the ops of ``pi_H``, in order, where the human follows it for a while.
         deadline: asked for time.
@@ -85,12 +86,14 @@ class Achievers:
     def __init__(
         self,
         packed: PackedTask,
+        transitions: TransitionGraphs,
         interactions: Interactions,
         weights: Sequence[int],
         followed: Sequence[Operator],
         deadline: Deadline,
     ) -> None:
         self._packed = packed
+        self._transitions = transitions
         self._interactions = interactions
         self._weights = weights
         self._followed = followed
@@ -101,7 +104,7 @@ class Achievers:
             for field in packed.fields:
                 if field & ~op.keep:
                     self._changes.setdefault(field, epoch)
-        self._shared = shared_fields(packed, deadline)
+        self._shared = shared_fields(packed, transitions.places)
         used = {weights[form.cost] for form in packed.other_forms}
         self._uniform = len(used) <= 1
         self._unit = max(used, default=1)
@@ -178,7 +181,9 @@ class Achievers:
             listed = [(i, self._interactions.needs[self.touched(i)]) for i in members]
             flips = self._followed if late else ()
             self._deadline.check()
-            provision = AchieverAutomaton(self._packed, field, listed, weights, flips, self._deadline)
+            provision = AchieverAutomaton(
+                self._packed, self._transitions, field, listed, weights, flips, self._deadline
+            )
             provision.explore(pays)
             provisions[field, late] = provision
             costs.update(provision.cost)
@@ -199,8 +204,8 @@ class Achievers:
         return field
 
 
-def shared_fields(packed: PackedTask, deadline: Deadline) -> list[int]:
+def shared_fields(packed: PackedTask, positions: PositionVariables) -> list[int]:
     """Outside fields that are no robot's place, the largest first."""
-    places = set(packed.derived(PositionVariables, deadline).field.values())
+    places = set(positions.field.values())
     outside = [f for f in packed.fields if f & packed.outside and f not in places]
     return sorted(outside, key=lambda f: (-len(packed.values(f)), f))

@@ -10,10 +10,8 @@ outside part of the condition of a touch.
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from search.human.pattern_database import human_graph
 from search.packed.operators import Operator, OperatorIndex
 from search.packed.packed_task import PackedTask
-from serendipity.model.deadline import Deadline
 
 
 class Need(NamedTuple):
@@ -37,7 +35,11 @@ class Seen(NamedTuple):
 
 
 class Interactions:
-    """The human's ops, split at what they mention; kept with the packed task.
+    """The human's ops, split at what they mention.
+
+    Args:
+        packed: the packed task.
+        mask: the private fields that the projection of :func:`.human_graph` keeps.
 
     Attributes:
         mask: the private fields that the projection keeps.
@@ -45,8 +47,8 @@ class Interactions:
         needs: the needs met so far; a need's id is its index.
     """
 
-    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
-        self.mask = packed.derived(human_graph, deadline).mask
+    def __init__(self, packed: PackedTask, mask: int) -> None:
+        self.mask = mask
         self.needs: list[Need] = []
         self._ids: dict[tuple[int, int], int] = {}
         self._kinds: dict[tuple[int, int, int, object], tuple[int, int, bool]] = {}

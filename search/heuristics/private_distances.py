@@ -1,11 +1,11 @@
 """The human's side of help: his way to each touch, and on to the goal, in his private fields."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from heapq import heapify, heappop, heappush
 
 from search.heuristics.interactions import Interactions, Seen
 from search.human.dijkstra import backward
-from search.human.pattern_database import PatternDatabase, human_graph, own_projection
+from search.human.pattern_database import PatternDatabase, Predecessors
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.packed_task import PackedTask
 from serendipity.model.deadline import Deadline
@@ -51,8 +51,8 @@ class PrivateDistances:
     """Distances by moves alone, up to a first touch.
 
     Args:
-        encoding: the packed task.
-        touches: what his ops mention.
+        own: his ways backward, asked for where they are needed.
+        interactions: what his ops mention.
         bound: private distances to the goal.
         steps: the same, counting actions.
         weights: key increments of the call.
@@ -66,7 +66,7 @@ class PrivateDistances:
 
     def __init__(
         self,
-        packed: PackedTask,
+        own: Callable[[Deadline], "OwnPrivateDistances"],
         interactions: Interactions,
         bound: PatternDatabase,
         steps: PatternDatabase,
@@ -74,7 +74,7 @@ class PrivateDistances:
         deadline: Deadline,
     ) -> None:
         self.outside = interactions.outside
-        self._packed = packed
+        self._own = own
         self._interactions = interactions
         self._bound = bound
         self._steps = steps
@@ -123,24 +123,34 @@ class PrivateDistances:
 
     def to_goal(self) -> dict[int, int]:
         """Least key to the goal without a touch, by projected state."""
-        return self._weights.of_own(self._own().to_goal(self._deadline))
+        return self._weights.of_own(self._own(self._deadline).to_goal(self._deadline))
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        return self._weights.of_own(self._own().through(need, self._deadline))
-
-    def _own(self) -> "OwnPrivateDistances":
-        return self._packed.derived(OwnPrivateDistances, self._interactions, self._deadline)
+        return self._weights.of_own(self._own(self._deadline).through(need, self._deadline))
 
 
 class OwnPrivateDistances:
-    """His ways backward, in the unit of :func:`.own_weights`; kept with the packed task."""
+    """His ways backward, in the unit of :func:`.own_weights`.
 
-    def __init__(self, packed: PackedTask, interactions: Interactions, deadline: Deadline) -> None:
+    Args:
+        packed: the packed task.
+        interactions: what his ops mention.
+        distances: to the goal, by projected state.
+        moves: what leads to each projected state without an interaction.
+    """
+
+    def __init__(
+        self,
+        packed: PackedTask,
+        interactions: Interactions,
+        distances: Mapping[int, int],
+        moves: Predecessors,
+    ) -> None:
         self._weights = own_weights(packed)
         self._interactions = interactions
-        self._distances = packed.derived(own_projection, deadline).distances
-        self._moves = packed.derived(human_graph, deadline).moves
+        self._distances = distances
+        self._moves = moves
         self._field = packed.own_index.field & interactions.mask
         self._by_value: dict[int, list[int]] = {}
         for at in self._distances:

@@ -8,7 +8,7 @@ search per projection, and a search also fills in the states along its result.
 from collections.abc import Callable, Iterator
 from heapq import heappop, heappush
 
-from search.human.pattern_database import PatternDatabase, own_projection
+from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
@@ -240,18 +240,20 @@ class IndividualPlanner:
 
 
 class PricedPlanner:
-    """:class:`IndividualPlanner` to ``G_H``, in the keys of a call; the packed task keeps what it finds.
+    """:class:`IndividualPlanner` to ``G_H``, in the keys of a call; what it finds serves other calls.
 
     Args:
-        encoding: the packed task.
+        packed: the packed task.
+        bound: what :func:`.own_projection` finds.
+        memory: what earlier calls have found, see :func:`own_memory`.
         weights: key increments of the call, which say nothing of communication.
         deadline: asked for time.
     """
 
-    def __init__(self, packed: PackedTask, weights: Weights, deadline: Deadline) -> None:
+    def __init__(
+        self, packed: PackedTask, bound: PatternDatabase, memory: Memory, weights: Weights, deadline: Deadline
+    ) -> None:
         own = own_weights(packed)
-        bound = packed.derived(own_projection, deadline)
-        memory = packed.derived(_memory)
         self._alone = IndividualPlanner(packed, packed.goal, lambda op: own[op.cost], bound, deadline, memory)
         self._weights = weights
 
@@ -268,7 +270,8 @@ class PricedPlanner:
         return self._alone.plans(state)
 
 
-def _memory(packed: PackedTask) -> Memory:
+def own_memory(packed: PackedTask) -> Memory:
+    """Nothing yet, in the unit of :func:`.own_weights`."""
     own = own_weights(packed)
     return Memory(Lookup(packed.own_index, lambda op: own[op.cost]))
 

@@ -59,31 +59,33 @@ class Projected:
     interactions: Predecessors
 
 
-def human_projection(packed: PackedTask, weights: Weights, deadline: Deadline) -> PatternDatabase:
-    """Key increments to his goal in his private variables, or in as many as stay tractable.
-
-    Args:
-        encoding: the packed task.
-        weights: key increments of the call.
-        deadline: asked for time while the table is built.
-    """
-    own = packed.derived(own_projection, deadline)
+def in_keys(own: PatternDatabase, weights: Weights) -> PatternDatabase:
+    """What :func:`own_projection` finds, in the key increments of a call."""
     return PatternDatabase(own.mask, weights.of_own(own.distances))
 
 
-def own_projection(packed: PackedTask, deadline: Deadline) -> PatternDatabase:
-    """The same in the unit of :func:`search.packed.cost_vector.own_weights`."""
-    graph = packed.derived(human_graph, deadline)
+def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
+    """Costs to his goal in his private variables, or in as many as stay tractable.
+
+    Args:
+        packed: the packed task.
+        graph: what :func:`human_graph` makes of it.
+        deadline: asked for time while the table is built.
+
+    Returns:
+        Distances in the unit of :func:`search.packed.cost_vector.own_weights`.
+    """
     goals = [(0, state) for state in _satisfying(graph, packed.goal)]
     return PatternDatabase(graph.mask, backward(goals, (graph.moves, graph.interactions), deadline))
 
 
-def human_steps(packed: PackedTask, deadline: Deadline) -> PatternDatabase:
+def steps_in(own: PatternDatabase) -> PatternDatabase:
+    """The numbers of actions in what :func:`own_projection` finds."""
+    return PatternDatabase(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
+
+
+def human_steps(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
     """The least number of his actions to his goal, in the same variables."""
-    if len(packed.costs) == 1:  # every action costs the same, so the cheapest way is the shortest
-        own = packed.derived(own_projection, deadline)
-        return PatternDatabase(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
-    graph = packed.derived(human_graph, deadline)
     goals = [(0, state) for state in _satisfying(graph, packed.goal)]
     counted = [
         {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}

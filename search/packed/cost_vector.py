@@ -8,7 +8,7 @@ components in that order.
 Costs are scaled to integers by the least common denominator, so ties are exact.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
@@ -121,18 +121,17 @@ class Weights:
 
     Args:
         packed: the packed task.
+        scales: its costs as integers.
         options: discount, window weight and communication weight.
         plan: ``pi_H``, or None to leave communication costs out.
     """
 
-    def __init__(self, packed: PackedTask, options: Options, plan: HumanPlan | None) -> None:
+    def __init__(
+        self, packed: PackedTask, scales: "CostScales", options: Options, plan: HumanPlan | None
+    ) -> None:
         announces = options.mode == "communication" and plan is not None
         announced = options.communication_weight if announces else Fraction(0)
-        known = packed.derived(_scales)
-        factors = options.discount, options.window_weight, announced
-        scaled = known.get(factors)
-        if scaled is None:
-            scaled = known[factors] = _scaled(packed, *factors)
+        scaled = scales.under(options.discount, options.window_weight, announced)
         self.keys = scaled.keys
         self.announces = bool(announced)
         self.human = scaled.human
@@ -192,13 +191,27 @@ class _Scaled:
     per_cost: int
 
 
-def _scales(_: PackedTask) -> dict[tuple[Fraction, Fraction, Fraction], _Scaled]:
-    """By discount, window weight and communication weight; filled by calls, kept with the packed task."""
-    return {}
+class CostScales:
+    """Costs of a task as integers, under the options of its calls.
+
+    Args:
+        costs: the different undiscounted costs.
+    """
+
+    def __init__(self, costs: Sequence[Fraction]) -> None:
+        self._costs = costs
+        self._known: dict[tuple[Fraction, Fraction, Fraction], _Scaled] = {}
+
+    def under(self, discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
+        """Under a discount, a window weight and a communication weight."""
+        factors = discount, window, announced
+        scaled = self._known.get(factors)
+        if scaled is None:
+            scaled = self._known[factors] = _scaled(self._costs, *factors)
+        return scaled
 
 
-def _scaled(packed: PackedTask, discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
-    costs = packed.costs
+def _scaled(costs: Sequence[Fraction], discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
     factors = (Fraction(1), 1 - discount, announced)
     scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
     dearest = int(max(costs, default=Fraction(0)) * scale)
@@ -206,7 +219,7 @@ def _scaled(packed: PackedTask, discount: Fraction, window: Fraction, announced:
     layout = CostLayout(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
     epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
     keys = replace(layout, epoch_weight=epoch)
-    per_cost = scale // _own_scale(packed)
+    per_cost = scale // _own_scale(costs)
     return _Scaled(
         keys,
         human=[keys.of_action(cost) for cost in costs],
@@ -222,7 +235,7 @@ def own_weights(packed: PackedTask) -> list[int]:
     Cost (in the least unit of the task's costs) and number of actions are the two fields of
     an int: what the human prefers by himself (semantics 1).  :meth:`Weights.of_own` makes keys of sums.
     """
-    scale = _own_scale(packed)
+    scale = _own_scale(packed.costs)
     return [(int(cost * scale) << _ACTIONS_BITS) + 1 for cost in packed.costs]
 
 
@@ -231,5 +244,5 @@ def own_actions(cost: int) -> int:
     return cost & _ACTIONS
 
 
-def _own_scale(packed: PackedTask) -> int:
-    return lcm(*(cost.denominator for cost in packed.costs))
+def _own_scale(costs: Sequence[Fraction]) -> int:
+    return lcm(*(cost.denominator for cost in costs))

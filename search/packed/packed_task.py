@@ -8,12 +8,11 @@ conflicts between actions are still judged on their declared effects (semantics 
 """
 
 from bisect import bisect_left
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from search.packed.operators import Operator, OperatorIndex, Signature, forms_of, set_by
 from search.packed.relevance import relevant_to_goals
@@ -21,9 +20,6 @@ from serendipity.model.actions import Condition, conflicting
 from serendipity.model.collection import no_collection
 from serendipity.model.deadline import Deadline
 from serendipity.model.task import Task
-
-T = TypeVar("T")
-P = ParamSpec("P")
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,26 +108,18 @@ class PackedTask:
         self.init = self.pack(task.init)
         self.goal = self.condition(task.goal)
         self.robot_goal = self.condition(task.robot_goal)
-        self.costs = task.derived(_distinct_costs)
-        self._cost_index = {cost: i for i, cost in enumerate(self.costs)}
-        self._cost_by_identity: dict[int, int] = {}
+        self.costs = _distinct_costs(task)
+        # By ratio: the hash of a rational takes four times as long as all else about a cost.
+        self._cost_index = {cost.as_integer_ratio(): i for i, cost in enumerate(self.costs)}
         self._ops: dict[int, Operator] = {}
         self._compatible: dict[tuple[int, int, bool], bool] = {}
-        self._derived: dict[Any, Any] = {}
         self._sort_by_actor(deadline)
 
-    def moved_to(self, task: Task, *, derived: bool) -> "PackedTask":
-        """The same packing for a task that differs in its initial state only.
-
-        Args:
-            task: the task.
-            derived: whether what was derived from this packing holds for the state, too.
-        """
+    def at(self, task: Task) -> "PackedTask":
+        """The same packing for a task that differs in its initial state only."""
         moved = copy(self)
         moved.task = task
         moved.init = moved.pack(task.init)
-        if not derived:
-            moved._derived = {}
         return moved
 
     def for_goal(self, task: Task) -> "PackedTask":
@@ -139,7 +127,6 @@ class PackedTask:
         other = copy(self)
         other.task = task
         other.goal = other.condition(task.goal)
-        other._derived = {}
         return other
 
     def _sort_by_actor(self, deadline: Deadline) -> None:
@@ -190,21 +177,6 @@ class PackedTask:
     def involves_others(self, agents: int, fields: int) -> bool:
         """Whether others than the human take part, or change some of the fields."""
         return agents != self.human_bit or bool(fields & self.outside)
-
-    def derived(
-        self, build: "Callable[Concatenate[PackedTask, P], T]", *args: P.args, **kwargs: P.kwargs
-    ) -> T:
-        """``build(self, ...)``, computed once: tables that depend on nothing but the packed task.
-
-        What else is given may only say how it is built (a deadline to ask for time, say), not what.
-        """
-        if build not in self._derived:
-            self._derived[build] = build(self, *args, **kwargs)
-        return self._derived[build]  # type: ignore[no-any-return]
-
-    def kept(self, build: "Callable[Concatenate[PackedTask, P], T]") -> T | None:
-        """What :meth:`derived` keeps already; None where nobody has asked for it yet."""
-        return self._derived.get(build)
 
     def pack(self, state: Iterable[int]) -> int:
         """The packed form of a set of true facts."""
@@ -300,40 +272,9 @@ class PackedTask:
         agents = self._agents.get(action.participants)
         if agents is None:
             agents = self._agents[action.participants] = sum(1 << agent for agent in action.participants)
-        cost = self._cost_by_identity.get(id(action.cost))
-        if cost is None:  # the task keeps its costs alive, so identities don't recur
-            cost = self._cost_by_identity[id(action.cost)] = self._cost_index[action.cost]
+        cost = self._cost_index[action.cost.as_integer_ratio()]
         return Operator(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
 
 
-def pack(task: Task, deadline: Deadline) -> PackedTask:
-    """The encoding of the facts that matter to the goals, kept with the task."""
-    return task.derived(pack_plainly, deadline)
-
-
-def pack_plainly(task: Task, deadline: Deadline) -> PackedTask:
-    """An encoding of the facts that matter to the goals."""
-    return PackedTask(task, frozenset(), deadline)
-
-
-def pack_fully(task: Task, deadline: Deadline) -> PackedTask:
-    """The encoding that also holds every fact of the human's own domain (semantics 3.3)."""
-    return task.derived(_with_human_facts, deadline)
-
-
-def human_facts(task: Task) -> frozenset[int]:
-    """Ids of the facts that the human's own domain mentions (semantics 3.3)."""
-    mentioned = {*task.goal.positive, *task.goal.negative}
-    for i in task.human_actions:
-        action = task.actions[i]
-        mentioned.update(action.pre, action.neg, action.add, action.delete)
-    return frozenset(mentioned)
-
-
-def _with_human_facts(task: Task, deadline: Deadline) -> PackedTask:
-    return PackedTask(task, human_facts(task), deadline)
-
-
 def _distinct_costs(task: Task) -> tuple[Fraction, ...]:
-    by_identity = {id(action.cost): action.cost for action in task.actions}
-    return tuple(sorted(set(by_identity.values())))
+    return tuple(sorted({action.cost.as_integer_ratio(): action.cost for action in task.actions}.values()))

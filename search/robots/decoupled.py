@@ -39,10 +39,11 @@ class CenterAction(NamedTuple):
 
 
 class Decoupled:
-    """The walks of robots that can be folded; kept with the packed task.
+    """The walks of robots that can be folded.
 
     Args:
-        encoding: the packed task.
+        packed: the packed task.
+        places: where robots are.
         deadline: asked for time while they are found.
 
     Attributes:
@@ -53,9 +54,8 @@ class Decoupled:
         foldable: whether every robot's walks can be folded.
     """
 
-    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
+    def __init__(self, packed: PackedTask, places: PositionVariables, deadline: Deadline) -> None:
         self._packed = packed
-        places = packed.derived(PositionVariables, deadline)
         self._bits = [1 << robot for robot in packed.task.robots]
         self.fields = [places.field[bit] for bit in self._bits]
         self.mask = sum(self.fields)

@@ -1,4 +1,4 @@
-"""What robots can do: their walks, and their ops as a field sees them; kept with the packed task.
+"""What robots can do: their walks, and their ops as a field sees them.
 
 Glossary: *place* - the value of the field that most of a robot's own ops ask for.
 """
@@ -15,7 +15,7 @@ Item = TypeVar("Item")
 
 
 class PositionVariables:
-    """The place field of each robot, and what moves it; kept with the packed task.
+    """The place field of each robot, and what moves it.
 
     Attributes:
         field: per robot's bit its place field, 0 where it has none.
@@ -53,7 +53,7 @@ class PositionVariables:
 
 
 class TransitionGraph:
-    """Robots' ops as one outside field sees them; kept with the packed task.
+    """Robots' ops as one outside field sees them.
 
     Attributes:
         walks: per robot and place what leads elsewhere without mentioning the field: the
@@ -92,11 +92,15 @@ class TransitionGraph:
 
 
 class TransitionGraphs:
-    """:class:`TransitionGraph` by field, made when first asked for; kept with the packed task."""
+    """:class:`TransitionGraph` by field, made when first asked for.
 
-    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
-        self._packed = packed
-        self._places = packed.derived(PositionVariables, deadline)
+    Args:
+        packed: the packed task.
+        places: where robots are.
+    """
+
+    def __init__(self, packed: PackedTask, places: PositionVariables) -> None:
+        self.places = places
         self._mentioning: dict[int, list[Signature]] = {}
         by_lowest_bit = {field & -field: field for field in packed.fields}
         for form in packed.other_forms:
@@ -108,7 +112,7 @@ class TransitionGraphs:
         """What robots' ops are to a field."""
         if field not in self._known:
             forms = self._mentioning.get(field, ())
-            self._known[field] = TransitionGraph(field, forms, self._places)
+            self._known[field] = TransitionGraph(field, forms, self.places)
         return self._known[field]
 
 

@@ -1,20 +1,9 @@
-"""What the human comes to believe when he looks up (semantics 6).
+"""What the human comes to believe when he looks up (semantics 6)."""
 
-A belief of his may hold two values of one variable, or none: he saw that the kit has
-left the room, but not where it went.  So for him only the variables that nobody
-else changes stay variables, of which he always knows the truth; every other fact is
-a bit by itself.
-"""
-
-from dataclasses import replace
 from typing import Protocol
 
 from search.packed.packed_task import PackedTask
-from search.simulation.diversions import diversions
-from serendipity.model.deadline import Deadline
-from serendipity.model.task import Task
-from serendipity.model.variables import Variable
-from serendipity.model.visibility import Surroundings, Visible, surroundings
+from serendipity.model.visibility import Surroundings, Visible
 
 
 class Eyes(Protocol):
@@ -91,56 +80,6 @@ class AsTold:
             if b is not None and self._visible(human, fact, facts):
                 seen |= b[0]
         return seen
-
-
-def doubtful_encoding(task: Task, extra: frozenset[int], deadline: Deadline) -> PackedTask:
-    """The task packed for a human who may be wrong, location facts included.
-
-    Args:
-        task: the task.
-        extra: facts to pack besides; without any the encoding is kept with the task.
-        deadline: asked for time.
-    """
-    if not extra:
-        return task.derived(_doubtful, deadline)
-    return _packed(task, extra.union(surroundings(task, deadline.tick).located), deadline)
-
-
-def complete_encoding(task: Task, deadline: Deadline) -> PackedTask:
-    """The same with every fact packed, for callers who say what is visible; kept with it."""
-    return task.derived(_complete, deadline)
-
-
-def _doubtful(task: Task, deadline: Deadline) -> PackedTask:
-    return _packed(task, frozenset(surroundings(task, deadline.tick).located), deadline)
-
-
-def _complete(task: Task, deadline: Deadline) -> PackedTask:
-    return _packed(task, frozenset(range(len(task.facts))), deadline)
-
-
-def _packed(task: Task, facts: frozenset[int], deadline: Deadline) -> PackedTask:
-    return PackedTask(_doubted(task, deadline), facts, deadline, diversions(task, deadline))
-
-
-def _doubted(task: Task, deadline: Deadline) -> Task:
-    """The task for somebody who may be wrong about everything that others change.
-
-    His own variables stay; every other fact is one by itself.
-    """
-    shared: set[int] = set()
-    for action in task.actions:
-        deadline.tick()
-        if task.human not in action.participants:
-            shared.update(action.add, action.delete)
-    found: list[Variable] = []
-    for variable in task.variables:  # which take long to find: they are not looked for again
-        deadline.tick()
-        if shared.isdisjoint(variable.facts):
-            found.append(variable)
-        else:
-            found += [Variable((fact,)) for fact in variable.facts]
-    return replace(task, known_variables=tuple(sorted(found, key=lambda variable: variable.facts)))
 
 
 def _naming(encoding: PackedTask, places: Surroundings) -> dict[str, int]:

@@ -3,18 +3,18 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from search.human.individual_planner import IndividualPlanner, PricedPlanner, canonical
-from search.human.pattern_database import PatternDatabase, human_projection
-from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.context import SearchContext
+from search.human.individual_planner import IndividualPlanner, canonical
+from search.human.pattern_database import PatternDatabase
+from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
-from search.simulation.diversions import diversions, with_diversions
-from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby, complete_encoding, doubtful_encoding
+from search.prepared_task import PreparedTask, Tables
+from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
 from search.simulation.intention import Intention, Intentions
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
-from serendipity.model.task import Task
-from serendipity.model.visibility import Visible, surroundings
+from serendipity.model.visibility import Visible
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,17 +41,20 @@ class Human:
     """One human with his beliefs, plans and decisions, in packed states.
 
     Args:
-        task: the task.
+        prepared: the task.
         options: discount and weights.
         deadline: asked for time.
         human_model: ``observant`` or ``local``.
         actions: ids of actions that will be asked about, beyond the useful ones.
         visible: what a local human sees; None for the default.
+
+    Attributes:
+        context: the task as he sees it.
     """
 
     def __init__(
         self,
-        task: Task,
+        prepared: PreparedTask,
         options: Options,
         deadline: Deadline,
         *,
@@ -61,19 +64,22 @@ class Human:
     ) -> None:
         local = human_model == "local"
         told = local and visible is not None
-        plain, self.packed = _encodings(task, actions, deadline, local=local, told=told)
-        self.weights = Weights(self.packed, options, None)
+        plain, seen = _packings(prepared, actions, deadline, local=local, told=told)
+        as_it_is = SearchContext(prepared, options, deadline, tables=plain)
+        self.context = SearchContext(prepared, options, deadline, tables=seen) if local else as_it_is
+        self.packed = seen.packed
+        self.weights = self.context.weights
         self.keys = self.weights.keys
-        bound = human_projection(plain, self.weights, deadline)
-        self.bound = _translated(bound, plain, self.packed) if local else bound
+        self.bound = _translated(as_it_is.bound, plain.packed, self.packed) if local else as_it_is.bound
         self.alone = (
             IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, deadline)
             if local
-            else PricedPlanner(self.packed, self.weights, deadline)
+            else as_it_is.alone
         )
         self.intentions = Intentions(self.packed, self.keys, self.weights.human)
-        self.eyes: Eyes = _eyes(task, self.packed, visible, deadline) if local else Everywhere()
+        self.eyes: Eyes = _eyes(prepared, self.packed, visible, deadline) if local else Everywhere()
         self.concern = self.packed.own_mask | self.packed.goal.mask
+        task = prepared.task
         for i in actions:
             if task.actions[i].participants == (task.human,):
                 self.concern |= _asked_by(self.packed.op(i))
@@ -122,19 +128,19 @@ class Human:
         return (cost << self.keys.cost_shift) + (cost << self.keys.objective_shift)
 
 
-def _encodings(
-    task: Task, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
-) -> tuple[PackedTask, PackedTask]:
+def _packings(
+    prepared: PreparedTask, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
+) -> tuple[Tables, Tables]:
     """The task packed as it is, and as he sees it; both hold what the actions ask for."""
-    plain = with_diversions(task, deadline)
-    missing = _missing(plain, actions)
+    plain = prepared.with_diversions(deadline)
+    missing = _missing(plain.packed, actions)
     if missing:
-        plain = PackedTask(task, missing, deadline, diversions(task, deadline))
+        plain = prepared.including(missing, deadline, prepared.diversions(deadline))
     if not local:
         return plain, plain
     if told:
-        return plain, complete_encoding(task, deadline)
-    return plain, doubtful_encoding(task, missing, deadline)
+        return plain, prepared.complete(deadline)
+    return plain, prepared.doubting(missing, deadline) if missing else prepared.doubtful(deadline)
 
 
 def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
@@ -157,8 +163,8 @@ def _asked_by(op: Operator) -> int:
     return mask
 
 
-def _eyes(task: Task, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:
-    return Nearby(packed, surroundings(task, deadline.tick)) if visible is None else AsTold(packed, visible)
+def _eyes(prepared: PreparedTask, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:
+    return Nearby(packed, prepared.surroundings(deadline)) if visible is None else AsTold(packed, visible)
 
 
 def _translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) -> PatternDatabase:

@@ -6,8 +6,8 @@ from fractions import Fraction
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.outcome import Outcome, path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.successor_generator import Successors, as_option
 from search.planner import optimal_human_plans
+from search.prepared_task import PreparedTask
 from search.simulation.human import Human
 from search.simulation.space import Reactive
 from search.spaces.fixed_human_plan import FixedHumanPlan
@@ -20,7 +20,7 @@ from serendipity.model.visibility import Visible
 
 
 def solve_for_human(
-    task: Task,
+    prepared: PreparedTask,
     options: Options,
     *,
     human_plan: HumanPlan | None = None,
@@ -34,7 +34,7 @@ def solve_for_human(
     does not count.
 
     Args:
-        task: the task.
+        prepared: the task.
         options: options in force; ``human_model`` is not ``omniscient``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         visible: what a local human sees; None for the default.
@@ -43,9 +43,9 @@ def solve_for_human(
     Raises:
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
-    deadline = deadline or Deadline(options.time_limit)
+    task, deadline = prepared.task, deadline or Deadline(options.time_limit)
     try:
-        predicted = optimal_human_plans(task, deadline) if human_plan is None else None
+        predicted = optimal_human_plans(prepared, deadline) if human_plan is None else None
     except LIMITS as limit:
         yield Outcome("unknown", reason=limit_reason(limit))
         return
@@ -59,7 +59,7 @@ def solve_for_human(
             yield _left_alone(task, plan, epochs, given=human_plan is not None)
         actions = human_plan or ()
         human = Human(
-            task, options, deadline, human_model=options.human_model, actions=actions, visible=visible
+            prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
         )
     except LIMITS as limit:
         if task.robot_goal:
@@ -145,17 +145,17 @@ class _Call:
 
     def _follow(self) -> None:
         """The plan in which he does ``pi_H`` exactly, robots seeing to ``G_R`` beside him."""
-        packed, weights = self.human.packed, self.human.weights
-        steps = [(op, as_option(op, weights.team(op))) for op in map(packed.op, self.plan)]
+        context = self.human.context
+        steps = context.followed(self.plan)
         if not self.task.robot_goal:
             self.baseline.key = sum(option.weight for _, option in steps)
             return
         space = FixedHumanPlan(
-            initial=packed.init,
+            initial=context.packed.init,
             horizon=self.epochs,
             steps=steps,
-            goals=(packed.goal, packed.robot_goal),
-            successors=self._successors(idle=False),
+            goals=context.goals,
+            successors=context.successors(),
         )
         for _ in best_first(space, self.baseline, Progress(), self.deadline):
             pass
@@ -167,21 +167,12 @@ class _Call:
     def _space(self, *, idle: bool) -> Reactive:
         return Reactive(
             self.human,
-            self._successors(idle=idle),
+            self.human.context.successors(idle=idle),
             horizon=self.epochs,
             human_plan=self.plan,
             no_block=self.options.no_block is not False,
             most_cost=None if idle else self._most_cost(),
             sees_all=self.options.human_model == "observant",
-        )
-
-    def _successors(self, *, idle: bool) -> Successors:
-        return Successors(
-            self.human.packed,
-            self.human.weights.team,
-            self.deadline,
-            strict=self.options.strict,
-            idle=idle,
         )
 
     def _most_cost(self) -> int | None:

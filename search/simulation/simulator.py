@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from search.packed.operators import Operator, applicable
+from search.prepared_task import PreparedTask
 from search.simulation.human import Glance, Human
 from search.simulation.intention import Intention
 from serendipity.model.deadline import Deadline
@@ -91,7 +92,7 @@ class Simulated:
 
 
 def simulate(
-    task: Task,
+    prepared: PreparedTask,
     options: Options,
     human_plan: HumanPlan,
     steps: Iterable[Step],
@@ -104,7 +105,7 @@ def simulate(
     """What becomes of the robots' part of a plan with a human who replans.
 
     Args:
-        task: the task.
+        prepared: the task.
         options: discount and interference.
         human_plan: his plan at the beginning; empty where he has none.
         steps: the composite plan; what it wants him to do alone is not looked at.
@@ -116,13 +117,13 @@ def simulate(
     Raises:
         LimitReachedError: the deadline ran out in the first epoch, or before it.
     """
-    deadline = deadline or Deadline()
+    task, deadline = prepared.task, deadline or Deadline()
     planned: dict[int, list[int]] = {}
     for step in steps:
         if task.actions[step.action].participants != (task.human,):
             planned.setdefault(step.epoch, []).append(step.action)
     asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
-    human = Human(task, options, deadline, human_model=human_model, actions=asked, visible=visible)
+    human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
     return _Run(task, options, human, planned, deadline).play(human_plan, horizon)
 
 

@@ -10,7 +10,8 @@ from search.heuristics.prefix_bounds import FirstInteractionOnTheWay, PrefixBoun
 from search.heuristics.private_distances import NEVER
 from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
-from search.packed.packed_task import human_facts
+from search.packed.operators import Operator
+from search.packed.packings import human_facts
 from search.spaces.windowed import AnyOfPlan, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan
@@ -22,7 +23,7 @@ def window_space(
     """The space of plans with a window.
 
     Args:
-        tables: tables of the call.
+        context: of the call.
         plan: ``pi_H``.
         horizon: ``T``, at least ``|pi_H|``.
         most_cost: largest scaled cost of an acceptable plan, or None.
@@ -90,7 +91,7 @@ def bounds_along(
     second is None where there is nothing to tell apart.
 
     Args:
-        tables: tables of the call.
+        context: of the call.
         plan: ``pi_H``.
         horizon: ``T``, at least ``|pi_H|``.
         limit: key that a plan has to beat.
@@ -101,7 +102,7 @@ def bounds_along(
     ways, outside = context.ways, context.interactions.outside
     steps = context.followed(plan)
     followed = [op for op, _ in steps]
-    providers = Achievers(context.packed, context.interactions, robots, followed, context.deadline)
+    providers = _achievers(context, robots, followed)
     state, cost = context.packed.init, 0
     sources, spent = [], []
     for epoch, (op, option) in enumerate(steps):
@@ -146,6 +147,12 @@ def bounds_along(
     )
 
 
+def _achievers(context: SearchContext, weights: Sequence[int], followed: Sequence[Operator]) -> Achievers:
+    deadline = context.deadline
+    transitions = context.tables.robots.transitions(deadline)
+    return Achievers(context.packed, transitions, context.interactions, weights, followed, deadline)
+
+
 def _reach(context: SearchContext, horizon: int, limit: int) -> int:
     """The most epochs of a window that can still beat ``limit``."""
     most = min(horizon, context.options.max_window or horizon)
@@ -159,9 +166,7 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
     last = NEVER if horizon is None else horizon
     if not idle:
         ways = context.ways
-        providers = Achievers(
-            context.packed, context.interactions, context.weights.robots, (), context.deadline
-        )
+        providers = _achievers(context, context.weights.robots, ())
         least = ways.explore([(0, context.packed.init)], limit).totals
 
         def total(need: int, cost: int) -> int:

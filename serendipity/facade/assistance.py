@@ -5,6 +5,7 @@ from fractions import Fraction
 from functools import partial
 from importlib import import_module
 
+from search import PreparedTask
 from search.assistance import Assistance, assist
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
@@ -20,7 +21,9 @@ def load_arrays() -> None:
     import_module("search.assistance.distances.perimeter")
 
 
-def assistance_answers(task: Task, options: Options, deadline: Deadline) -> Iterator[Callable[[], Result]]:
+def assistance_answers(
+    prepared: PreparedTask, options: Options, deadline: Deadline
+) -> Iterator[Callable[[], Result]]:
     """Answers of falling value, put into words when called; the last one is the best known.
 
     ``cost`` and ``objective`` are the sum of both totals, ``lower_bound`` bounds that sum for
@@ -30,8 +33,8 @@ def assistance_answers(task: Task, options: Options, deadline: Deadline) -> Iter
     Raises:
         UsageError: there is not exactly one robot.
     """
-    for answer in assist(task, options, deadline):
-        yield partial(_result, task, options, answer, deadline)
+    for answer in assist(prepared, options, deadline):
+        yield partial(_result, prepared.task, options, answer, deadline)
 
 
 def _result(task: Task, options: Options, answer: Assistance, deadline: Deadline) -> Result:

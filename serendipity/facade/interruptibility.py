@@ -8,6 +8,7 @@ from typing import Any, Final
 from search.interruptions import Interruptions, WindowOutcome
 from search.interruptions import interruptions as search_windows
 from serendipity.facade.planning import options_from
+from serendipity.facade.prepared import HELD
 from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
 from serendipity.model.collection import no_collection
 from serendipity.model.errors import LIMITS, limit_reason
@@ -161,14 +162,14 @@ def interruptions(
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         LimitReachedError: a limit came before it was known what the human is going to do.
     """
-    limits = limits_from(time_limit, memory_limit, deadline)
+    prepared, limits = HELD.of(task), limits_from(time_limit, memory_limit, deadline)
     for name in options:
         if name not in _OPTIONS:
             raise UsageError(f"interruptions: expected options among {', '.join(_OPTIONS)}, got '{name}'")
     chosen = options_from(options)
     given = None if human_plan is None else task.plan_from_names(human_plan)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
-        found = search_windows(task, chosen, human_plan=given, deadline=limits, on_progress=on_progress)
+        found = search_windows(prepared, chosen, human_plan=given, deadline=limits, on_progress=on_progress)
         return _alone_impossible(task, chosen) if found is None else _reported(task, chosen, found)
 
 

@@ -9,8 +9,9 @@ left to the first call: who checks, shows or verifies plans does without.
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from search import prepare
+from search import PreparedTask, prepare
 from serendipity import pddl
+from serendipity.facade.prepared import HELD
 from serendipity.model.deadline import Deadline
 from serendipity.model.limits import limits_from
 from serendipity.model.task import Task
@@ -88,10 +89,10 @@ def load_pddl(
 
 def _ready(task: Task, limits: Deadline, on_progress: OnProgress | None) -> Task:
     if len(task.actions) > _LARGE:
-        within_limits(lambda work: _prepare(task, work), limits, on_progress)
+        HELD.hold(within_limits(lambda work: _prepare(task, work), limits, on_progress))
     return task
 
 
-def _prepare(task: Task, work: Work) -> None:
+def _prepare(task: Task, work: Work) -> PreparedTask:
     work.stage(f"preparing {len(task.actions):,} ground actions")
-    prepare(task, deadline=work.deadline)
+    return prepare(task, work.deadline)

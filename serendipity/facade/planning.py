@@ -7,9 +7,10 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
-from search import Outcome, least_over_ties, optimal_human_plans, solve
+from search import Outcome, PreparedTask, least_over_ties, optimal_human_plans, solve
 from search.simulation import solve_for_human
 from serendipity.facade.gap import Gap, news
+from serendipity.facade.prepared import HELD
 from serendipity.facade.simulation import realised
 from serendipity.facade.ties import Answered, combined, until_settled
 from serendipity.model.actions import GroundAction
@@ -32,6 +33,9 @@ _ANSWER_SHARE: Final = 0.05
 
 _VERDICT_SHARE: Final = 0.02
 """What the verdict on humans who replan may add to the time limit: a share of it."""
+
+Given = Callable[[], HumanPlan] | None
+"""What the human is going to do, replayed when it is asked for; None to predict it."""
 
 
 def plan(
@@ -69,8 +73,34 @@ def plan(
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         InputError: ``goals`` or ``observed`` are wrong; it says where.
     """
+    return planned(
+        HELD.of(task),
+        _given(task, human_plan),
+        visible=visible,
+        cancelled=cancelled,
+        deadline=deadline,
+        goals=goals,
+        observed=observed,
+        beta=beta,
+        **options,
+    )
+
+
+def planned(
+    prepared: PreparedTask,
+    given: Given,
+    *,
+    visible: Visible | None = None,
+    cancelled: threading.Event | None = None,
+    deadline: Deadline | None = None,
+    goals: "GoalsGiven | None" = None,
+    observed: "ObservedGiven" = (),
+    beta: Number = 1,
+    **options: Any,
+) -> Result:
+    """:func:`plan` for those who hold a prepared task."""
     if goals is not None:
-        if human_plan is not None:
+        if given is not None:
             raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
         # Loaded only here, before time counts: who knows the goal has nothing to do with it.
         from serendipity.facade.unknown_goals import plan_for_goals
@@ -78,14 +108,14 @@ def plan(
         chosen = options_from(options)
         limits = limits_from(chosen.time_limit, chosen.memory_limit, deadline, cancelled)
 
-        def known(about: Task, names: tuple[str, ...] | None) -> Result:
-            return plan(about, human_plan=names, visible=visible, deadline=limits, **options)
+        def known(about: PreparedTask, names: tuple[str, ...] | None) -> Result:
+            return planned(about, _given(about.task, names), visible=visible, deadline=limits, **options)
 
         with no_collection():
             early = limits.sooner(_ANSWER_SHARE)
-            return plan_for_goals(task, goals, observed, beta, chosen, known, early)
+            return plan_for_goals(prepared, goals, observed, beta, chosen, known, early)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
-        *_, last = _answers(task, human_plan, visible, options, cancelled, deadline)
+        *_, last = _answers(prepared, given, visible, options, cancelled, deadline)
         return last()
 
 
@@ -102,7 +132,23 @@ def plan_anytime(
 
     Args and errors are those of :func:`plan`.
     """
-    answers = _answers(task, human_plan, visible, options, cancelled, deadline)
+    given = _given(task, human_plan)
+    yield from planned_anytime(
+        HELD.of(task), given, visible=visible, cancelled=cancelled, deadline=deadline, **options
+    )
+
+
+def planned_anytime(
+    prepared: PreparedTask,
+    given: Given,
+    *,
+    visible: Visible | None = None,
+    cancelled: threading.Event | None = None,
+    deadline: Deadline | None = None,
+    **options: Any,
+) -> Iterator[Result]:
+    """:func:`plan_anytime` for those who hold a prepared task."""
+    answers = _answers(prepared, given, visible, options, cancelled, deadline)
     while True:
         with no_collection():  # only while it plans: what the caller does with an answer is his
             answer = next(answers, None)
@@ -112,22 +158,31 @@ def plan_anytime(
         yield result
 
 
+def _given(task: Task, names: Iterable[str] | None) -> Given:
+    return None if names is None else partial(task.plan_from_names, names)
+
+
 @dataclass(frozen=True, slots=True)
 class _Call:
     """What one call asks for."""
 
-    task: Task
+    prepared: PreparedTask
     options: Options
     deadline: Deadline
     visible: Visible | None
     limits: Deadline
     """The deadline with the time that is kept for the end."""
 
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.prepared.task
+
     def outcomes(self, human_plan: HumanPlan | None) -> Iterator[Outcome]:
         if self.options.human_model == "omniscient":
-            return solve(self.task, self.options, human_plan=human_plan, deadline=self.deadline)
+            return solve(self.prepared, self.options, human_plan=human_plan, deadline=self.deadline)
         return solve_for_human(
-            self.task, self.options, human_plan=human_plan, visible=self.visible, deadline=self.deadline
+            self.prepared, self.options, human_plan=human_plan, visible=self.visible, deadline=self.deadline
         )
 
     def last(self, human_plan: HumanPlan | None) -> Answered:
@@ -139,8 +194,8 @@ class _Call:
 
 
 def _answers(
-    task: Task,
-    human_plan: Iterable[str] | None,
+    prepared: PreparedTask,
+    given: Given,
     visible: Visible | None,
     options: dict[str, Any],
     cancelled: threading.Event | None,
@@ -158,20 +213,20 @@ def _answers(
         raise UsageError(f"visible: is for human_model 'local' only, not for '{chosen.human_model}'")
     limits = limits_from(chosen.time_limit, chosen.memory_limit, outer, cancelled)
     deadline = limits.sooner(_ANSWER_SHARE)
-    given = None if human_plan is None else task.plan_from_names(human_plan)
+    human_plan = None if given is None else given()
     if chosen.mode == "assistance":
-        if given is not None:
+        if human_plan is not None:
             raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")
-        yield from assistance_answers(task, chosen, deadline)
+        yield from assistance_answers(prepared, chosen, deadline)
         return
-    if given is not None:
+    if human_plan is not None:
         chosen = chosen.but(ties="fixed")  # there is but one plan
-    call = _Call(task, chosen, deadline, visible, limits)
+    call = _Call(prepared, chosen, deadline, visible, limits)
     if chosen.ties != "fixed" and _depends_on_ties(chosen):
         yield partial(_over_ties, call)
         return
     gap = Gap(deadline)
-    for outcome in news(call.outcomes(given)):
+    for outcome in news(call.outcomes(human_plan)):
         gap.record(outcome)
         yield partial(_to_result, call, outcome, gap.known())
 
@@ -197,7 +252,7 @@ def _over_ties(call: _Call) -> Result:
     """The task solved once for each optimal ``pi_H`` (semantics 1)."""
     options = call.options
     try:
-        graph = optimal_human_plans(call.task, call.deadline)
+        graph = optimal_human_plans(call.prepared, call.deadline)
     except LIMITS as limit:
         return _to_result(call, Outcome("unknown", reason=limit_reason(limit)))
     if graph is None:
@@ -213,7 +268,7 @@ def _over_ties(call: _Call) -> Result:
             map(call.last, graph.plans()),
             options.ties,
             bounded=not call.task.robot_goal,
-            least=lambda: least_over_ties(call.task, options, graph, call.deadline),
+            least=lambda: least_over_ties(call.prepared, options, graph, call.deadline),
         )
     )
     result = combined(
@@ -269,7 +324,7 @@ def _realised(call: _Call, outcome: Outcome) -> dict[str, bool]:
     if outcome.steps is None or outcome.cost is None:
         return {}
     return realised(
-        call.task,
+        call.prepared,
         call.options,
         outcome.human_plan or (),
         outcome.steps,

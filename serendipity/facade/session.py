@@ -2,14 +2,15 @@
 
 import threading
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 from typing import Any
 
-from search import at_state
-from serendipity.facade.planning import plan, plan_anytime
+from serendipity.facade.planning import Given, planned, planned_anytime
+from serendipity.facade.prepared import HELD
 from serendipity.model.actions import Condition, GroundAction, conflicting
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.result import Result
-from serendipity.model.task import Task, canonical_name
+from serendipity.model.task import HumanPlan, Task, canonical_name
 
 
 class Session:
@@ -25,26 +26,31 @@ class Session:
     """
 
     def __init__(self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> None:
-        self._task = task
+        self._prepared = HELD.of(task)
         self._options = options
-        self._human_plan = None if human_plan is None else tuple(human_plan)
+        self._given = None if human_plan is None else tuple(human_plan)
+        """Names of a plan that nothing has been made of yet: it may be one only after the next change."""
+        self._human_plan: HumanPlan | None = None
+        """The plan; at most one of the two is known."""
         self._cancelled = threading.Event()
 
     @property
     def task(self) -> Task:
         """The task from the present state."""
-        return self._task
+        return self._prepared.task
 
     @property
     def human_plan(self) -> tuple[str, ...] | None:
         """What the human is going to do; None until it is given or predicted."""
-        return self._human_plan
+        if self._human_plan is None:
+            return self._given
+        return tuple(self.task.actions[i].name for i in self._human_plan)
 
     def plan(self, **options: Any) -> Result:
         """The best answer from the present state (see :func:`serendipity.plan`)."""
         self._cancelled.clear()
         chosen = {**self._options, **options}
-        answer = plan(self._task, human_plan=self._human_plan, cancelled=self._cancelled, **chosen)
+        answer = planned(self._prepared, self._known_plan(), cancelled=self._cancelled, **chosen)
         self._learn(answer)
         return answer
 
@@ -52,15 +58,28 @@ class Session:
         """Answers as they get better; :meth:`cancel` ends them with the incumbent."""
         self._cancelled.clear()
         chosen = {**self._options, **options}
-        for answer in plan_anytime(
-            self._task, human_plan=self._human_plan, cancelled=self._cancelled, **chosen
-        ):
+        given = self._known_plan()
+        for answer in planned_anytime(self._prepared, given, cancelled=self._cancelled, **chosen):
             self._learn(answer)
             yield answer
 
-    def _learn(self, answer: Result) -> None:
+    def _known_plan(self) -> Given:
+        return None if self._human_plan is None and self._given is None else self._replayed
+
+    def _replayed(self) -> HumanPlan:
+        """What the human is going to do.
+
+        Raises:
+            PlanError: the names that were given are no plan.
+        """
         if self._human_plan is None:
-            self._human_plan = answer.human_plan
+            assert self._given is not None, "asked for a plan that nobody knows"
+            self._human_plan, self._given = self.task.plan_from_names(self._given), None
+        return self._human_plan
+
+    def _learn(self, answer: Result) -> None:
+        if self.human_plan is None:
+            self._given = answer.human_plan
 
     def cancel(self) -> None:
         """End the running call, from any thread; it returns the incumbent."""
@@ -82,8 +101,8 @@ class Session:
                     raise UsageError(f"'{other.name}' and '{action.name}' can't share an epoch")
         deleted = {fact for action in chosen for fact in action.delete}
         added = {fact for action in chosen for fact in action.add}
-        self._task = at_state(self._task, self._task.init.difference(deleted).union(added))
-        self._follow([action for action in chosen if self._task.human in action.participants])
+        self._prepared = self._prepared.at(self.task.init.difference(deleted).union(added))
+        self._follow([action for action in chosen if self.task.human in action.participants])
 
     def change(self, facts: Mapping[str, bool]) -> None:
         """Set facts to true or false, as they were seen.
@@ -91,11 +110,11 @@ class Session:
         Raises:
             UsageError: there is no such fact.
         """
-        state = set(self._task.init)
+        state = set(self.task.init)
         for name, true in facts.items():
             fact = self._fact(name)
             state.add(fact) if true else state.discard(fact)
-        self._task = at_state(self._task, frozenset(state))
+        self._prepared = self._prepared.at(frozenset(state))
         self._keep_plan_if_it_works()
 
     def set_goal(self, goal: Iterable[str]) -> None:
@@ -107,38 +126,44 @@ class Session:
         literals = list(goal)
         positive = sorted(self._fact(name) for name in literals if not name.startswith("!"))
         negative = sorted(self._fact(name[1:]) for name in literals if name.startswith("!"))
-        self._task = self._task.with_goal(Condition(tuple(positive), tuple(negative)))
-        self._human_plan = None
+        self._prepared = self._prepared.with_goal(Condition(tuple(positive), tuple(negative)))
+        self._human_plan = self._given = None
 
     def _follow(self, his: list[GroundAction]) -> None:
-        if self._human_plan is None or not his:
-            self._keep_plan_if_it_works()
-            return
-        (action,) = his
-        on_plan = not action.joint and self._human_plan[:1] == (action.name,)
-        self._human_plan = self._human_plan[1:] if on_plan else None
+        known = self.human_plan
+        if known is not None and his:
+            (action,) = his
+            on_plan = not action.joint and known[:1] == (action.name,)
+            self._human_plan = self._human_plan[1:] if on_plan and self._human_plan is not None else None
+            self._given = self._given[1:] if on_plan and self._given is not None else None
         self._keep_plan_if_it_works()
 
     def _keep_plan_if_it_works(self) -> None:
-        if self._human_plan is None:
-            return
         try:
-            self._task.plan_from_names(self._human_plan)
+            if self._human_plan is not None:
+                self._human_plan = self.task.variants_of(self._human_plan)
+            elif self._given is not None:
+                self._replayed()
         except PlanError:
-            self._human_plan = None
+            self._human_plan = self._given = None
 
     def _action(self, name: str) -> GroundAction:
-        ids = self._task.named.get(canonical_name(name))
+        ids = self.task.named.get(canonical_name(name))
         if ids is None:
             raise UsageError(f"there is no action '{name}' in the task")
-        actions = [self._task.actions[i] for i in ids]
-        found = next((action for action in actions if action.applicable(self._task.init)), None)
+        actions = [self.task.actions[i] for i in ids]
+        found = next((action for action in actions if action.applicable(self.task.init)), None)
         if found is None:
             raise UsageError(f"'{name}' is not applicable in the present state")
         return found
 
     def _fact(self, name: str) -> int:
-        try:
-            return self._task.facts.index(canonical_name(name))
-        except ValueError:
-            raise UsageError(f"there is no fact '{name}' in the task") from None
+        fact = self._facts.get(canonical_name(name))
+        if fact is None:
+            raise UsageError(f"there is no fact '{name}' in the task")
+        return fact
+
+    @cached_property
+    def _facts(self) -> dict[str, int]:
+        """Ids of facts by name, which no move changes."""
+        return {name: fact for fact, name in enumerate(self.task.facts)}

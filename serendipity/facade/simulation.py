@@ -4,8 +4,10 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Final
 
+from search import PreparedTask
 from search.simulation import Epoch, Simulated
 from search.simulation import simulate as play
+from serendipity.facade.prepared import HELD
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, InputError, UsageError
 from serendipity.model.limits import limits_from
@@ -58,7 +60,7 @@ def simulate(
     horizon = result.horizon if isinstance(result.horizon, int) else None
     steps = [Step(step.epoch, _action(task, step)) for step in result.plan]
     simulated = play(
-        task,
+        HELD.of(task),
         result.options,
         plan,
         steps,
@@ -71,7 +73,7 @@ def simulate(
 
 
 def realised(
-    task: Task,
+    prepared: PreparedTask,
     options: Options,
     human_plan: HumanPlan,
     steps: tuple[Step, ...],
@@ -92,7 +94,7 @@ def realised(
         try:
             deadline.check()  # what comes first can't be interrupted, and takes milliseconds on big tasks
             simulated = play(
-                task,
+                prepared,
                 options,
                 human_plan,
                 steps,

@@ -9,6 +9,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
 
+from search import PreparedTask
 from search.goals import Candidate, Expected, ServedGoal, explanations, solve_expected
 from serendipity.model import Options, PlanStep, Result, Step, Task, UsageError
 from serendipity.model.deadline import Deadline
@@ -25,7 +26,7 @@ from serendipity.recognition.candidates import (
 from serendipity.recognition.recognise import posterior, strictness
 from serendipity.recognition.recognition import Recognition
 
-Solve = Callable[[Task, tuple[str, ...] | None], Result]
+Solve = Callable[[PreparedTask, tuple[str, ...] | None], Result]
 """Section 3 for a task, and ``pi_H`` or None to predict it."""
 
 _FIXED: Final[dict[str, object]] = {"ties": "fixed", "human_model": "omniscient", "max_cost": None}
@@ -33,7 +34,7 @@ _FIXED: Final[dict[str, object]] = {"ties": "fixed", "human_model": "omniscient"
 
 
 def plan_for_goals(
-    task: Task,
+    prepared: PreparedTask,
     goals: GoalsGiven,
     observed: ObservedGiven,
     beta: Number,
@@ -52,6 +53,7 @@ def plan_for_goals(
         InputError: a file or an entry of it is wrong.
         UsageError: an option that has no meaning here.
     """
+    task = prepared.task
     if options.mode != "serendipity":
         raise UsageError(f"goals: are for mode 'serendipity' only, not for '{options.mode}'")
     candidates = candidate_goals(task, goals)
@@ -74,7 +76,7 @@ def plan_for_goals(
         result = Result("serendipity", "infeasible", recognition.human, options, reason="no-human-plan")
         return _with(result, recognition, deadline, [])
     if len(considered) == 1:
-        return _certain(task, candidates, considered[0], plans, recognition, solve)
+        return _certain(prepared, candidates, considered[0], plans, recognition, solve)
     total = sum(recognition.goals[i].weight for i in considered)
     asked = []
     for i in considered:
@@ -86,7 +88,7 @@ def plan_for_goals(
         raise UsageError(
             f"horizon: expected at least {longest}, as long as the longest plan, got {options.horizon}"
         )
-    answer = solve_expected(task, options, asked, deadline)
+    answer = solve_expected(prepared, options, asked, deadline)
     entries = [
         _entry(task, options, recognition.goals[i].name, candidate, served)
         for i, candidate, served in zip(considered, asked, answer.served, strict=True)
@@ -123,7 +125,7 @@ def _refuse(task: Task, options: Options) -> None:
 
 
 def _certain(
-    task: Task,
+    prepared: PreparedTask,
     candidates: tuple[CandidateGoal, ...],
     index: int,
     plans: list[HumanPlan | None],
@@ -131,7 +133,7 @@ def _certain(
     solve: Solve,
 ) -> Result:
     """One goal is left: section 3, with the plan that explains the observations."""
-    goal = task.with_goal(candidates[index].goal)
+    task, goal = prepared.task, prepared.with_goal(candidates[index].goal)
     plan = plans[index]
     names = None
     if recognition.observed and recognition.explained and plan is not None:

@@ -1,20 +1,16 @@
 """The task: agents, facts, ground actions, initial state, goals."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import InitVar, dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from serendipity.model.actions import NOOP, Condition, Disjunction, GroundAction
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.names import ActionNames
 from serendipity.model.variables import Variable, find_variables
-
-T = TypeVar("T")
-P = ParamSpec("P")
 
 HumanPlan = tuple[int, ...]
 """``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t."""
@@ -89,31 +85,6 @@ class Task:
         """Action ids by name (names are not unique, see the class)."""
         return ActionNames(self.actions)
 
-    @cached_property
-    def _derived(self) -> dict[Any, Any]:
-        return {}
-
-    def derived(self, build: "Callable[Concatenate[Task, P], T]", *args: P.args, **kwargs: P.kwargs) -> T:
-        """``build(self, ...)``, computed once: tables that a layer above keeps with the task.
-
-        What else is given may only say how it is built (a deadline to ask for time, say), not what.
-        """
-        if build not in self._derived:
-            self._derived[build] = build(self, *args, **kwargs)
-        return self._derived[build]  # type: ignore[no-any-return]
-
-    def kept(self, build: "Callable[Concatenate[Task, P], T]") -> T | None:
-        """What :meth:`derived` keeps already; None where nobody has asked for it yet."""
-        return self._derived.get(build)
-
-    def keep_derived(self, build: "Callable[Concatenate[Task, P], T]", value: T) -> None:
-        """Let :meth:`derived` give ``value``, which is known to be what ``build`` would give."""
-        self._derived[build] = value
-
-    def forget_derived(self) -> None:
-        """Drop what :meth:`derived` keeps, for measurements."""
-        self._derived.clear()
-
     def team_cost(self, action: GroundAction, discount: Fraction) -> Fraction:
         """What an action costs the team: full with the human, else discounted (semantics 1)."""
         return action.cost if self.human in action.participants else action.cost * (1 - discount)
@@ -175,6 +146,21 @@ class Task:
             state = self._after(state, chosen, len(plan))
         self._require_goal(state, tuple(plan))
         return tuple(plan)
+
+    def variants_of(self, plan: HumanPlan) -> HumanPlan:
+        """The same human plan from this initial state: each action in the variant that is applicable then.
+
+        Raises:
+            PlanError: a step is not applicable, or the goal is missed.
+        """
+        found: list[int] = []
+        state = self.init
+        for step, action_id in enumerate(plan, start=1):
+            ids = self.named[self.actions[action_id].name]
+            found.append(next((i for i in ids if self.actions[i].applicable(state)), ids[0]))
+            state = self._after(state, found[-1], step)
+        self._require_goal(state, tuple(found))
+        return tuple(found)
 
     def names(self, plan: HumanPlan) -> frozenset[str]:
         """What a plan consists of, by name: actions of one name are variants of one (see the class)."""

@@ -53,16 +53,12 @@ def _untimed() -> None:
 
 
 def surroundings(task: Task, tick: Callable[[], None] = _untimed) -> Surroundings:
-    """The surroundings of a task; computed once and kept with it.
+    """The surroundings of a task.
 
     Args:
         task: the task.
         tick: called every so often; what it raises ends the work.
     """
-    return task.derived(_find, tick)
-
-
-def _find(task: Task, tick: Callable[[], None]) -> Surroundings:
     words, parts = [], []
     for name in task.facts:
         tick()

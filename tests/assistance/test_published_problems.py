@@ -7,6 +7,7 @@ import pytest
 
 import serendipity
 from benchmarks.assistance import domain_of, number, problems
+from search import PreparedTask
 from search.assistance import joint_optimum
 from serendipity import Task
 from tests.assistance.oracle import Costs
@@ -38,7 +39,7 @@ def proved(task: Task, ties: str) -> Costs:
 def test_values_stand_in_order(spa: Path, domain: str, problem: int) -> None:
     task = load(spa / domain, problem)
     values = {ties: proved(task, ties) for ties in ("optimistic", "fixed", "expected", "robust")}
-    assert joint_optimum(task) <= values["optimistic"] <= values["fixed"]
+    assert joint_optimum(PreparedTask(task)) <= values["optimistic"] <= values["fixed"]
     assert values["optimistic"] <= values["expected"] <= values["robust"]
 
 

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
+from search import PreparedTask
 from search.assistance import joint_optimum
 from serendipity import Result, Task
 from tests.assistance.oracle import Costs, by_rounds, explore, mean_over_all_policies
@@ -56,5 +57,5 @@ def test_values_stand_in_order(task: Task, no_block: bool) -> None:
         ties: solve(task, ties, no_block=no_block) or never
         for ties in ("optimistic", "fixed", "expected", "robust")
     }
-    assert (joint_optimum(task) or never) <= values["optimistic"] <= values["fixed"]
+    assert (joint_optimum(PreparedTask(task)) or never) <= values["optimistic"] <= values["fixed"]
     assert values["optimistic"] <= values["expected"] <= values["robust"]

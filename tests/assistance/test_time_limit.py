@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
+from search import PreparedTask
 from search.assistance import Assistance, assist
 from search.assistance.bounds import bound
 from search.assistance.bounds import relaxed_provision as provision
@@ -32,7 +33,7 @@ TIES = ("optimistic", "fixed", "robust", "expected")
 def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: int, tables: bool) -> None:
     """Also where it is up while the first bound is worked out."""
     options = Options(mode="assistance", ties=ties)
-    *_, full = assist(game, options, Deadline())
+    *_, full = assist(PreparedTask(game), options, Deadline())
     with pytest.MonkeyPatch.context() as patch:
         for module in (closure, provision, branching, shortest):
             for name in ("_CHECK_EVERY", "SMALL", "MEDIUM"):
@@ -41,7 +42,7 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
         if not tables:
             patch.setattr(ball, "MAX_BITS", -1)
             patch.setattr(bound, "MAX_JOINT_STATES", 0)
-        *_, answer = assist(game, options, Countdown(questions))
+        *_, answer = assist(PreparedTask(game), options, Countdown(questions))
     if answer.status in ("optimal", "infeasible"):
         assert (answer.status, answer.upper) == (full.status, full.upper)
     elif full.upper is not None:
@@ -53,8 +54,8 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
 @pytest.mark.parametrize("case", [case_5, case_6])
 def test_doing_nothing_is_an_answer_as_soon_as_his_own_plan_is_known(case, ties: str) -> None:
     options = Options(mode="assistance", ties=ties)
-    *_, full = assist(case(), options, Deadline())
-    answers = [last(assist(case(), options, Countdown(questions))) for questions in range(400)]
+    *_, full = assist(PreparedTask(case()), options, Deadline())
+    answers = [last(assist(PreparedTask(case()), options, Countdown(questions))) for questions in range(400)]
     known = [answer for answer in answers if answer.status != "unknown"]
     assert (answers[0].status, answers[-1].status) == ("unknown", "optimal")
     assert answers[-len(known) :] == known  # more time never leaves less
@@ -77,7 +78,7 @@ def test_no_time_and_no_plan_alone_is_unknown() -> None:
 
 @pytest.mark.parametrize("case", [case_5, case_6])
 def test_relaxed_bounds_enclose_the_optimum(case) -> None:
-    game = Game(case(), Deadline())
+    game = Game(PreparedTask(case()), Deadline())
     optimum = by_rounds(explore(case(), fixed=False, no_block=False), min)
     assert game.pair(joint_lower_bound(game, Deadline())) <= optimum
     assert game.pair(upper_bound_alone(game)) >= (2, 0)

@@ -4,7 +4,7 @@ from hypothesis import given
 
 from search.assistance.distances.watched import Watched
 from search.packed.operators import applicable
-from search.packed.packed_task import pack
+from search.packed.packed_task import PackedTask
 from serendipity.model import Task
 from serendipity.model.deadline import Deadline
 from tests.assistance.strategies import games
@@ -12,7 +12,7 @@ from tests.assistance.strategies import games
 
 @given(task=games())
 def test_every_applicable_op_is_a_candidate(task: Task) -> None:
-    packed = pack(task, Deadline())
+    packed = PackedTask(task, frozenset(), Deadline())
     ops = packed.own + packed.others
     watched = Watched(ops, packed.fields, Deadline())
     pending, seen = [packed.init], {packed.init}

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 
 import serendipity
-from search import Outcome, least_over_ties, optimal_human_plans, solve
+from search import Outcome, PreparedTask, least_over_ties, optimal_human_plans, solve
 from serendipity import UsageError
 from serendipity.facade.ties import Answered, combined, until_settled
 from serendipity.model import Condition, Options, Result, Task, Window
@@ -168,15 +168,15 @@ def _then_never(answers: list[Answered]) -> Iterator[Answered]:
 @given(calls(modes=("serendipity", "communication"), ties=False))
 def test_the_bound_is_one(call: Call) -> None:
     task = replace(call.task, robot_goal=Condition())
-    graph = optimal_human_plans(task)
+    graph = optimal_human_plans(PreparedTask(task))
     if graph is None or not 1 < graph.count() <= 12:
         return
     options = call.options
-    bound = least_over_ties(task, options, graph, Deadline())
+    bound = least_over_ties(PreparedTask(task), options, graph, Deadline())
     assert bound is not None
     costs = []
     for plan in graph.plans():
-        *_, outcome = solve(task, options, human_plan=plan)
+        *_, outcome = solve(PreparedTask(task), options, human_plan=plan)
         assert outcome.cost is not None, "he can be left alone"
         costs.append(outcome.cost)
     assert bound <= min(costs)
@@ -185,7 +185,7 @@ def test_the_bound_is_one(call: Call) -> None:
 def test_the_bound_is_met_where_windows_are_short() -> None:
     """In the grid help is met in one epoch: K decides, and 58,212 plans are answered by 4."""
     task = _grid(7, kits={"k1": "x6y6", "k2": "x6y5"})
-    graph = optimal_human_plans(task)
+    graph = optimal_human_plans(PreparedTask(task))
     assert graph is not None
     assert graph.count() == 58_212
     answer = serendipity.plan(task, discount="0.9", ties="optimistic", max_ties=10**6)
@@ -203,7 +203,7 @@ def test_plans_are_counted_not_listed() -> None:
     """Plans share their steps: counting them looks at each step once."""
     task = _grid(7, kits={"k": "x6y6"})
     started = process_time()
-    graph = optimal_human_plans(task)
+    graph = optimal_human_plans(PreparedTask(task))
     assert graph is not None
     count = graph.count()
     assert count > 10**5

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
+from search import PreparedTask
 from search.engine.outcome import plan_steps
 from search.goals import Candidate, Expected, ServedGoal, solve_expected
 from search.goals.planner import _Search
@@ -44,14 +45,14 @@ def test_two_goals(rivalry: tuple[Task, list[Candidate]], options: Options) -> N
     horizon = max(len(candidate.plan) for candidate in candidates)
     if len(robots_sets(task, strict=options.strict)) ** horizon > _MOST_PLANS:
         horizon = 0  # too many for brute force: only the laws below are checked
-    answer = solve_expected(task, options, candidates)
+    answer = solve_expected(PreparedTask(task), options, candidates)
     assert answer.status == "optimal"
     assert answer.cost <= answer.baseline
     assert sum(c.weight * s.cost for c, s in zip(candidates, answer.served, strict=True)) == answer.cost
     if horizon:
         objective, cost = best_expected(task, options, candidates, horizon)
         idle = solve_expected(
-            replace(task, actions=_without_robots(task)), options, _renamed(task, candidates)
+            PreparedTask(replace(task, actions=_without_robots(task))), options, _renamed(task, candidates)
         )
         helps = cost < idle.cost
         assert answer.opportunity == helps
@@ -63,7 +64,7 @@ def test_two_goals(rivalry: tuple[Task, list[Candidate]], options: Options) -> N
 def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]], options: Options) -> None:
     """Also those that are served at no gain; to the checker of section 3 they would be no opportunity."""
     task, candidates = rivalry
-    answer = solve_expected(task, options, candidates)
+    answer = solve_expected(PreparedTask(task), options, candidates)
     for candidate, served in zip(candidates, answer.served, strict=True):
         own = replace(task, goal=candidate.goal)
         robots = {s for s in served.steps if task.human not in task.actions[s.action].participants}
@@ -151,7 +152,7 @@ def test_the_search_by_itself_is_section_3_with_one_goal() -> None:
         plan = call.human_plan or optimal_human_plan(task)
         if plan is None:
             return
-        one = solve_expected(task, options, [Candidate(task.goal, plan, Fraction(1))])
+        one = solve_expected(PreparedTask(task), options, [Candidate(task.goal, plan, Fraction(1))])
         names = [task.actions[i].name for i in plan]
         known = serendipity.plan(task, human_plan=names, **options.to_dict())
         assert (float(one.cost), one.opportunity) == (known.cost, known.opportunity)
@@ -166,11 +167,11 @@ def test_the_answers_for_single_goals_only_save_time() -> None:
     @settings(max_examples=12)
     def law(rivalry: tuple[Task, list[Candidate]], options: Options) -> None:
         task, candidates = rivalry
-        unguided = solve_expected(task, options, candidates)
+        unguided = solve_expected(PreparedTask(task), options, candidates)
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(_Search, "_floor", _FLOOR)
             patch.setattr(_Search, "_own_actions", _OWN_ACTIONS)
-            guided = solve_expected(task, options, candidates)
+            guided = solve_expected(PreparedTask(task), options, candidates)
         assert (guided.objective, guided.cost) == (unguided.objective, unguided.cost)
 
     law()

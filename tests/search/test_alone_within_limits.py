@@ -1,5 +1,6 @@
 """The human's key from a state, asked within limits: what is not below a limit is not out of reach."""
 
+from search import PreparedTask
 from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task
@@ -20,7 +21,7 @@ def _door() -> Task:
 
 def test_what_is_beyond_a_limit_is_found_under_a_higher_one() -> None:
     task = _door()
-    context = SearchContext(task, Options(), Deadline())
+    context = SearchContext(PreparedTask(task), Options(), Deadline())
     alone, keys = context.alone, context.keys
     packed = context.packed
     start = packed.init

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 
-from search import solve
+from search import PreparedTask, solve
 from search.engine import best_first
 from serendipity import Result, plan, plan_anytime
 from serendipity.model import Options
@@ -54,7 +54,9 @@ def test_reported_bounds_hold(call: Call) -> None:
     options = replace(call.options, time_limit=None)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(best_first.Progress, "due", lambda *_: True)
-        outcomes = list(solve(call.task, options, human_plan=call.human_plan, deadline=Deadline()))
+        outcomes = list(
+            solve(PreparedTask(call.task), options, human_plan=call.human_plan, deadline=Deadline())
+        )
     last = outcomes[-1]
     bounds = [o.lower_bound for o in outcomes if o.lower_bound is not None]
     if last.status == "optimal":
@@ -67,8 +69,8 @@ def test_reported_bounds_hold(call: Call) -> None:
 def test_bounds_are_reported_while_no_better_plan_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """A search that proves its first answer by raising the bound tells so on the way."""
     options = Options(mode="communication", discount="0.9")  # type: ignore[arg-type]
-    quiet = list(solve(case_2(), options))
+    quiet = list(solve(PreparedTask(case_2()), options))
     monkeypatch.setattr(best_first.Progress, "due", lambda *_: True)
-    told = list(solve(case_2(), options))
+    told = list(solve(PreparedTask(case_2()), options))
     assert len(told) > len(quiet)
     assert (told[-1].cost, told[-1].status) == (quiet[-1].cost, quiet[-1].status)

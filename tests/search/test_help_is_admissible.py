@@ -5,6 +5,7 @@ from heapq import heappop, heappush
 import pytest
 from hypothesis import given
 
+from search import PreparedTask
 from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_bounds
@@ -71,7 +72,7 @@ def _distances(sources: set[int], edges: dict[int, list[tuple[int, int]]]) -> di
 
 def assert_admissible(task: Task, options: Options, over: int | None) -> int:
     """How many states the bound tells something about."""
-    context = SearchContext(task, options, Deadline())
+    context = SearchContext(PreparedTask(task), options, Deadline())
     graph = Graph(context)
     best = graph.rest.get(context.packed.init, INFINITE_KEY)
     limit = INFINITE_KEY if over is None else best + context.keys.of_action(context.packed.costs[-1]) * over
@@ -104,7 +105,7 @@ def test_bound_holds_on_random_tasks(discount: str) -> None:
 
 def test_a_robot_that_holds_nothing_does_not_make_help_free() -> None:
     task = relays()[0]
-    context = SearchContext(task, _DISCOUNTED, Deadline())
+    context = SearchContext(PreparedTask(task), _DISCOUNTED, Deadline())
     ids = {fact: i for i, fact in enumerate(task.facts)}
     left, holds = {ids["at k a"], ids["at rob b"]}, {ids["has rob k"], ids["has_medkit rob"], ids["at rob a"]}
     state = context.packed.pack(task.init - left | holds)

@@ -5,9 +5,8 @@ from itertools import product
 import pytest
 
 import serendipity
+from search import PreparedTask
 from search.context import SearchContext
-from search.packed.packed_task import pack
-from search.robots.decoupled import Decoupled
 from serendipity.model import Window
 from serendipity.model.deadline import Deadline
 from tests.support import builders
@@ -86,8 +85,8 @@ def test_what_else_a_move_changes_makes_it_a_deed():
     moves = {"go r a b": "at-a -> at-b !at-a", "go r b a": "at-b -> at-a !at-b !open"}
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
-    packed = pack(task, Deadline())
-    walks = Decoupled(packed, Deadline())
+    tables = PreparedTask(task).plain(Deadline())
+    packed, walks = tables.packed, tables.robots.decoupled(Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.foldable
     assert walks.distance(0, a, b) == 1
@@ -99,8 +98,8 @@ def test_a_walk_that_asks_for_more_than_a_place_is_a_deed():
     moves = {"go r a b": "at-a lit -> at-b !at-a", "go r b a": "at-b -> at-a !at-b"}
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
-    packed = pack(task, Deadline())
-    walks = Decoupled(packed, Deadline())
+    tables = PreparedTask(task).plain(Deadline())
+    packed, walks = tables.packed, tables.robots.decoupled(Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.distance(0, a, b) == -1
     assert walks.distance(0, b, a) == 1
@@ -111,4 +110,4 @@ def _step_by_step(context, plan):
 
 
 def _foldable(task):
-    return Decoupled(pack(task, Deadline()), Deadline()).foldable
+    return PreparedTask(task).plain(Deadline()).robots.decoupled(Deadline()).foldable

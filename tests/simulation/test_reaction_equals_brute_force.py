@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given
 
-from search import Outcome
+from search import Outcome, PreparedTask
 from search.simulation import simulate, solve_for_human
 from tests.simulation.strategies import Reaction, reactions
 from tests.support.oracle.reactions import best_reaction
@@ -17,7 +17,7 @@ def test_reaction_equals_brute_force(human_model: str) -> None:
     def law(case: Reaction) -> None:
         optimum = best_reaction(case.task, case.options, case.human_plan, case.visible)
         *_, outcome = solve_for_human(
-            case.task,
+            PreparedTask(case.task),
             case.options,
             human_plan=case.human_plan if case.given else None,
             visible=case.visible if human_model == "local" else None,
@@ -39,7 +39,7 @@ def test_reaction_equals_brute_force(human_model: str) -> None:
 
 def _assert_happens(case: Reaction, human_model: str, outcome: Outcome) -> None:
     played = simulate(
-        case.task,
+        PreparedTask(case.task),
         case.options,
         case.human_plan,
         outcome.steps,

@@ -2,6 +2,7 @@
 
 from hypothesis import given, settings
 
+from search import PreparedTask
 from search.simulation import simulate
 from tests.simulation.strategies import Played, played
 from verify.simulator import play
@@ -14,7 +15,7 @@ EXAMPLES = 10_000 if settings().max_examples >= 1000 else 300
 @given(played())
 def test_simulators_agree(case: Played) -> None:
     asked = {"human_model": case.human_model, "horizon": case.horizon, "visible": case.visible}
-    ours = simulate(case.task, case.options, case.human_plan, case.steps, **asked)
+    ours = simulate(PreparedTask(case.task), case.options, case.human_plan, case.steps, **asked)
     theirs = play(case.task, case.options, case.human_plan, case.steps, **asked)
     assert list(ours.steps) == theirs.steps
     assert ours.cost == theirs.cost

@@ -5,6 +5,7 @@ comparing them compares lexicographically.  Costs are scaled to integers.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
@@ -14,11 +15,11 @@ from search.assistance.distances.watched import Watched
 from search.assistance.game.own import UNREACHABLE, OwnCosts
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
-from search.packed.packed_task import PackedTask, pack
+from search.packed.packed_task import PackedTask
+from search.prepared_task import PreparedTask
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import UsageError
-from serendipity.model.task import Task
 
 INFINITE: Final = INFINITE_KEY
 """A run that never ends."""
@@ -42,7 +43,7 @@ class Game:
     """Supporter and prime, moving in turn.
 
     Args:
-        task: one human (the prime) and one robot (the supporter); joint actions are
+        prepared: a task of one human (the prime) and one robot (the supporter); joint actions are
             nobody's move.
         deadline: asked for time.
         own_deadline: asked for time while the prime's own optimum is worked out; default ``deadline``.
@@ -51,13 +52,18 @@ class Game:
         UsageError: there is not exactly one robot.
     """
 
-    def __init__(self, task: Task, deadline: Deadline, own_deadline: Deadline | None = None) -> None:
+    def __init__(
+        self, prepared: PreparedTask, deadline: Deadline, own_deadline: Deadline | None = None
+    ) -> None:
+        task = prepared.task
         if len(task.robots) != 1:
             raise UsageError(f"mode: 'assistance' is for one robot, the task has {len(task.robots)}")
-        self.task = task.with_goal(task.goal, Condition()) if task.robot_goal else task
+        if task.robot_goal:
+            prepared = prepared.with_goal(task.goal, Condition())
+        self.task = prepared.task
         self.deadline = deadline
         self._own_deadline = own_deadline or deadline
-        self.packed: PackedTask = pack(self.task, deadline)
+        self.packed: PackedTask = prepared.plain(deadline).packed
         self.init = self.packed.init
         self.goal = self.packed.goal
         self.scale = lcm(1, *(cost.denominator for cost in self.packed.costs))
@@ -75,7 +81,8 @@ class Game:
 
     def forget_own(self) -> None:
         """Drop what was found about the prime by himself, which may be what fills the memory."""
-        self.__dict__.pop("own", None)
+        with suppress(AttributeError):  # nothing has been
+            del self.own
 
     def cost(self, op: Operator) -> int:
         """Scaled cost of an op."""

@@ -25,11 +25,11 @@ def answered(folder: Path, mode: str, discount: str, time_limit: float) -> dict[
     options = Options(discount=discount, time_limit=time_limit, **MODES[mode])  # type: ignore[arg-type]
 
     def call() -> Outcome:
-        *_, outcome = solve(task, options, deadline=Deadline(time_limit))
+        *_, outcome = solve(prepared, options, deadline=Deadline(time_limit))
         return outcome
 
     read_seconds, task = _timed(lambda: load(folder))
-    pack_seconds, _ = _timed(lambda: prepare(task))
+    pack_seconds, prepared = _timed(lambda: prepare(task))
     search_seconds, outcome = _timed(call)
     again_seconds, _ = _timed(call)
     return {

@@ -5,13 +5,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from search import solve
+from search import PreparedTask, solve
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.answer import Answer
 from serendipity.model.collection import no_collection
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import INFINITE, Options
-from serendipity.model.task import Task
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,34 +21,34 @@ class Contender:
         answer: answers a call and times itself.
         accepts: whether it can answer a call with these options at all.
         absent: why it can't run here, or None.
-        afresh: whether the task is packed anew before each pass, without anything that earlier
-            calls have left with it.
+        afresh: whether the task is prepared anew before each pass, without anything that earlier
+            calls have found out.
         in_turn: whether a pass is all calls on a task, one after another; else it is one call.
     """
 
-    answer: Callable[[Task, Options], Answer]
+    answer: Callable[[PreparedTask, Options], Answer]
     accepts: Callable[[Options], bool] = lambda _: True
     absent: Callable[[], str | None] = lambda: None
     afresh: bool = False
     in_turn: bool = False
 
 
-def _search(task: Task, options: Options) -> Answer:
-    """Every table that the task does not have yet is built inside the time."""
+def _search(prepared: PreparedTask, options: Options) -> Answer:
+    """Every table that is not there yet is built inside the time."""
     with no_collection():  # as `plan` does
         start = time.process_time()
-        *_, outcome = solve(task, options, deadline=Deadline(options.time_limit))
+        *_, outcome = solve(prepared, options, deadline=Deadline(options.time_limit))
         seconds = time.process_time() - start
     return Answer(seconds, outcome.status, None if outcome.cost is None else float(outcome.cost))
 
 
-def _program(encoding: str) -> Callable[[Task, Options], Answer]:
-    def answer(task: Task, options: Options) -> Answer:
+def _program(encoding: str) -> Callable[[PreparedTask, Options], Answer]:
+    def answer(prepared: PreparedTask, options: Options) -> Answer:
         from verify.calls.solve import solve as by_program  # loads a solver
 
         with no_collection():
             start = time.process_time()
-            result = by_program(task, options, encoding=encoding)
+            result = by_program(prepared.task, options, encoding=encoding)
             seconds = time.process_time() - start
         return Answer(seconds, result.status, result.cost)
 

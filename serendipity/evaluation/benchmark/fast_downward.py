@@ -15,11 +15,11 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
 
+from search import PreparedTask
 from serendipity.evaluation.benchmark.answer import Answer
 from serendipity.evaluation.benchmark.usage import children_seconds
 from serendipity.model.errors import SerendipityError
 from serendipity.model.options import Options
-from serendipity.model.task import Task
 from serendipity.pddl.write import composite_files
 
 _TRANSLATE: Final = (
@@ -43,7 +43,7 @@ def absent() -> str | None:
     return f"fast-downward is left out: no {' and no '.join(missing)} here: pip install serendipity[bench]"
 
 
-def answer(task: Task, options: Options) -> Answer:
+def answer(prepared: PreparedTask, options: Options) -> Answer:
     """What it finds; ``seconds`` is the search time that it prints.
 
     Raises:
@@ -51,7 +51,7 @@ def answer(task: Task, options: Options) -> Answer:
     """
     binary = _binary()
     assert binary is not None, "absent() was asked before"
-    files = composite_files(task, options.discount)
+    files = composite_files(prepared.task, options.discount)
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         (folder / "domain.pddl").write_text(files.domain, encoding="utf-8")

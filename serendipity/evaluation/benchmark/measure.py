@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
-from search import prepare
+from search import PreparedTask, prepare
 from serendipity.evaluation.benchmark.answer import Answer
 from serendipity.evaluation.benchmark.contenders import CONTENDERS, Contender
 from serendipity.model.errors import DisagreementError, UsageError
@@ -93,13 +93,14 @@ def measure(
     gc.freeze()  # a caller has one task in memory, not all of these
     try:
         for task in tasks:
+            prepared = prepare(task)
             for mode, fixed in kinds.items():
                 asked = [
                     Options(discount=text, time_limit=time_limit, **fixed)  # type: ignore[arg-type]
                     for text in discounts
                 ]
                 answers = {
-                    name: _answers(contender, task, asked, repeat)
+                    name: _answers(contender, prepared, asked, repeat)
                     for name, contender in chosen.items()
                     if all(map(contender.accepts, asked))
                 }
@@ -120,26 +121,26 @@ def _known(name: str, known: Mapping[str, T], what: str) -> T:
 
 
 def _answers(
-    contender: Contender, task: Task, calls: Sequence[Options], repeat: int
+    contender: Contender, prepared: PreparedTask, calls: Sequence[Options], repeat: int
 ) -> list[tuple[Answer, ...]]:
     """All answers to each call."""
     passes = [calls] if contender.in_turn else [[call] for call in calls]
-    return [answers for one in passes for answers in _repeated(contender, task, one, repeat)]
+    return [answers for one in passes for answers in _repeated(contender, prepared, one, repeat)]
 
 
 def _repeated(
-    contender: Contender, task: Task, calls: Sequence[Options], repeat: int
+    contender: Contender, prepared: PreparedTask, calls: Sequence[Options], repeat: int
 ) -> list[tuple[Answer, ...]]:
-    warm_up = _pass(contender, task, calls)
+    warm_up = _pass(contender, prepared, calls)
     slow = sum(max(answer.seconds, answer.process_seconds or 0) for answer in warm_up) > _SLOW
-    passes = [warm_up] if slow else [_pass(contender, task, calls) for _ in range(repeat)]
+    passes = [warm_up] if slow else [_pass(contender, prepared, calls) for _ in range(repeat)]
     return list(zip(*passes, strict=True))
 
 
-def _pass(contender: Contender, task: Task, calls: Sequence[Options]) -> list[Answer]:
+def _pass(contender: Contender, prepared: PreparedTask, calls: Sequence[Options]) -> list[Answer]:
     if contender.afresh:
-        prepare(task, afresh=True)
-    return [contender.answer(task, options) for options in calls]
+        prepared = prepare(prepared.task)
+    return [contender.answer(prepared, options) for options in calls]
 
 
 def _timing(call: tuple[str, str, str, str], answers: Sequence[Answer]) -> Timing:

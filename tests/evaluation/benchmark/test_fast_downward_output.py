@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from search import PreparedTask
 from serendipity import SerendipityError, example
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.model import Options
@@ -40,7 +41,7 @@ def processes(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[tuple[int, str]]
 
 def test_costs_are_scaled_back(processes: list[tuple[int, str]]) -> None:
     processes += [(0, "Done!"), (0, FOUND)]
-    answer = fast_downward.answer(example("room2"), OPTIONS)
+    answer = fast_downward.answer(PreparedTask(example("room2")), OPTIONS)
     # Team costs are 1 and 0.4, so the files' are 5 and 2.
     assert (answer.status, answer.cost) == ("optimal", 25.2)
     assert (answer.seconds, answer.memory) == (0.001651, 10)
@@ -51,18 +52,18 @@ def test_proofs_that_there_is_no_plan(
     processes: list[tuple[int, str]], outputs: list[tuple[int, str]]
 ) -> None:
     processes += outputs
-    answer = fast_downward.answer(example("room2"), OPTIONS)
+    answer = fast_downward.answer(PreparedTask(example("room2")), OPTIONS)
     assert (answer.status, answer.cost) == ("infeasible", None)
 
 
 @pytest.mark.parametrize("outputs", [[], [(0, "Done!")]])
 def test_the_limit_comes_first(processes: list[tuple[int, str]], outputs: list[tuple[int, str]]) -> None:
     processes += outputs
-    assert fast_downward.answer(example("room2"), OPTIONS).status == "unknown"
+    assert fast_downward.answer(PreparedTask(example("room2")), OPTIONS).status == "unknown"
 
 
 @pytest.mark.parametrize("outputs", [[(30, "bad file")], [(0, ""), (32, "bad option")], [(0, ""), (0, "hm")]])
 def test_failures_are_told(processes: list[tuple[int, str]], outputs: list[tuple[int, str]]) -> None:
     processes += outputs
     with pytest.raises(SerendipityError, match="fast-downward"):
-        fast_downward.answer(example("room2"), OPTIONS)
+        fast_downward.answer(PreparedTask(example("room2")), OPTIONS)

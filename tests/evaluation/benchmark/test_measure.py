@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from serendipity import Task, UsageError, example
+from search import PreparedTask
+from serendipity import UsageError, example
 from serendipity.evaluation.benchmark import (
     CONTENDERS,
     RATIOS_HEADER,
@@ -28,7 +29,7 @@ class Scripted:
         self.cost = cost
         self.status = status
 
-    def __call__(self, task: Task, options: Options) -> Answer:
+    def __call__(self, prepared: PreparedTask, options: Options) -> Answer:
         return Answer(self.seconds.pop(0), self.status, self.cost)
 
 
@@ -81,18 +82,19 @@ KEPT = {
     "in-turn": [["0"], ["0", "1/2"]] * 3,
     "again": [["0"] * n for n in (1, 2, 3)] + [["0"] * 3 + ["1/2"] * n for n in (1, 2, 3)],
 }
-"""Each call, and those before it on what is kept with the task: a warm-up and two repetitions."""
+"""Each call, and those before it on the same prepared task: a warm-up and two repetitions."""
 
 
 @pytest.mark.parametrize("name", KEPT)
-def test_what_earlier_calls_leave_with_the_task(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_earlier_calls_leave_behind(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     found = []
+    asked: list[tuple[PreparedTask, list[str]]] = []
 
-    def calls_before(task: Task) -> list[str]:
-        return []
-
-    def answer(task: Task, options: Options) -> Answer:
-        kept = task.derived(calls_before)
+    def answer(prepared: PreparedTask, options: Options) -> Answer:
+        kept = next((calls for known, calls in asked if known is prepared), None)
+        if kept is None:
+            kept = []
+            asked.append((prepared, kept))
         kept.append(str(options.discount))
         found.append(list(kept))
         return Answer(0.1, "optimal", 1.0)

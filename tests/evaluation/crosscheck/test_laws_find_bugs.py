@@ -72,20 +72,20 @@ def interference_of_an_earlier_call(patch: Patch) -> None:
 def an_earlier_state(patch: Patch) -> None:
     """Sessions go on planning from where they began."""
 
-    def moved_to(self: Any, task: Any, *, derived: bool) -> Any:
+    def at(self: Any, task: Any) -> Any:
         moved = copy(self)
         moved.task = task
         return moved
 
-    patch.setattr(PackedTask, "moved_to", moved_to)
+    patch.setattr(PackedTask, "at", at)
 
 
 def variants_are_actions(patch: Patch) -> None:
     """Who planned one variant of an action and does another has to be told."""
     original = Weights.__init__
 
-    def init(self: Any, packed: Any, options: Any, plan: Any) -> None:
-        original(self, packed, options, plan)
+    def init(self: Any, packed: Any, scales: Any, options: Any, plan: Any) -> None:
+        original(self, packed, scales, options, plan)
         self.ids = frozenset(plan or ())
 
     patch.setattr(Weights, "__init__", init)

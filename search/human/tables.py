@@ -1,0 +1,61 @@
+"""What the human can do by himself, as far as it follows from the packed task alone."""
+
+from search.human.individual_planner import Memory, own_memory
+from search.human.pattern_database import (
+    PatternDatabase,
+    Projected,
+    human_graph,
+    human_steps,
+    own_projection,
+    steps_in,
+)
+from search.packed.packed_task import PackedTask
+from serendipity.model.deadline import Deadline
+
+
+class HumanTables:
+    """Tables that serve every call on a packed task, each built when it is first asked for.
+
+    They hold for each state from which nothing else can be reached (:meth:`cover`), but for one goal.
+
+    Args:
+        packed: the packed task.
+    """
+
+    def __init__(self, packed: PackedTask) -> None:
+        self._packed = packed
+        self._graph: Projected | None = None
+        self._projection: PatternDatabase | None = None
+        self._steps: PatternDatabase | None = None
+        self._memory: Memory | None = None
+
+    def cover(self, state: int) -> bool:
+        """Whether they are known to hold from a packed state: nothing else can be reached from there."""
+        return self._graph is not None and state & self._graph.mask in self._graph.moves
+
+    def graph(self, deadline: Deadline) -> Projected:
+        """His actions, projected onto his private variables."""
+        if self._graph is None:
+            self._graph = human_graph(self._packed, deadline)
+        return self._graph
+
+    def projection(self, deadline: Deadline) -> PatternDatabase:
+        """His private distances to the goal, in the unit of :func:`.own_weights`."""
+        if self._projection is None:
+            self._projection = own_projection(self._packed, self.graph(deadline), deadline)
+        return self._projection
+
+    def steps(self, deadline: Deadline) -> PatternDatabase:
+        """The same, counting his actions."""
+        if self._steps is None:
+            if len(self._packed.costs) == 1:  # every action costs the same: the cheapest way is the shortest
+                self._steps = steps_in(self.projection(deadline))
+            else:
+                self._steps = human_steps(self._packed, self.graph(deadline), deadline)
+        return self._steps
+
+    def memory(self) -> Memory:
+        """What calls have found out about him alone."""
+        if self._memory is None:
+            self._memory = own_memory(self._packed)
+        return self._memory

@@ -1,0 +1,53 @@
+"""The ways in which a task is packed: which facts and actions beyond those that matter to the goals."""
+
+from dataclasses import replace
+
+from search.packed.packed_task import PackedTask
+from serendipity.model.deadline import Deadline
+from serendipity.model.task import Task
+from serendipity.model.variables import Variable
+
+
+def human_facts(task: Task) -> frozenset[int]:
+    """Ids of the facts that the human's own domain mentions (semantics 3.3)."""
+    mentioned = {*task.goal.positive, *task.goal.negative}
+    for i in task.human_actions:
+        action = task.actions[i]
+        mentioned.update(action.pre, action.neg, action.add, action.delete)
+    return frozenset(mentioned)
+
+
+def diversions(packed: PackedTask, deadline: Deadline) -> tuple[int, ...]:
+    """Joint actions that contribute to no goal, and still change what a human who replans does.
+
+    That is what he takes part in because it costs nothing, and is busy with (semantics 6).
+    """
+    task, found = packed.task, list[int]()
+    for i, action in enumerate(task.actions):
+        deadline.tick()
+        if action.joint and not action.cost and task.human in action.participants and not packed.is_useful(i):
+            found.append(i)
+    return tuple(found)
+
+
+def doubted(task: Task, deadline: Deadline) -> Task:
+    """The task for a human who may be wrong about everything that others change.
+
+    A belief of his may hold two values of one variable, or none: he saw that the kit has
+    left the room, but not where it went.  So for him only the variables that nobody
+    else changes stay variables, of which he always knows the truth; every other fact is
+    a bit by itself.
+    """
+    shared: set[int] = set()
+    for action in task.actions:
+        deadline.tick()
+        if task.human not in action.participants:
+            shared.update(action.add, action.delete)
+    found: list[Variable] = []
+    for variable in task.variables:
+        deadline.tick()
+        if shared.isdisjoint(variable.facts):
+            found.append(variable)
+        else:
+            found += [Variable((fact,)) for fact in variable.facts]
+    return replace(task, known_variables=tuple(sorted(found, key=lambda variable: variable.facts)))
