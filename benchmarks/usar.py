@@ -25,7 +25,7 @@ from typing import Any
 from search import prepare, solve
 from serendipity.model import Options, Task
 from serendipity.model.collection import no_collection
-from serendipity.pddl import forget_parsed, load
+from serendipity.pddl import forget_parsed, read_folder
 
 DISCOUNTS = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
 MODES = {
@@ -51,7 +51,7 @@ def main() -> None:
     print(f"{'':60}{'p50':>9}{'p95':>9}{'max':>9}")
     _process(folders[0])  # first: what a process needs is counted from what its parent has
     _reading(folders)
-    tasks = [load(folder) for folder in folders]
+    tasks = [read_folder(folder) for folder in folders]
     gc.collect()
     _row("preparing, once a task", [_timed(lambda task=task: prepare(task)) for task in tasks])
     for mode, options in MODES.items():
@@ -60,13 +60,13 @@ def main() -> None:
 
 
 def _reading(folders: list[Path]) -> None:
-    load(folders[0])
+    read_folder(folders[0])
     gc.collect()
-    _row("reading, warm", [_timed(lambda folder=folder: load(folder)) for folder in folders])
+    _row("reading, warm", [_timed(lambda folder=folder: read_folder(folder)) for folder in folders])
     cold = []
     for folder in folders:
         forget_parsed()
-        cold.append(_timed(lambda folder=folder: load(folder)))
+        cold.append(_timed(lambda folder=folder: read_folder(folder)))
     _row("reading, nothing kept", cold)
 
 

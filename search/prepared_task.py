@@ -76,8 +76,6 @@ class Tables:
 class PreparedTask:
     """A task with its packings, and their tables.
 
-    Threads may share one: two that ask for the same table at once build it twice, that is all.
-
     Args:
         task: the task.
 

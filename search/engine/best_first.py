@@ -55,13 +55,11 @@ class Progress:
 
     Attributes:
         bound: no complete plan has a smaller key.
-        finished: the incumbent is proved optimal.
     """
 
     bound: int = 0
     expanded: int = 0
     generated: int = 0
-    finished: bool = False
     told: int = 0
     """The bound when it was last reported."""
     told_at: float = 0.01
@@ -117,4 +115,3 @@ def best_first(space: Space, best: Incumbent, progress: Progress, deadline: Dead
             known = best.key
             yield best
     progress.bound = best.key
-    progress.finished = True

@@ -151,7 +151,6 @@ class Preserved:
         goals: list[PackedGoal],
         expected: list[list[int]],
     ) -> None:
-        self._packed = packed
         self._ops = [packed.op(i) for i in plan]
         self._goals = goals
         self._expected = [_Contained(packed, facts) for facts in expected]

@@ -3,19 +3,19 @@
 What the search makes of a task before the first call takes time that grows with the files, as
 reading them does.  On a large task it would take longer than a short time limit, and leave a first
 call without any answer; so it is done here.  On a small one it takes a millisecond or two, and is
-left to the first call: who checks, shows or verifies plans does without.
+left to the first call.  Where one deadline covers reading and planning alike, as that of a command
+does, or nobody plans at all, :mod:`serendipity.pddl` reads and nothing is prepared in advance.
 """
 
 from collections.abc import Mapping, Sequence
 from typing import Final
 
 from search import PreparedTask, prepare
-from serendipity import pddl
 from serendipity.facade.prepared import HELD
 from serendipity.model.deadline import Deadline
 from serendipity.model.limits import limits_from
 from serendipity.model.task import Task
-from serendipity.pddl.layouts import Pair
+from serendipity.pddl.layouts import Pair, read_agents, read_folder, read_pddl
 from serendipity.pddl.parsing.files import PathArgument
 from serendipity.pddl.work import OnProgress, Work, within_limits
 
@@ -32,7 +32,7 @@ def load(
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
-    """Load a directory: a folder per agent and ``superagent/`` (see :func:`serendipity.pddl.load`).
+    """Load a directory: a folder per agent and ``superagent/`` (see :func:`serendipity.pddl.read_folder`).
 
     Args:
         path: the directory.
@@ -43,7 +43,7 @@ def load(
         on_progress: is told what is being done.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    return _ready(pddl.load(path, human, deadline=limits, on_progress=on_progress), limits, on_progress)
+    return _ready(read_folder(path, human, deadline=limits, on_progress=on_progress), limits, on_progress)
 
 
 def load_agents(
@@ -59,10 +59,10 @@ def load_agents(
 ) -> Task:
     """Load one pair of files per agent.
 
-    See :func:`serendipity.pddl.load_agents`; limits as in :func:`load`.
+    See :func:`serendipity.pddl.read_agents`; limits as in :func:`load`.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    task = pddl.load_agents(agents, team, human, name=name, deadline=limits, on_progress=on_progress)
+    task = read_agents(agents, team, human, name=name, deadline=limits, on_progress=on_progress)
     return _ready(task, limits, on_progress)
 
 
@@ -80,10 +80,10 @@ def load_pddl(
 ) -> Task:
     """Load one PDDL task whose agents are objects.
 
-    See :func:`serendipity.pddl.load_pddl`; limits as in :func:`load`.
+    See :func:`serendipity.pddl.read_pddl`; limits as in :func:`load`.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    task = pddl.load_pddl(domain, problem, human, robots, name=name, deadline=limits, on_progress=on_progress)
+    task = read_pddl(domain, problem, human, robots, name=name, deadline=limits, on_progress=on_progress)
     return _ready(task, limits, on_progress)
 
 

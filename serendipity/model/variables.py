@@ -54,22 +54,6 @@ def find_variables(
     return tuple(Variable(facts) for facts in sorted(chain(groups, singles)))
 
 
-def keeps_exactly_one(group: frozenset[int], action: GroundAction) -> bool:
-    """Whether ``action``, applied where exactly one of ``group`` is true, keeps it so."""
-    needed = group.intersection(action.pre)
-    added = group.intersection(action.add)
-    deleted = group.intersection(action.delete)
-    if len(needed) > 1 or not (added or deleted):
-        return True  # never applicable, or does not touch the group
-    if len(added) > 1:
-        return False
-    if not added:
-        return bool(needed) and not needed & deleted
-    if needed:
-        return needed <= deleted or needed == added
-    return group - added <= deleted
-
-
 class _GroupFinder:
     """Grows a group from a fact that is true initially, and drops what does not fit.
 

@@ -6,7 +6,7 @@ operators (:mod:`normal`), to ground records (:mod:`join`, :mod:`instantiate`), 
 can't happen (:mod:`prune`) to a task (:mod:`assemble`), all of it under a deadline (:mod:`work`).
 """
 
-from serendipity.pddl.layouts import load, load_agents, load_pddl
+from serendipity.pddl.layouts import read_agents, read_folder, read_pddl
 from serendipity.pddl.parsing.resolve import forget_parsed
 
-__all__ = ["forget_parsed", "load", "load_agents", "load_pddl"]
+__all__ = ["forget_parsed", "read_agents", "read_folder", "read_pddl"]

@@ -19,14 +19,14 @@ Pair = tuple[PathArgument, PathArgument]
 TEAM: Final = "superagent"
 
 
-def load(
+def read_folder(
     path: PathArgument,
     human: str | None = None,
     *,
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
-    """Load a directory: a folder per agent and ``superagent/``, each with two files.
+    """Read a directory: a folder per agent and ``superagent/``, each with two files.
 
     Args:
         path: the directory; agents are called as their folders.
@@ -51,10 +51,10 @@ def load(
     team = next((pairs.pop(name) for name in list(pairs) if name.lower() == TEAM), None)
     if not pairs:
         raise InputError("no agent's folder with 'domain.pddl' and 'problem.pddl' in this folder", root)
-    return load_agents(pairs, team, human, name=root.name, deadline=deadline, on_progress=on_progress)
+    return read_agents(pairs, team, human, name=root.name, deadline=deadline, on_progress=on_progress)
 
 
-def load_agents(
+def read_agents(
     agents: Mapping[str, Pair],
     team: Pair | None = None,
     human: str | None = None,
@@ -63,7 +63,7 @@ def load_agents(
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
-    """Load one pair of files per agent; facts are shared by name.
+    """Read one pair of files per agent; facts are shared by name.
 
     An agent's actions range over the objects of his own files.  Actions of the team
     that no agent owns are joint: their participants are the agents whose names occur
@@ -117,7 +117,7 @@ def _united(
     return assemble(blueprint, work)
 
 
-def load_pddl(
+def read_pddl(
     domain: PathArgument,
     problem: PathArgument,
     human: str,
@@ -127,7 +127,7 @@ def load_pddl(
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
-    """Load one PDDL task whose agents are objects.
+    """Read one PDDL task whose agents are objects.
 
     The participants of a ground action are the agents among its arguments; of an action with
     ``:agent`` (MA-PDDL) it is that agent alone.  An action in which nobody takes part is left

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.model import Deadline, Task, UsageError
-from serendipity.pddl import load_pddl
+from serendipity.pddl import read_pddl
 
 DATA: Final = Path(__file__).parent / "data"
 
@@ -37,7 +37,7 @@ class Example:
             LimitReachedError: the deadline came first.
         """
         domain, problem = DATA / self.domain, DATA / self.problem
-        return load_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
+        return read_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
 
 
 def _usar(name: str, summary: str) -> Example:

@@ -24,12 +24,13 @@ def test_a_large_task_is_packed_when_it_is_loaded(folder, monkeypatch):
 
 
 def test_what_is_only_read_is_packed_by_the_first_call(folder, monkeypatch):
-    task = pddl.load(folder)
+    task = pddl.read_folder(folder)
     monkeypatch.setattr(PackedTask, "__init__", _no_packing)
     with pytest.raises(AssertionError, match="packed in a planning call"):
         serendipity.plan(task, discount=0.6)
 
 
 def test_both_plan_alike(folder):
-    loaded, read = (serendipity.plan(load(folder), discount=0.6) for load in (serendipity.load, pddl.load))
+    tasks = serendipity.load(folder), pddl.read_folder(folder)
+    loaded, read = (serendipity.plan(task, discount=0.6) for task in tasks)
     assert (loaded.cost, loaded.plan) == (read.cost, read.plan)

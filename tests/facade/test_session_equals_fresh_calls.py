@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 import serendipity
-from serendipity import Session, Task, UsageError
+from serendipity import PlanError, Session, Task, UsageError
 from tests.support.cases import case_1, case_2
 from tests.support.strategies import tasks
 
@@ -84,3 +84,27 @@ def test_cancelled_calls_return_the_incumbent() -> None:
     assert last.lower_bound is not None
     assert last.objective is not None
     assert last.lower_bound <= last.objective
+
+
+def test_a_given_plan_need_not_work_before_what_was_seen_is_told() -> None:
+    predicted = Session(case_1(), discount=0.6).plan().human_plan
+    assert predicted is not None
+    elsewhere = case_1().at(case_1().init - {case_1().facts.index("at h a0")})
+    session = Session(elsewhere, human_plan=predicted, discount=0.6)
+    with pytest.raises(PlanError):
+        session.plan()
+    assert session.human_plan == predicted
+    session.change({"at h a0": True})
+    assert session.human_plan == predicted
+    assert _same(session.plan(), _fresh(session, discount=0.6))
+    session.change({"at h a0": False})
+    assert session.human_plan is None
+
+
+def test_waiting_in_a_given_plan_is_no_action() -> None:
+    predicted = Session(case_1(), discount=0.6).plan().human_plan
+    assert predicted is not None
+    session = Session(case_1(), human_plan=["noop", *predicted], discount=0.6)
+    session.plan()
+    session.execute([predicted[0]])
+    assert session.human_plan == predicted[1:]

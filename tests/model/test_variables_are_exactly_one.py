@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from serendipity import Task
 from serendipity.model import Condition, GroundAction
-from serendipity.model.variables import find_variables, keeps_exactly_one
+from serendipity.model.variables import find_variables
 from tests.support.builders import task as build
 from tests.support.strategies import tasks
 
@@ -22,6 +22,22 @@ ACTIONS = st.builds(
     ),
     *[st.frozensets(st.integers(0, 7), max_size=3)] * 4,
 )
+
+
+def keeps_exactly_one(group: frozenset[int], action: GroundAction) -> bool:
+    """Whether ``action``, applied where exactly one of ``group`` is true, keeps it so."""
+    needed = group.intersection(action.pre)
+    added = group.intersection(action.add)
+    deleted = group.intersection(action.delete)
+    if len(needed) > 1 or not (added or deleted):
+        return True  # never applicable, or does not touch the group
+    if len(added) > 1:
+        return False
+    if not added:
+        return bool(needed) and not needed & deleted
+    if needed:
+        return needed <= deleted or needed == added
+    return group - added <= deleted
 
 
 def walk(task: Task, steps: int, seed: int) -> list[frozenset[int]]:

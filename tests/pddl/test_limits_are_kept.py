@@ -132,13 +132,13 @@ def test_memory_that_is_used_up_is_one_line(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_the_deadline_may_come_anywhere() -> None:
-    whole = pddl.load(YARD)
+    whole = pddl.read_folder(YARD)
     looks = 0
     stages = set()
     while True:
         forget_parsed()
         try:
-            task = pddl.load(YARD, deadline=Countdown(looks))
+            task = pddl.read_folder(YARD, deadline=Countdown(looks))
             break
         except LimitReachedError as error:
             assert error.reason == "time-limit"
@@ -184,11 +184,11 @@ def test_every_loader_takes_a_deadline() -> None:
     example = serendipity.example
     for load in (
         lambda: serendipity.load(YARD, deadline=limits),
-        lambda: pddl.load(YARD, deadline=limits),
+        lambda: pddl.read_folder(YARD, deadline=limits),
         lambda: serendipity.load_pddl(*OFFICE, human="ann", robots=["bot"], deadline=limits),
-        lambda: pddl.load_pddl(*OFFICE, human="ann", robots=["bot"], deadline=limits),
+        lambda: pddl.read_pddl(*OFFICE, human="ann", robots=["bot"], deadline=limits),
         lambda: serendipity.load_agents({"ann": OFFICE, "bot": OFFICE}, deadline=limits),
-        lambda: pddl.load_agents({"ann": OFFICE, "bot": OFFICE}, deadline=limits),
+        lambda: pddl.read_agents({"ann": OFFICE, "bot": OFFICE}, deadline=limits),
         lambda: example("room2", deadline=limits),
     ):
         with pytest.raises(SerendipityError, match="the time limit came first, reading the task"):

@@ -17,7 +17,7 @@ SECONDS = 2.0
 def outcome(changed: Mutant, folder: Path) -> Task | SerendipityError:
     """What loading gives; any other exception is a failure."""
     try:
-        return pddl.load_pddl(
+        return pddl.read_pddl(
             *changed.write(folder), changed.human, changed.robots, deadline=Deadline(SECONDS, 4_000)
         )
     except SerendipityError as error:
@@ -57,5 +57,5 @@ def test_noise_fails_in_one_line(noise: bytes) -> None:
         file = Path(folder, "domain.pddl")
         file.write_bytes(b"(define (domain d) " + noise)
         with pytest.raises(SerendipityError) as caught:
-            pddl.load_pddl(file, OFFICE[1], "ann", ["bot"])
+            pddl.read_pddl(file, OFFICE[1], "ann", ["bot"])
     assert str(caught.value).isprintable()

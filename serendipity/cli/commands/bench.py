@@ -171,7 +171,7 @@ def _as_csv(
 
 
 def _loaded(folder: Path, stride: int) -> Iterator[Task]:
-    from serendipity import load
+    from serendipity.pddl import read_folder
 
     if not folder.is_dir():
         raise InputError("expected a folder of tasks", folder)
@@ -179,13 +179,14 @@ def _loaded(folder: Path, stride: int) -> Iterator[Task]:
     if not found:
         raise InputError("expected a folder for each task in it", folder)
     for path in found[::stride]:
-        yield load(path)
+        yield read_folder(path)
 
 
 def _generated(scratch: Path, rooms: int, medkits: int, robots: int, seeds: int) -> Iterator[Task]:
-    from serendipity import generate_usar, load
+    from serendipity import generate_usar
+    from serendipity.pddl import read_folder
 
     for seed in range(seeds):
         place = scratch / f"seed{seed}"
         generate_usar(place, rooms=rooms, medkits=medkits, robots=robots, seed=seed)
-        yield load(place)
+        yield read_folder(place)

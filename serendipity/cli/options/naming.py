@@ -131,7 +131,7 @@ class TaskName:
         return task if self.human is None else task.with_human(self.human)
 
     def _from_agents(self, deadline: Deadline | None) -> Task:
-        from serendipity.pddl import load_agents
+        from serendipity.pddl import read_agents
 
         pairs: dict[str, tuple[Path, Path]] = {}
         for text in self.agents:
@@ -140,19 +140,19 @@ class TaskName:
                 raise UsageError(f"--agent: expected NAME=DOMAIN,PROBLEM, each name once, got '{text}'")
             pairs[name] = _pair(files, f"--agent {name}=")
         team = None if self.team is None else _pair(self.team, "--team ")
-        return load_agents(pairs, team=team, human=self.human, deadline=deadline)
+        return read_agents(pairs, team=team, human=self.human, deadline=deadline)
 
     def _from_files(self, deadline: Deadline | None) -> Task:
-        from serendipity.pddl import load, load_pddl
+        from serendipity.pddl import read_folder, read_pddl
 
         if len(self.files) == 1:
-            return load(self.files[0], human=self.human, deadline=deadline)
+            return read_folder(self.files[0], human=self.human, deadline=deadline)
         domain, problem, *more = self.files
         if more:
             raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(self.files)} paths")
         if self.human is None:
             raise UsageError("task: with DOMAIN PROBLEM, name the agents: --human H --robot R ...")
-        return load_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
+        return read_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
 
 
 def _pair(text: str, where: str) -> tuple[Path, Path]:

@@ -15,7 +15,7 @@ from serendipity.evaluation.benchmark.measure import MODES
 from serendipity.evaluation.benchmark.usage import peak_memory
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
-from serendipity.pddl import load
+from serendipity.pddl import read_folder
 
 T = TypeVar("T")
 
@@ -28,7 +28,7 @@ def answered(folder: Path, mode: str, discount: str, time_limit: float) -> dict[
         *_, outcome = solve(prepared, options, deadline=Deadline(time_limit))
         return outcome
 
-    read_seconds, task = _timed(lambda: load(folder))
+    read_seconds, task = _timed(lambda: read_folder(folder))
     pack_seconds, prepared = _timed(lambda: prepare(task))
     search_seconds, outcome = _timed(call)
     again_seconds, _ = _timed(call)

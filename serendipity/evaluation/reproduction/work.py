@@ -7,10 +7,10 @@ from time import perf_counter, time
 from typing import Final
 
 from serendipity.evaluation.reproduction.rows import Row, exact_cost
+from serendipity.facade.loading import load
 from serendipity.facade.planning import plan
 from serendipity.model import Deadline, Result, Task
 from serendipity.model.errors import LIMITS
-from serendipity.pddl import load
 
 _TIED: Final = ("serendipity",)
 """Modes whose cost depends on which of his optimal plans the human follows."""
