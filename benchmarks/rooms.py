@@ -24,6 +24,7 @@ PATTERNS = {
     "statistics[ outside the model": r"statistics\[",
     ".derived(": r"\.derived\(",
     "__dict__": r"\.__dict__\b",
+    "id(": r"(?<![\w.])id\(",
 }
 """What should not be there, by what it is called."""
 

@@ -11,7 +11,7 @@ from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction, Successors, as_option
-from search.prepared_task import PreparedTask, Tables
+from search.prepared_task import PreparedTask, TaskTables
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
@@ -36,7 +36,7 @@ class SearchContext:
         options: Options,
         deadline: Deadline,
         plan: HumanPlan | None = None,
-        tables: Tables | None = None,
+        tables: TaskTables | None = None,
     ) -> None:
         self.prepared = prepared
         self.task = prepared.task
@@ -65,7 +65,7 @@ class SearchContext:
         actions = (self.task.actions[i] for i in plan)
         return all(bits[f] is not None for action in actions for f in (*action.pre, *action.neg))
 
-    def _covering(self, plan: HumanPlan) -> Tables:
+    def _covering(self, plan: HumanPlan) -> TaskTables:
         """A packing, for this call, of what every action of a plan asks for as well."""
         needed = frozenset(f for i in plan for f in (*self.task.actions[i].pre, *self.task.actions[i].neg))
         if self.options.preservation == "state":

@@ -26,7 +26,7 @@ from serendipity.model.task import Task
 from serendipity.model.visibility import Surroundings, surroundings
 
 
-class Tables:
+class TaskTables:
     """A packed task, and what follows from it whatever a call's options are.
 
     Args:
@@ -63,11 +63,11 @@ class Tables:
             )
         return self._private_distances
 
-    def at(self, task: Task) -> "Tables":
+    def at(self, task: Task) -> "TaskTables":
         """The same for a task that differs in its initial state only."""
         moved = copy(self)
         moved.packed = self.packed.at(task)
-        if not self.human.cover(moved.packed.init):
+        if not self.human.covers(moved.packed.init):
             moved.human = HumanTables(moved.packed)
             moved._interactions = moved._private_distances = None
         return moved
@@ -85,33 +85,35 @@ class PreparedTask:
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        self._plain: Tables | None = None
-        self._with_human_facts: Tables | None = None
-        self._with_diversions: Tables | None = None
-        self._doubtful: Tables | None = None
-        self._complete: Tables | None = None
+        self._plain: TaskTables | None = None
+        self._with_human_facts: TaskTables | None = None
+        self._with_diversions: TaskTables | None = None
+        self._doubtful: TaskTables | None = None
+        self._complete: TaskTables | None = None
         self._diversions: tuple[int, ...] | None = None
         self._surroundings: Surroundings | None = None
 
     # -- how it is packed
 
-    def plain(self, deadline: Deadline) -> Tables:
+    def plain(self, deadline: Deadline) -> TaskTables:
         """Packed are the facts that matter to the goals."""
         if self._plain is None:
             self._plain = self.including(frozenset(), deadline)
         return self._plain
 
-    def with_human_facts(self, deadline: Deadline) -> Tables:
+    def with_human_facts(self, deadline: Deadline) -> TaskTables:
         """Also packed is every fact of the human's own domain (semantics 3.3)."""
         if self._with_human_facts is None:
             self._with_human_facts = self.including(human_facts(self.task), deadline)
         return self._with_human_facts
 
-    def including(self, facts: frozenset[int], deadline: Deadline, actions: tuple[int, ...] = ()) -> Tables:
+    def including(
+        self, facts: frozenset[int], deadline: Deadline, actions: tuple[int, ...] = ()
+    ) -> TaskTables:
         """Also packed are some facts and actions, which one call asks about; not kept."""
-        return Tables(PackedTask(self.task, facts, deadline, actions))
+        return TaskTables(PackedTask(self.task, facts, deadline, actions))
 
-    def with_diversions(self, deadline: Deadline) -> Tables:
+    def with_diversions(self, deadline: Deadline) -> TaskTables:
         """Also packed is what a human who replans lets himself be kept busy with (semantics 6)."""
         if self._with_diversions is None:
             found = self.diversions(deadline)
@@ -120,25 +122,25 @@ class PreparedTask:
             )
         return self._with_diversions
 
-    def doubtful(self, deadline: Deadline) -> Tables:
+    def doubtful(self, deadline: Deadline) -> TaskTables:
         """Packed for a human who may be wrong, and sees what is where he is."""
         if self._doubtful is None:
             self._doubtful = self.doubting(frozenset(), deadline)
         return self._doubtful
 
-    def doubting(self, facts: frozenset[int], deadline: Deadline) -> Tables:
+    def doubting(self, facts: frozenset[int], deadline: Deadline) -> TaskTables:
         """The same with some facts besides, which one call asks about; not kept."""
         return self._doubting(facts.union(self.surroundings(deadline).located), deadline)
 
-    def complete(self, deadline: Deadline) -> Tables:
+    def complete(self, deadline: Deadline) -> TaskTables:
         """The same with every fact packed, for callers who say what is visible."""
         if self._complete is None:
             self._complete = self._doubting(frozenset(range(len(self.task.facts))), deadline)
         return self._complete
 
-    def _doubting(self, facts: frozenset[int], deadline: Deadline) -> Tables:
+    def _doubting(self, facts: frozenset[int], deadline: Deadline) -> TaskTables:
         own = doubted(self.task, deadline)
-        return Tables(PackedTask(own, facts, deadline, self.diversions(deadline)))
+        return TaskTables(PackedTask(own, facts, deadline, self.diversions(deadline)))
 
     # -- what else follows from it
 
@@ -195,7 +197,7 @@ class PreparedTask:
         packed = self.including(asked, deadline).packed
         found = [self.with_goal(goal) for goal in goals]
         for other in found:
-            other._plain = other._with_human_facts = Tables(packed.for_goal(other.task))
+            other._plain = other._with_human_facts = TaskTables(packed.for_goal(other.task))
         return found
 
 

@@ -14,7 +14,7 @@ NEVER = 1 << 40
 """An epoch after every horizon."""
 
 _MOST_KEPT = 200_000
-"""Distances that are kept with a task, some tens of megabytes."""
+"""Distances that are kept with a prepared task, some tens of megabytes."""
 
 
 class Corridor:

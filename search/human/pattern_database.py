@@ -5,8 +5,8 @@ onto them, with every other condition dropped, each of his actions (joint ones
 included) is a weighted transition; exact distances to the projected goal bound
 his share of any plan from below, in every mode, since robots' costs are only
 left out.  This is a pattern database (Culberson and Schaeffer 1998) on one
-agent's variables.  It depends on the task alone and is kept with it; a call has
-the distances in its keys.
+agent's variables.  It depends on the packed task alone; a call has the distances in
+its keys.
 """
 
 from collections.abc import Iterable, Sequence

@@ -16,7 +16,7 @@ from serendipity.model.deadline import Deadline
 class HumanTables:
     """Tables that serve every call on a packed task, each built when it is first asked for.
 
-    They hold for each state from which nothing else can be reached (:meth:`cover`), but for one goal.
+    They hold for each state from which nothing else can be reached (:meth:`covers`), but for one goal.
 
     Args:
         packed: the packed task.
@@ -29,7 +29,7 @@ class HumanTables:
         self._steps: PatternDatabase | None = None
         self._memory: Memory | None = None
 
-    def cover(self, state: int) -> bool:
+    def covers(self, state: int) -> bool:
         """Whether they are known to hold from a packed state: nothing else can be reached from there."""
         return self._graph is not None and state & self._graph.mask in self._graph.moves
 

@@ -9,7 +9,7 @@ from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask, Tables
+from search.prepared_task import PreparedTask, TaskTables
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
 from search.simulation.intention import Intention, Intentions
 from serendipity.model.deadline import Deadline
@@ -130,7 +130,7 @@ class Human:
 
 def _packings(
     prepared: PreparedTask, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
-) -> tuple[Tables, Tables]:
+) -> tuple[TaskTables, TaskTables]:
     """The task packed as it is, and as he sees it; both hold what the actions ask for."""
     plain = prepared.with_diversions(deadline)
     missing = _missing(plain.packed, actions)

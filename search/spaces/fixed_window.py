@@ -20,7 +20,7 @@ class Weighed:
     """What the spaces of all windows share: the task under some weights, and bounds.
 
     Args:
-        tables: tables of the call.
+        context: of the call.
         plan: ``pi_H``.
         horizon: ``T``.
         weight: key increment of an op.
