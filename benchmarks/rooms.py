@@ -80,9 +80,9 @@ def _rooms(package: str, modules: dict[str, Path], trees: dict[str, ast.Module])
 
 
 def _room(package: str, name: str, path: Path) -> str:
-    """The folder of a module; the module itself where it stands beside folders at the top."""
+    """The folder of a module; the module itself where it stands beside folders."""
     parent = name if path.name == "__init__.py" else name.rpartition(".")[0]
-    return name if parent == package else parent
+    return name if parent == package or any(path.parent.glob("*/__init__.py")) else parent
 
 
 def _imports(tree: ast.Module, modules: dict[str, Path]) -> Iterator[str]:
