@@ -8,8 +8,8 @@ matched) is exact; a plan that does not embed them never matches the last one.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from heapq import heappop, heappush
 
+from search.algorithms.astar import AStar
 from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import OperatorIndex, forms_of
@@ -95,19 +95,12 @@ class _Search:
         all_seen = len(self._observed)
         if not embed and not all_seen:
             return INFINITE_KEY, None
-        distance: dict[_At, int] = {self._start: 0}
+        search = AStar(self._start, self._missing, self._deadline, limit=INFINITE_KEY)
         into: dict[_At, list[tuple[int, _At, int]]] = {}
-        queue = [(self._bound(self._start[0]), 0, self._start)]
-        closed: set[_At] = set()
-        optimum, ends = INFINITE_KEY, []
-        while queue and queue[0][0] <= optimum and queue[0][0] < INFINITE_KEY:
-            _, key, at = heappop(queue)
-            if at in closed:
-                continue
-            closed.add(at)
-            self._deadline.tick()
+        ends = []
+        for at, key in search:
             if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
-                optimum = min(optimum, key)
+                search.limit = min(search.limit, key + 1)
                 ends.append(at)
             for option in self._lookup.options(at[0]):
                 after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
@@ -115,11 +108,16 @@ class _Search:
                     continue
                 reached = key + option.weight
                 into.setdefault(after, []).append((option.actions[0], at, reached))
-                if reached < distance.get(after, INFINITE_KEY):
-                    distance[after] = reached
-                    heappush(queue, (reached + self._bound(after[0]), reached, after))
-        best = [at for at in ends if distance[at] == optimum]
-        return optimum, self._canonical(best, into, distance) if best else None
+                search.reach(after, reached)
+        if not ends:
+            return INFINITE_KEY, None
+        optimum = search.limit - 1
+        best = [at for at in ends if search.spent[at] == optimum]
+        return optimum, self._canonical(best, into, search.spent)
+
+    def _missing(self, at: _At) -> int:
+        """Lower bound of the key that is missing, whatever has been observed."""
+        return self._bound(at[0])
 
     def _matched(self, count: int, action: int) -> int:
         expected = self._observed[count] if count < len(self._observed) else None

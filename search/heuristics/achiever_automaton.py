@@ -13,9 +13,9 @@ last op on it (0 at the start).
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
-from heapq import heappop, heappush
 from typing import NamedTuple
 
+from search.algorithms.shortest_paths import LevelQueue
 from search.heuristics.interactions import Need
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, forms_of
@@ -77,16 +77,14 @@ class AchieverAutomaton:
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
+        self._robots: dict[int, list[int]] = {}
         for i, need in needs:
             deadline.tick()
             self._index(i, need)
-        # Spots go by the order in which they were met.
-        self._ids: dict[Spot, int] = {}
-        self._spots: list[Spot] = []
-        self._entries: list[list[tuple[int, int]]] = []
-        self._forward: list[int] = []
-        self._accepted: dict[int, list[int]] = {}
-        self._stopped: dict[Label, list[int]] = {}
+        self._nodes: dict[Spot, _Node] = {}  # in the order in which they were met
+        self._accepted: dict[int, list[_Node]] = {}
+        self._open_exits: dict[Label, set[int]] = {}
+        self._stopped: dict[Label, list[_Node]] = {}
         self._too_dear = INFINITE_KEY
         self._steps: dict[Label, int] = {}
         self.cost: dict[int, int] = {}
@@ -94,67 +92,80 @@ class AchieverAutomaton:
 
     def explore(self, pays: Callable[[int], bool]) -> None:
         """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
-        value = self._initial & self._field
-        robots = self._places.field.items()
-        queue = _Levels(self._meet((value, 0, robot, self._initial & place)) for robot, place in robots)
-        forward = self._forward
-        open_exits: dict[Label, set[int]] = {}
-        while queue.costs:
-            cost = heappop(queue.costs)
-            for i in queue.at[cost]:
-                if forward[i] >= 0:
+        for spot in self._starts():
+            self._nodes[spot] = _Node(spot)
+        queue = LevelQueue((0, node) for node in self._nodes.values())
+        for cost, level in queue:
+            for node in level:
+                if node.cost >= 0:
                     continue
-                forward[i] = cost
+                node.cost = cost
                 self._deadline.tick()
-                spot = self._spots[i]
-                self._accept(spot, i, cost)
-                value, team, robot, place = spot
-                for weight, after in self._changes(spot):
-                    self._relax(queue, i, cost, weight, after, pays)
-                if not robot:
-                    continue
-                label = value, team, robot
-                exits = open_exits.get(label)
-                if exits is None:
-                    exits = open_exits[label] = self._exits(value, robot)
-                exits.discard(place)
-                exits.discard(-1)
-                goes_on = bool(exits)
-                for there, index in self._acts.from_place(robot, place):
-                    after = (value, team, robot, there)
-                    if goes_on or self.settled(after) >= 0:
-                        self._relax(queue, i, cost, self._weights[index], after, pays)
-                    else:
-                        # Where else the walk may lead is left open (see `distances`).
-                        self._stopped.setdefault(label, []).append(i)
-                        if label not in self._steps:
-                            self._steps[label] = self._least_step(label)
+                self._accept(node)
+                edges = self._changes(node.spot)
+                if node.spot[2]:
+                    edges += self._walks(node)
+                for weight, after in edges:
+                    self._relax(queue, node, weight, after, pays)
 
-    def settled(self, spot: Spot) -> int:
-        """The id of a spot that was explored, or -1."""
-        i = self._ids.get(spot, -1)
-        return i if i >= 0 and self._forward[i] >= 0 else -1
+    def settled(self, spot: Spot) -> "_Node | None":
+        """What is known of a spot that was explored."""
+        node = self._nodes.get(spot)
+        return None if node is None or node.cost < 0 else node
 
-    def _meet(self, spot: Spot) -> int:
-        """An id for a new spot."""
-        i = self._ids[spot] = len(self._spots)
-        self._spots.append(spot)
-        self._entries.append([])
-        self._forward.append(-1)
-        return i
+    def _starts(self) -> list[Spot]:
+        """The initial state as each robot has a part in it."""
+        value = self._initial & self._field
+        return [(value, 0, robot, self._initial & place) for robot, place in self._places.field.items()]
 
     def _relax(
-        self, queue: "_Levels", before: int, cost: int, weight: int, after: Spot, pays: Callable[[int], bool]
+        self,
+        queue: "LevelQueue[_Node]",
+        before: "_Node",
+        weight: int,
+        after: Spot,
+        pays: Callable[[int], bool],
     ) -> None:
-        i = self._ids.get(after)
-        if i is None:
-            i = self._meet(after)
-        self._entries[i].append((weight, before))
-        if self._forward[i] < 0 and cost + weight < self._too_dear:
-            if pays(cost + weight):
-                queue.push(cost + weight, i)
+        """Record an edge, and look at where it leads as long as the cost pays."""
+        node = self._nodes.get(after)
+        if node is None:
+            node = self._nodes[after] = _Node(after)
+        node.edges.append((weight, before))
+        cost = before.cost + weight
+        if node.cost < 0 and cost < self._too_dear:
+            level = queue.levels.get(cost)
+            if level is not None:
+                level.append(node)  # what costs as much does pay
+            elif pays(cost):
+                queue.push(cost, node)
             else:
-                self._too_dear = cost + weight  # nor does what costs more
+                self._too_dear = cost  # nor does what costs more
+
+    def _walks(self, node: "_Node") -> list[Edge]:
+        """Walks of the tracked robot; only those to known spots, if there is nowhere left to go.
+
+        Where else the robot may walk to is left open then (see :meth:`distances`).
+        """
+        value, team, robot, place = node.spot
+        label = value, team, robot
+        exits = self._open_exits.get(label)
+        if exits is None:
+            exits = self._open_exits[label] = self._exits(value, robot)
+        exits.discard(place)
+        exits.discard(-1)
+        weights = self._weights
+        walks = [
+            (weights[index], (value, team, robot, there))
+            for there, index in self._acts.from_place(robot, place)
+        ]
+        if exits:
+            return walks
+        known = [(weight, after) for weight, after in walks if self.settled(after)]
+        if len(known) < len(walks):
+            self._stopped.setdefault(label, []).append(node)
+            if label not in self._steps:
+                self._steps[label] = self._least_step(label)
+        return known
 
     def _changes(self, spot: Spot) -> list[Edge]:
         """Edges that set the field, or hand over tracking."""
@@ -192,7 +203,10 @@ class AchieverAutomaton:
     def _index(self, i: int, need: Need) -> None:
         """By value and place, where a need is provided."""
         value = need.value & self._field
-        robots = [robot for robot, field in self._places.field.items() if need.mask & field]
+        robots = self._robots.get(need.mask)
+        if robots is None:
+            asked = [robot for robot, field in self._places.field.items() if need.mask & field]
+            robots = self._robots[need.mask] = asked
         for robot in robots:
             spots = self._at_place.setdefault((value, robot), {})
             spots.setdefault(need.value & self._places.field[robot], []).append(i)
@@ -213,49 +227,49 @@ class AchieverAutomaton:
         walks = self._acts.walks[robot].values()
         return min((self._weights[index] for ways in walks for _, index in ways), default=0)
 
-    def _accept(self, spot: Spot, at: int, cost: int) -> None:
+    def _accept(self, node: "_Node") -> None:
         """Note the needs that are provided at a spot."""
-        value, team, robot, place = spot
-        found = list(self._anyhow.get(value, ()))
+        value, team, robot, place = node.spot
+        there: Iterable[int]
         if robot:
-            found += self._at_place.get((value, robot), {}).get(place, ())
+            there = self._at_place.get((value, robot), {}).get(place, ())
         else:
-            found += [i for i, robots in self._detached.get(value, ()) if not robots & team]
-        for i in found:
-            self._accepted.setdefault(i, []).append(at)
-            self.cost.setdefault(i, cost)
+            there = [i for i, robots in self._detached.get(value, ()) if not robots & team]
+        for needs in (self._anyhow.get(value, ()), there):
+            for i in needs:
+                self._accepted.setdefault(i, []).append(node)
+                self.cost.setdefault(i, node.cost)
 
     def distances(self, need: int, slack: int) -> "AchieverCosts":
         """Backward from a need, over what :meth:`explore` has seen.
 
         Args:
             need: its id.
-            slack: if robots pay as much or more from the initial state on, it is too dear.
+            slack: a key increment; if robots pay as much or more from the initial state on, it is too dear.
         """
-        queue = _Levels(self._accepted.get(need, ()))
-        at = queue.at
-        found: dict[int, int] = {}
+        queue = LevelQueue((0, node) for node in self._accepted.get(need, ()))
+        levels = queue.levels
+        found: dict[_Node, int] = {}
         elsewhere: dict[Label, int] = {}
-        forward, spots, entries, stopped = self._forward, self._spots, self._entries, self._stopped
-        while queue.costs:
-            cost = heappop(queue.costs)
+        stopped = self._stopped
+        for cost, level in queue:
             latest = slack - cost
-            for i in at[cost]:
-                if i in found or forward[i] >= latest:
+            for node in level:
+                if node in found or node.cost >= latest:
                     continue
-                found[i] = cost
+                found[node] = cost
                 self._deadline.tick()
-                label = spots[i][:3]
+                label = node.spot[:3]
                 if label in stopped and label not in elsewhere:
                     # From beyond where it stopped walking this is in reach, at the least.
                     step = 0 if need in self._anyhow.get(label[0], ()) else self._steps[label]
                     elsewhere[label] = cost + step
                     for before in stopped[label]:
                         queue.push(cost + 2 * step, before)
-                for weight, before in entries[i]:
+                for weight, before in node.edges:
                     if before not in found:
-                        if (level := at.get(cost + weight)) is not None:
-                            level.append(before)
+                        if (known := levels.get(cost + weight)) is not None:
+                            known.append(before)
                         else:
                             queue.push(cost + weight, before)
         return AchieverCosts(self, self._field, self._places.field, found, elsewhere)
@@ -273,8 +287,8 @@ class AchieverAutomaton:
     @cached_property
     def _changed(self) -> dict[int, Teams]:
         found: dict[int, set[int]] = {}
-        for (value, team, _, _), cost in zip(self._spots, self._forward, strict=True):
-            if cost >= 0:
+        for (value, team, _, _), node in self._nodes.items():
+            if node.cost >= 0:
                 found.setdefault(value, set()).add(team)
         return {value: tuple(self._team(value, team) for team in teams) for value, teams in found.items()}
 
@@ -316,7 +330,7 @@ class AchieverCosts:
         provision: what was explored.
         field: the outside field.
         places: place field by robot's bit.
-        found: distance by spot.
+        found: distance by spot, a key increment.
         elsewhere: the least one by label, where walking stopped.
     """
 
@@ -325,7 +339,7 @@ class AchieverCosts:
         provision: AchieverAutomaton,
         field: int,
         places: dict[int, int],
-        found: dict[int, int],
+        found: dict["_Node", int],
         elsewhere: dict[Label, int],
     ) -> None:
         self._provision = provision
@@ -368,31 +382,25 @@ class AchieverCosts:
         return found
 
     def _after(self, value: int, team: int, robot: int, place: int) -> int:
-        if team and not team & robot:
-            return self._found.get(self._provision.settled((value, team, 0, 0)), INFINITE_KEY)
-        spot = self._provision.settled((value, team, robot, place))
-        if spot >= 0:
-            return self._found.get(spot, INFINITE_KEY)
-        return self._elsewhere.get((value, team, robot), INFINITE_KEY)
+        tracked = not team or bool(team & robot)
+        node = self._provision.settled((value, team, robot, place) if tracked else (value, team, 0, 0))
+        if node is not None:
+            return self._found.get(node, INFINITE_KEY)
+        return self._elsewhere.get((value, team, robot), INFINITE_KEY) if tracked else INFINITE_KEY
 
 
-class _Levels:
-    """A queue for Dijkstra's algorithm where few costs differ.
+class _Node:
+    """A spot that was met.
 
     Attributes:
-        costs: a heap of the costs.
-        at: ids by cost; a level may grow while it is gone through.
+        spot: which one.
+        cost: its least cost from the initial state, -1 until it has been settled.
+        edges: what leads to it, backward: weight, and from where.
     """
 
-    def __init__(self, sources: Iterable[int]) -> None:
-        self.costs = [0]
-        self.at = {0: list(sources)}
+    __slots__ = ("cost", "edges", "spot")
 
-    def push(self, cost: int, i: int) -> None:
-        """Add an id."""
-        level = self.at.get(cost)
-        if level is None:
-            self.at[cost] = [i]
-            heappush(self.costs, cost)
-        else:
-            level.append(i)
+    def __init__(self, spot: Spot) -> None:
+        self.spot = spot
+        self.cost = -1
+        self.edges: list[tuple[int, _Node]] = []

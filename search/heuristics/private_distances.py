@@ -1,10 +1,9 @@
 """The human's side of help: his way to each touch, and on to the goal, in his private fields."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from heapq import heapify, heappop, heappush
 
+from search.algorithms.shortest_paths import LevelQueue, backward
 from search.heuristics.interactions import Interactions, Seen
-from search.human.dijkstra import backward
 from search.human.pattern_database import PatternDatabase, Predecessors
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.packed_task import PackedTask
@@ -23,28 +22,20 @@ class Corridor:
     Attributes:
         without: least total to the goal without a touch.
         totals: least total by the need of the first touch.
+        before: per state the moves that lead to it: weight, state before it.
+        entries: per need its first touches: what they cost to the goal, they included, and from where.
     """
 
     def __init__(self, deadline: Deadline) -> None:
         self._deadline = deadline
         self.without = INFINITE_KEY
         self.totals: dict[int, int] = {}
-        self._before: dict[int, list[tuple[int, int]]] = {}
-        self._entries: dict[int, list[tuple[int, int]]] = {}
-
-    def move(self, at: int, weight: int, after: int) -> None:
-        """Record a move."""
-        self._before.setdefault(after, []).append((weight, at))
-
-    def interaction(self, at: int, spent: int, need: int, rest: int) -> None:
-        """Record a touch and what it costs to the goal, it included."""
-        self._entries.setdefault(need, []).append((rest, at))
-        if spent + rest < self.totals.get(need, INFINITE_KEY):
-            self.totals[need] = spent + rest
+        self.before: dict[int, list[tuple[int, int]]] = {}
+        self.entries: dict[int, list[tuple[int, int]]] = {}
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        return backward(self._entries.get(need, ()), [self._before], self._deadline)
+        return backward(self.entries.get(need, ()), [self.before], self._deadline)
 
 
 class PrivateDistances:
@@ -90,36 +81,48 @@ class PrivateDistances:
             limit: what costs as much or more is left out.
         """
         found = Corridor(self._deadline)
-        bound, weights = self._bound.distances, self._weights.human
-        queue = [(spent, state & self._interactions.mask) for spent, state in sources]
-        heapify(queue)
+        bound = self._bound.distances
+        queue = LevelQueue((spent, state & self._interactions.mask) for spent, state in sources)
         seen: set[int] = set()
-        while queue:
-            spent, at = heappop(queue)
-            if at in seen:
-                continue
-            seen.add(at)
-            self._deadline.check()  # touches of one state may be hundreds
-            rest = bound.get(at, INFINITE_KEY)
-            if spent + rest >= limit:
-                continue
-            if rest == 0:
-                found.without = min(found.without, spent)
-            for op in self._interactions.seen(at):
-                after = at & op.keep | op.put
-                weight = weights[op.cost]
-                if op.interaction < 0:
-                    found.move(at, weight, after)
-                    if after not in seen:
-                        heappush(queue, (spent + weight, after))
+        for spent, level in queue:
+            for at in sorted(level):  # in this order needs are met, and numbered
+                if at in seen:
                     continue
-                rest = weight + bound.get(after, INFINITE_KEY)
-                if spent + rest < limit:
-                    found.interaction(at, spent, op.interaction, rest)
-                    steps = self._steps(after)
-                    if steps < self.steps_after.get(op.interaction, NEVER):
-                        self.steps_after[op.interaction] = steps
+                seen.add(at)
+                self._deadline.check()  # touches of one state may be hundreds
+                rest = bound.get(at, INFINITE_KEY)
+                if spent + rest >= limit:
+                    continue
+                if rest == 0:
+                    found.without = min(found.without, spent)
+                for weight, after in self._leave(at, spent, found, limit):
+                    if after not in seen:
+                        queue.push(spent + weight, after)
         return found
+
+    def _leave(self, at: int, spent: int, found: Corridor, limit: int) -> list[tuple[int, int]]:
+        """His moves from a projected state: weight, state after it.
+
+        They are recorded in ``found``, and so is what else he can do.
+        """
+        bound, actions, weights = self._bound.distances, self._steps.distances, self._weights.human
+        moves = []
+        for op in self._interactions.seen(at):
+            after = at & op.keep | op.put
+            weight = weights[op.cost]
+            if op.interaction < 0:
+                found.before.setdefault(after, []).append((weight, at))
+                moves.append((weight, after))
+                continue
+            rest = weight + bound.get(after, INFINITE_KEY)
+            if spent + rest < limit:
+                found.entries.setdefault(op.interaction, []).append((rest, at))
+                if spent + rest < found.totals.get(op.interaction, INFINITE_KEY):
+                    found.totals[op.interaction] = spent + rest
+                steps = actions.get(after, INFINITE_KEY)
+                if steps < self.steps_after.get(op.interaction, NEVER):
+                    self.steps_after[op.interaction] = steps
+        return moves
 
     def to_goal(self) -> dict[int, int]:
         """Least key to the goal without a touch, by projected state."""

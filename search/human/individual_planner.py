@@ -6,8 +6,8 @@ search per projection, and a search also fills in the states along its result.
 """
 
 from collections.abc import Callable, Iterator
-from heapq import heappop, heappush
 
+from search.algorithms.astar import AStar
 from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
@@ -139,49 +139,52 @@ class IndividualPlanner:
         return self._search(state, limit)
 
     def _search(self, start: int, limit: int) -> int:
-        """A*; exact below ``limit``."""
-        known, bound, holds = self._known, self._bound, self._goal.holds
-        first = bound(start)
-        queue = [(first, 0, start)]
-        best = {start: 0}
+        """A*; exact below ``limit``.
+
+        It ends at goals and at states of which the key is known, and goes on for as long as
+        a cheaper end may come.
+        """
+        search = AStar(start, self._bound, self._deadline, limit=limit, deep_first=True)
         parents: dict[int, tuple[int, int]] = {}
-        closed: set[int] = set()
-        target, end, beyond = limit, -1, False
-        while queue and queue[0][0] < target:
-            _, negative, state = heappop(queue)
-            if state in closed:
-                continue
-            closed.add(state)
-            self._deadline.tick()
-            g = -negative
-            rest = known.get(state)
-            if rest is None and holds(state):
-                rest = 0
+        end, hopeless = None, True
+        for state, spent in search:
+            rest = self._rest(state)
             if rest is not None:
-                if g + rest < target:
-                    target, end = g + rest, state
-                beyond = beyond or rest < INFINITE_KEY
+                hopeless = hopeless and rest >= INFINITE_KEY
+                if spent + rest < search.limit:
+                    search.limit, end = spent + rest, state
                 continue
             for option in self._lookup.options(state):
                 after = state & option.keep | option.put
-                cost = g + option.weight
-                if cost < best.get(after, INFINITE_KEY):
-                    best[after] = cost
-                    parents[after] = (state, option.weight)
-                    heappush(queue, (cost + bound(after), -cost, after))
-        if end < 0:
-            if not beyond and (not queue or queue[0][0] >= INFINITE_KEY):
-                known[start] = INFINITE_KEY
-                return INFINITE_KEY
-            self._at_least[start] = max(limit, self._at_least.get(start, 0))
-            return limit
-        rest = target - best[end]
-        known[end] = rest
-        while end != start:
-            end, step = parents[end]
-            rest += step
-            known[end] = rest
-        return target
+                if search.reach(after, spent + option.weight):
+                    parents[after] = state, option.weight
+        if end is not None:
+            return self._remember(end, search.limit - search.spent[end], parents)
+        if hopeless and (search.least is None or search.least >= INFINITE_KEY):
+            self._known[start] = INFINITE_KEY
+            return INFINITE_KEY
+        self._at_least[start] = max(limit, self._at_least.get(start, 0))
+        return limit
+
+    def _rest(self, state: int) -> int | None:
+        """His optimal key where it is known or a goal is reached; else None."""
+        known = self._known.get(state)
+        return 0 if known is None and self._goal.holds(state) else known
+
+    def _remember(self, state: int, rest: int, parents: dict[int, tuple[int, int]]) -> int:
+        """Note the keys of all states along a cheapest way, from its end on; that of its start.
+
+        Args:
+            state: where it ends.
+            rest: his optimal key there.
+            parents: the state before each state but the start, and the weight of the step.
+        """
+        self._known[state] = rest
+        while state in parents:
+            state, weight = parents[state]
+            rest += weight
+            self._known[state] = rest
+        return rest
 
     def plans(self, state: int) -> "PlanGraph | None":
         """All his optimal plans from a packed state; None if there is none."""
@@ -197,35 +200,27 @@ class IndividualPlanner:
         Every state whose bound does not exceed the optimum is expanded; edges that lie on
         an optimal path are then those between exact distances.
         """
-        known = self._known.get(start)
-        if known == INFINITE_KEY:
+        optimum = self._known.get(start, INFINITE_KEY - 1)
+        if optimum >= INFINITE_KEY:
             return None
-        optimum = INFINITE_KEY if known is None else known
-        distance = {start: 0}
+        search = AStar(start, self._bound, self._deadline, limit=optimum + 1)
         expanded: dict[int, list[tuple[int, int, int]]] = {}
-        queue = [(self._bound(start), 0, start)]
         goals = []
-        while queue and queue[0][0] <= optimum and queue[0][0] < INFINITE_KEY:
-            _, g, state = heappop(queue)
-            if state in expanded:
-                continue
-            self._deadline.tick()
+        for state, spent in search:
             steps: list[tuple[int, int, int]] = []
             expanded[state] = steps
             if self._goal.holds(state):
-                optimum = g  # the first one is a cheapest one, others are no dearer
+                search.limit = spent + 1  # the first one is a cheapest one, others are no dearer
                 goals.append(state)
                 continue
             for option in self._lookup.options(state):
-                after = state & option.keep | option.put
-                cost = g + option.weight
+                after, cost = state & option.keep | option.put, spent + option.weight
                 steps.append((option.actions[0], after, cost))
-                if cost < distance.get(after, INFINITE_KEY):
-                    distance[after] = cost
-                    heappush(queue, (cost + self._bound(after), cost, after))
+                search.reach(after, cost)
         if not goals:
             self._known[start] = INFINITE_KEY
             return None
+        distance, optimum = search.spent, search.spent[goals[0]]
         edges = _edges_into(goals, expanded, distance, self._deadline)
         for state, onward in edges.items():
             edges[state] = self._one_a_name(onward)

@@ -12,7 +12,7 @@ its keys.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from search.human.dijkstra import backward
+from search.algorithms.shortest_paths import backward
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_weights
 from search.packed.operators import Signature, set_by
 from search.packed.packed_task import PackedGoal, PackedTask

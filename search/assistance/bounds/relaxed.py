@@ -5,13 +5,13 @@ and Geffner 2001).  Above: any plan of the prime's own bounds his optimal cost, 
 value of doing nothing; one is sought greedily by the sum of facts' costs (h_add).
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from heapq import heappop, heappush
 from typing import NamedTuple
 
+from search.algorithms.and_or import AndOrGraph, Rule
 from search.assistance.game.game import INFINITE, Game
 from serendipity.model.deadline import Deadline
-from serendipity.model.task import Task
 
 
 class _Action(NamedTuple):
@@ -31,7 +31,7 @@ def joint_lower_bound(game: Game, deadline: Deadline) -> int:
         *_actions(game, deadline, prime=True, shift=game.unit_bits),
         *_actions(game, deadline, prime=False, shift=0),
     ]
-    costs = _Relaxation(task, actions, max, deadline).costs(task.init)
+    costs = _Relaxation(actions, _greatest, deadline).costs(task.init)
     return max((costs.get(fact, INFINITE) for fact in task.goal.positive), default=0)
 
 
@@ -43,7 +43,7 @@ def upper_bound_alone(game: Game) -> int:
     """
     task, goal = game.task, game.task.goal
     deadline = game.deadline
-    relaxation = _Relaxation(task, _actions(game, deadline, prime=True, shift=game.unit_bits), _sum, deadline)
+    relaxation = _Relaxation(_actions(game, deadline, prime=True, shift=game.unit_bits), sum, deadline)
     start = frozenset(task.init)
     queue = [(0, 0, 0, start)]
     seen = {start}
@@ -81,50 +81,25 @@ def _actions(game: Game, deadline: Deadline, *, prime: bool, shift: int) -> list
     return found
 
 
-def _sum(values: Iterable[int]) -> int:
-    return sum(values)
+def _greatest(values: Iterable[int]) -> int:
+    return max(values, default=0)
 
 
 class _Relaxation:
     """Costs of facts when nothing is ever unset; an action needs the ``combine`` of its facts' costs."""
 
     def __init__(
-        self,
-        task: Task,
-        actions: list[_Action],
-        combine: Callable[[Iterable[int]], int],
-        deadline: Deadline,
+        self, actions: list[_Action], combine: Callable[[Iterable[int]], int], deadline: Deadline
     ) -> None:
         self._actions = actions
         self._combine = combine
-        self._deadline = deadline
-        self._needing: list[list[int]] = [[] for _ in task.facts]
-        for k, action in enumerate(actions):
-            deadline.tick()
-            for fact in action.pre:
-                self._needing[fact].append(k)
+        self._graph = AndOrGraph([Rule(action.pre, action.add) for action in actions], deadline)
 
     def costs(self, state: Iterable[int]) -> dict[int, int]:
         """The cost of each fact that can be reached from a state."""
-        settled: dict[int, int] = {}
-        missing = [len(action.pre) for action in self._actions]
-        queue = [(0, fact) for fact in state]
-        for k, action in enumerate(self._actions):
-            if not action.pre:
-                self._apply(k, 0, queue)
-        while queue:
-            self._deadline.tick()
-            cost, fact = heappop(queue)
-            if fact in settled:
-                continue
-            settled[fact] = cost
-            for k in self._needing[fact]:
-                missing[k] -= 1
-                if not missing[k]:
-                    self._apply(k, self._combine(settled[f] for f in self._actions[k].pre), queue)
-        return settled
+        costs, _ = self._graph.settle(state, self._cost, INFINITE)
+        return costs
 
-    def _apply(self, k: int, needed: int, queue: list[tuple[int, int]]) -> None:
-        value = needed + self._actions[k].value
-        for fact in self._actions[k].add:
-            heappush(queue, (value, fact))
+    def _cost(self, k: int, costs: Mapping[int, int]) -> int:
+        action = self._actions[k]
+        return self._combine([costs[fact] for fact in action.pre]) + action.value

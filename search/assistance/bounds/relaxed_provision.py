@@ -12,9 +12,10 @@ nothing ever unsets.  No plan of both together, with turns or without, is cheape
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
-from heapq import heappop, heappush
+from functools import partial
 from typing import NamedTuple
 
+from search.algorithms.astar import AStar
 from search.assistance.game.game import INFINITE, Game
 from search.packed.operators import Operator
 
@@ -35,6 +36,13 @@ class ChargedStep(NamedTuple):
     """Supporter's cost, the bit that is set for the first time, what is asked for."""
 
 
+_Known = dict[int, tuple[int, ChargedStep | None, int]]
+"""By projected state its exact value, the first step of a cheapest way, the state after it."""
+
+_Parents = dict[int, tuple[int, ChargedStep, int]]
+"""By projected state the state before it on a cheapest way, the step from there, its value."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Context:
     """What is provided now: the steps under it, and what is known of states under it."""
@@ -42,8 +50,7 @@ class _Context:
     steps: dict[int, list[ChargedStep]]
     per_goal: dict[int, int]
     """Least value of a step that sets a bit of the goal."""
-    known: dict[int, tuple[int, ChargedStep | None, int]]
-    """Exact value, first step of a cheapest way, the state after it."""
+    known: _Known
 
 
 class RelaxedProvision:
@@ -196,61 +203,39 @@ class RelaxedProvision:
         return min(total, INFINITE)
 
     def _search(self, context: _Context, start: int) -> int:
+        """A* over the private fields; it ends at goals and at states whose value is known."""
         known = context.known
         if start in known:
             return known[start][0]
-        best = {start: 0}
-        parents: dict[int, tuple[int, ChargedStep, int]] = {}
-        queue = [(self._least(context, start), 0, start)]
-        closed: set[int] = set()
-        while queue:
-            f, minus, at = heappop(queue)
-            if f >= INFINITE:
-                break
-            if at in closed:
+        deadline = self._game.deadline
+        search = AStar(start, partial(self._least, context), deadline, limit=INFINITE, deep_first=True)
+        parents: _Parents = {}
+        for at, spent in search:
+            if at not in known and self._holds(at):
+                known[at] = (0, None, at)
+            if at in known:
+                total = spent + known[at][0]
+                if total < INFINITE and (search.least is None or total <= search.least):
+                    return self._remember(known, parents, at)
+                # A known value may exceed the estimate that brought the state up.
+                search.postpone(at, total)
                 continue
-            closed.add(at)
-            self._game.deadline.tick()
-            g = best[at]
-            if at in known or self._holds(at):
-                if at not in known:
-                    known[at] = (0, None, at)
-                rest = known[at][0]
-                if rest >= INFINITE or not self._is_least(queue, g + rest):
-                    # A known value may exceed the estimate that brought the state up.
-                    if rest < INFINITE:
-                        closed.discard(at)
-                        heappush(queue, (g + rest, minus, at))
-                    continue
-                return self._remember(known, parents, start, at)
             for value, after, step in self._steps_from(context, at):
-                cost = g + value
-                if cost < best.get(after, INFINITE):
-                    best[after] = cost
-                    parents[after] = (at, step, value)
-                    heappush(queue, (cost + self._least(context, after), -cost, after))
+                if search.reach(after, spent + value):
+                    parents[after] = at, step, value
         known[start] = (INFINITE, None, start)
         return INFINITE
 
     @staticmethod
-    def _is_least(queue: list[tuple[int, int, int]], value: int) -> bool:
-        return not queue or value <= queue[0][0]
-
-    @staticmethod
-    def _remember(
-        known: dict[int, tuple[int, ChargedStep | None, int]],
-        parents: dict[int, tuple[int, ChargedStep, int]],
-        start: int,
-        end: int,
-    ) -> int:
-        value = known[end][0]
-        at = end
-        while at != start:
+    def _remember(known: _Known, parents: _Parents, end: int) -> int:
+        """Note the values of all states along a cheapest way, from its end on; that of its start."""
+        value, at = known[end][0], end
+        while at in parents:
             before, step, weight = parents[at]
             value += weight
             known[before] = (value, step, at)
             at = before
-        return known[start][0]
+        return value
 
     def _steps_from(self, context: _Context, at: int) -> Iterable[tuple[int, int, ChargedStep]]:
         for steps in (context.steps.get(at & self._field, ()), context.steps.get(-1, ())):

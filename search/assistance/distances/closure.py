@@ -8,9 +8,9 @@ layers in arrays.
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, Final
 
+from search.algorithms.shortest_paths import backward
 from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
@@ -132,18 +132,8 @@ class Closure:
         return found
 
     def _spread(self, seeds: list[tuple[int, int]], predecessors: dict[int, list[tuple[int, int]]]) -> None:
-        distances: dict[int, int] = {}
-        queue = [seed for seed in seeds if seed[0] < INFINITE_KEY]
-        heapify(queue)
-        while queue:
-            self._deadline.tick()
-            distance, state = heappop(queue)
-            if state in distances:
-                continue
-            distances[state] = distance
-            for weight, before in predecessors[state]:
-                if before not in distances:
-                    heappush(queue, (distance + weight, before))
+        known = (seed for seed in seeds if seed[0] < INFINITE_KEY)
+        distances = backward(known, [predecessors], self._deadline)
         for state in predecessors:
             self._known[state] = distances.get(state, INFINITE_KEY)
 

@@ -1,17 +1,17 @@
 """A large closure in arrays: states by layers, then Dijkstra backward by buckets of one distance."""
 
 from collections.abc import Iterator, Sequence
-from heapq import heappop, heappush
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
+from search.algorithms.shortest_paths import LevelQueue
 from search.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.assistance.distances.arrays import Indices, Kinds, Places, Words, distinct
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
-
-Array = np.ndarray[Any, np.dtype[Any]]
 
 _WORD_BITS: Final = 62
 _FAR: Final = np.iinfo(np.int64).max // 4
@@ -116,15 +116,16 @@ class Layers:
         return self._compressed(arc.keep), self._compressed(arc.put)
 
     @staticmethod
-    def _where(test: tuple[int, int, list[tuple[int, int]]], states: Array) -> Array:
+    def _where(test: tuple[int, int, list[tuple[int, int]]], states: Words) -> Indices:
+        """Where in an array of packed states a condition holds, ascending."""
         mask, need, forbidden = test
         holds = (states & mask) == need
         for field, value in forbidden:
             holds &= (states & field) != value
         return np.flatnonzero(holds)
 
-    def _explore(self, start: Array) -> Array:
-        """Every state reachable from ``start``, ascending; the goal goes nowhere."""
+    def _explore(self, start: Words) -> Words:
+        """Every state reachable from ``start`` (of shape ``(1,)``), ascending; the goal goes nowhere."""
         known = frontier = start
         while len(frontier):
             frontier = np.delete(frontier, self._where(self._goal, frontier))
@@ -137,30 +138,28 @@ class Layers:
                     found.append(frontier[at] & keep | put)
                     size += len(found[-1])
                 if size > most:  # or sorting them all in the end would take long
-                    found = [_distinct(np.concatenate(found))]
+                    found = [distinct(np.concatenate(found))]
                     size = len(found[0])
                     most = max(_AT_ONCE, 2 * size)
                     self._too_many_unless(size <= self._limit)
             self._require(_SORTING * (size + len(known)))
-            after = _distinct(np.concatenate(found))
+            after = distinct(np.concatenate(found))
             frontier = after[~_contains(known, after)]
             known = np.sort(np.concatenate([known, frontier]), kind="stable")
             self._too_many_unless(len(known) <= self._limit)
         return known
 
-    def _spread(self) -> Array:
-        """Dijkstra from the goal backward, all states of one distance at once."""
+    def _spread(self) -> Words:
+        """Dijkstra from the goal backward, all states of one distance at once; the distance of each state."""
         states = self._states
         pointers, sources, weight_ids = self._predecessors()
         distances = np.full(len(states), _FAR, dtype=np.int64)
         goals = self._where(self._goal, states)
         distances[goals] = 0
-        buckets: dict[int, list[Array]] = {0: [goals]}
-        queue = [0]
-        while queue:
+        queue = LevelQueue([(0, goals)])
+        for level, parts in queue:
             self._deadline.check()
-            level = heappop(queue)
-            nodes = _distinct(np.concatenate(buckets.pop(level)))
+            nodes = distinct(np.concatenate(parts))
             nodes = nodes[distances[nodes] == level]
             self._require(_SORTING * int((pointers[nodes + 1] - pointers[nodes]).sum()))
             edges = _slices(pointers, nodes)
@@ -170,13 +169,14 @@ class Layers:
                 chosen = chosen[distances[chosen] > level + weight]
                 if len(chosen):
                     distances[chosen] = level + weight
-                    if level + weight not in buckets:
-                        heappush(queue, level + weight)
-                    buckets.setdefault(level + weight, []).append(chosen)
+                    queue.push(level + weight, chosen)
         return distances
 
-    def _predecessors(self) -> tuple[Array, Array, Array]:
-        """Edges sorted by target: where each target's begin, their sources, their weights' index."""
+    def _predecessors(self) -> tuple[Words, Places, Kinds]:
+        """Edges sorted by target: where each target's begin, their sources, their weights' index.
+
+        Of shapes ``(states + 1,)``, ``(edges,)`` and ``(edges,)``.
+        """
         parts = list(self._edges())
         self._require(_SORTING * sum(len(target) for _, target, _ in parts))
         empty = np.empty(0, dtype=np.int32)
@@ -190,7 +190,8 @@ class Layers:
         pointers = np.concatenate([np.zeros(1, dtype=np.int64), np.cumsum(counts)])
         return pointers, sources[order], kinds[order]
 
-    def _edges(self) -> Iterator[tuple[Array, Array, int]]:
+    def _edges(self) -> Iterator[tuple[Places, Places, int]]:
+        """For each arc the sources of its edges, their targets, its weight's index."""
         states = self._states
         kinds = {weight: kind for kind, weight in enumerate(self._weights)}
         final = np.zeros(len(states), dtype=bool)
@@ -204,22 +205,24 @@ class Layers:
                 yield at.astype(np.int32), target.astype(np.int32), kinds[weight]
 
 
-def _distinct(values: Array) -> Array:
-    """The values in order, each once; numpy's own ``unique`` hashes, slowly on packed states."""
-    values = np.sort(values)
-    first = np.ones(len(values), dtype=bool)
-    first[1:] = values[1:] != values[:-1]
-    return np.asarray(values[first])
+def _contains(known: Words, values: Words) -> NDArray[np.bool_]:
+    """Whether each of ``values`` is in ``known``, which is ascending.
 
-
-def _contains(known: Array, values: Array) -> Array:
-    """Whether each of ``values`` is in ``known``, which is ascending."""
+    Args:
+        known: of shape ``(n,)``, not empty.
+        values: of shape ``(m,)``, as the answer is.
+    """
     at = np.minimum(np.searchsorted(known, values), len(known) - 1)
-    return np.asarray(known[at] == values)
+    return np.equal(known[at], values)
 
 
-def _slices(pointers: Array, nodes: Array) -> Array:
-    """The indices ``pointers[n] .. pointers[n + 1] - 1`` of all nodes, one after another."""
+def _slices(pointers: Words, nodes: Indices) -> Words:
+    """The indices ``pointers[n] .. pointers[n + 1] - 1`` of all nodes, one after another.
+
+    Args:
+        pointers: of shape ``(n + 1,)``, ascending.
+        nodes: of shape ``(m,)``.
+    """
     begins = pointers[nodes]
     counts = pointers[nodes + 1] - begins
     ends = np.cumsum(counts)

@@ -8,20 +8,19 @@ Fields that change together and have few combinations in reach (who is where) sh
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from heapq import heappop, heappush
 from itertools import product
 from math import prod
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
+from search.algorithms.shortest_paths import LevelQueue
 from search.assistance.distances.arcs import Arc
+from search.assistance.distances.arrays import Places, Stored, distinct
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, LimitReachedError
-
-Array = np.ndarray[Any, np.dtype[Any]]
 
 MINOR_BITS: Final = 24
 """Weights of arcs are ``major << 24 | minor``, compared in this order; the minor is above 0."""
@@ -145,8 +144,8 @@ class PackedPlaces:
                 mask |= (1 << axis.width) - 1 << axis.shift
         return mask, choices
 
-    def holding(self, condition: PackedGoal) -> Array | None:
-        """Places of the states in which a condition holds; None where they are too many."""
+    def holding(self, condition: PackedGoal) -> Places | None:
+        """Places of the states in which a condition holds, each once; None where they are too many."""
         choices = [[before for before, _ in _pairs(axis, condition, -1, 0)] for axis in self.axes]
         if prod(map(len, choices)) > _MOST_GOALS:
             return None
@@ -203,11 +202,11 @@ class Perimeter:
     Args:
         places: where states are.
         arcs: the transitions, each of a minor weight above 0.
-        goals: places of distance 0.
-        deadline: asked for time.
+        goals: places of distance 0, each once.
+        deadline: polled while the ball grows.
     """
 
-    def __init__(self, places: PackedPlaces, arcs: Sequence[Arc], goals: Array, deadline: Deadline) -> None:
+    def __init__(self, places: PackedPlaces, arcs: Sequence[Arc], goals: Places, deadline: Deadline) -> None:
         self._places = places
         self._deadline = deadline
         wide = places.item == _WIDE
@@ -217,11 +216,10 @@ class Perimeter:
         self._most_major = (1 << major_bits) - 2 - heaviest
         self._most_minor = (1 << self._minor_bits) - 2 - longest
         # A distance is stored plus 1, so that places that nobody touches take no memory.
-        self._known: Array = np.zeros(1 << places.bits, dtype=np.uint32 if wide else np.uint16)
+        self._known: Stored = np.zeros(1 << places.bits, dtype=np.uint32 if wide else np.uint16)
         self._steps = self._backward(arcs)
         self._known[goals] = 1
-        self._buckets: dict[int, list[Array]] = {0: [goals]}
-        self._queue = [0]
+        self._queue = LevelQueue([(0, goals)])
 
     def key(self, state: int, limit: int) -> int | None:
         """Distance from a state, ``INFINITE_KEY`` if there is no way, None if it can't be told.
@@ -233,7 +231,7 @@ class Perimeter:
             return None
         while True:
             found = int(self._known[place])
-            level = self._queue[0] if self._queue else None
+            level = self._queue.least
             if found and (level is None or found - 1 >> self._minor_bits < level):
                 major, minor = divmod(found - 1, 1 << self._minor_bits)
                 return (major << MINOR_BITS) + minor
@@ -241,7 +239,7 @@ class Perimeter:
                 return INFINITE_KEY
             if level << MINOR_BITS >= limit:
                 return level << MINOR_BITS
-            if not self._grow():
+            if not self._grow(level):
                 return None
 
     def _backward(self, arcs: Sequence[Arc]) -> list[tuple[int, list[_Back]]]:
@@ -259,32 +257,46 @@ class Perimeter:
                         by_place[at].append(step)
         return sorted(by_place.items())
 
-    def _grow(self) -> bool:
-        """Go on by one major distance; False where a distance does not fit any more."""
-        level = self._queue[0]
+    def _grow(self, level: int) -> bool:
+        """Go on by the major distance that is next; False where a distance does not fit any more."""
         if level > self._most_major:
             return False
-        known, minor_mask = self._known, (1 << self._minor_bits) - 1
-        while self._buckets[level]:  # steps without a major part stay on the level
-            size = _SORTING * sum(map(len, self._buckets[level]))
-            if size > _LARGE:
-                self._deadline.require(size)
-            places = _distinct(np.concatenate(self._buckets[level]))
-            self._buckets[level] = [places]  # the same, once each
-            places = places[(known[places] - 1 >> self._minor_bits) == level]
-            if int((known[places] - 1 & minor_mask).max(initial=0)) > self._most_minor:
-                return False
-            self._deadline.check()
-            self._buckets[level] = []
+        while self._queue.least == level:  # steps without a major part lead to the level itself
+            _, parts = self._queue.pop()
             try:
-                self._expand(places)
+                grown = self._settle(level, parts)
             except LIMITS:
-                self._buckets[level].append(places)  # to be gone through again, should anybody ask again
+                self._put_back(level, parts)  # to be gone through again, should anybody ask again
                 raise
-        del self._buckets[heappop(self._queue)]
+            if not grown:
+                self._put_back(level, parts)
+                return False
         return True
 
-    def _expand(self, places: Array) -> None:
+    def _put_back(self, level: int, parts: Sequence[Places]) -> None:
+        for places in parts:
+            self._queue.push(level, places)
+
+    def _settle(self, level: int, parts: list[Places]) -> bool:
+        """Go on from places of one level; False where a distance does not fit any more.
+
+        Of the parts one is left, with what does lie on the level, each once.
+        """
+        known, minor_mask = self._known, (1 << self._minor_bits) - 1
+        size = _SORTING * sum(map(len, parts))
+        if size > _LARGE:
+            self._deadline.require(size)
+        places = distinct(np.concatenate(parts))
+        parts[:] = [places[(known[places] - 1 >> self._minor_bits) == level]]
+        places = parts[0]
+        if int((known[places] - 1 & minor_mask).max(initial=0)) > self._most_minor:
+            return False
+        self._deadline.check()
+        self._expand(places)
+        return True
+
+    def _expand(self, places: Places) -> None:
+        """Try every step backward from places, ascending, whose distances are known."""
         known = self._known
         bounds = np.searchsorted(places, [at for at, _ in self._steps] + [1 << self._places.bits])
         for (_, steps), first, last in zip(self._steps, bounds, bounds[1:], strict=False):
@@ -306,17 +318,14 @@ class Perimeter:
                     known[before] = reached
                     self._remember(before, reached)
 
-    def _remember(self, places: Array, distances: Array) -> None:
-        """Put places into the buckets of their distances."""
+    def _remember(self, places: Places, distances: Stored) -> None:
+        """Put places into the levels of their distances (as stored); both of shape ``(n,)``."""
         levels = distances - 1 >> self._minor_bits
         lowest, highest = int(levels.min()), int(levels.max())
         for level in range(lowest, highest + 1):
             chosen = places if lowest == highest else places[levels == level]
             if len(chosen):
-                if level not in self._buckets:
-                    self._buckets[level] = []
-                    heappush(self._queue, level)
-                self._buckets[level].append(chosen)
+                self._queue.push(level, chosen)
 
 
 def ball_around(
@@ -343,11 +352,3 @@ def ball_around(
         return None
     goals = places.holding(goal)
     return None if goals is None else Perimeter(places, arcs, goals, deadline)
-
-
-def _distinct(values: Array) -> Array:
-    """The values in order, each once."""
-    values = np.sort(values)
-    first = np.ones(len(values), dtype=bool)
-    first[1:] = values[1:] != values[:-1]
-    return np.asarray(values[first])

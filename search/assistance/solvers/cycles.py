@@ -7,8 +7,9 @@ some moves are free: in a set of states that is never left, strict improvement
 somewhere would make the mean of the values fall below itself.
 """
 
-from heapq import heappop, heappush
+from collections.abc import Mapping
 
+from search.algorithms.and_or import AndOrGraph, Rule
 from search.assistance.game.rules import Mean, Value
 from search.assistance.solvers.evaluate import Option, evaluate, option_value
 from search.assistance.solvers.graph import Graph
@@ -40,57 +41,23 @@ Solved = tuple[dict[int, Value], dict[int, Option]]
 
 
 def _worst(graph: Graph, model: Model, deadline: Deadline) -> Solved:
-    return _Settling(graph, model).run(deadline)
+    """Values and options of all states from which the end can be forced."""
+    options: list[Option] = []
+    rules: list[Rule[int]] = []
+    for state, listed in model.items():
+        deadline.tick()
+        for option in listed:
+            options.append(option)
+            rules.append(Rule({move.after for move in option.outcomes if move.after in model}, (state,)))
 
+    def value(k: int, values: Mapping[int, int]) -> int:
+        def value_of(state: int) -> Value:
+            return values[state] if state in model else graph.choice_value(state)
 
-class _Settling:
-    """AND-OR Dijkstra: an option counts when all its outcomes are settled."""
+        return int(option_value(options[k], graph.rule, value_of))
 
-    def __init__(self, graph: Graph, model: Model) -> None:
-        self._graph = graph
-        self._model = model
-        self._values: dict[int, Value] = {}
-        self._chosen: dict[int, Option] = {}
-        self._candidates: dict[int, Value] = {}
-        self._queue: list[tuple[Value, int]] = []
-        self._waiting: dict[int, list[tuple[int, int]]] = {}
-        self._missing: dict[tuple[int, int], int] = {}
-
-    def run(self, deadline: Deadline) -> Solved:
-        """Values and options of all states from which the end can be forced."""
-        for state, options in self._model.items():
-            deadline.tick()
-            for i, option in enumerate(options):
-                self._enter(state, i, {move.after for move in option.outcomes if move.after in self._model})
-        while self._queue:
-            deadline.tick()
-            value, state = heappop(self._queue)
-            if state in self._values:
-                continue
-            self._values[state] = value
-            for before, i in self._waiting.get(state, ()):
-                self._missing[before, i] -= 1
-                if not self._missing[before, i] and before not in self._values:
-                    self._offer(before, self._model[before][i])
-        return self._values, {state: self._chosen[state] for state in self._values}
-
-    def _enter(self, state: int, i: int, inside: set[int]) -> None:
-        self._missing[state, i] = len(inside)
-        for after in inside:
-            self._waiting.setdefault(after, []).append((state, i))
-        if not inside:
-            self._offer(state, self._model[state][i])
-
-    def _offer(self, state: int, option: Option) -> None:
-        infinite = self._graph.rule.infinite
-        value = option_value(option, self._graph.rule, self._value_of)
-        if value < self._candidates.get(state, infinite):
-            self._candidates[state] = value
-            self._chosen[state] = option
-            heappush(self._queue, (value, state))
-
-    def _value_of(self, state: int) -> Value:
-        return self._values[state] if state in self._model else self._graph.choice_value(state)
+    found, chosen = AndOrGraph(rules, deadline).settle((), value, graph.rule.infinite)
+    return found, {state: options[chosen[state]] for state in found}
 
 
 def _mean(graph: Graph, model: Model, deadline: Deadline) -> Solved:

@@ -1,0 +1,35 @@
+"""Arrays of numbers of one kind, all with one axis: what tables of distances consist of."""
+
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Words = NDArray[np.int64]
+"""Packed states, distances or offsets, an ``int64`` each."""
+
+Places = NDArray[np.int32]
+"""Indices of states in a table, an ``int32`` each."""
+
+Kinds = NDArray[np.int16]
+"""Indices of weights among the different ones, an ``int16`` each."""
+
+Indices = NDArray[np.intp]
+"""Indices as numpy gives them, a word each."""
+
+Stored = NDArray[np.unsignedinteger[Any]]
+"""Distances as they are stored, a ``uint32`` or a ``uint16`` each."""
+
+Number = TypeVar("Number", bound=np.signedinteger[Any])
+
+
+def distinct(values: NDArray[Number]) -> NDArray[Number]:
+    """The values in order, each once; numpy's own ``unique`` hashes, slowly on packed states.
+
+    Args:
+        values: of shape ``(n,)``, in any order.
+    """
+    values = np.sort(values)
+    first = np.ones(len(values), dtype=bool)
+    first[1:] = values[1:] != values[:-1]
+    return values[first]
