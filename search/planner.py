@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from search.context import SearchContext
-from search.engine.best_first import Incumbent, Progress, Space, best_first
+from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
 from search.engine.outcome import Outcome, path_sets, path_steps, plan_steps
 from search.human.individual_planner import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY
@@ -251,7 +251,7 @@ class _Call:
                 self.unaided = replace(self.best)
         self.settled = True
 
-    def _space(self, *, idle: bool = False) -> Space:
+    def _space(self, *, idle: bool = False) -> Space[Node, Incumbent]:
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
             return window_space(

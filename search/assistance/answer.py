@@ -11,7 +11,7 @@ from search.assistance.game.game import INFINITE, Game
 from search.assistance.game.rules import Mean, Worst
 from search.assistance.game.solution import ZERO, Costs, Solution
 from search.assistance.phase import PhaseDeadline
-from search.assistance.solvers.astar import AStar
+from search.assistance.solvers.cheapest_run import CheapestRun
 from search.assistance.solvers.lao_star import LaoStar
 from search.assistance.writing import Writer
 from search.prepared_task import PreparedTask
@@ -91,7 +91,7 @@ def _limit_of(work: Callable[[], object]) -> str | None:
 def _searched(game: Game, options: Options) -> Iterator[Assistance]:
     """Answers of the search, which needs to know what the prime does alone."""
     writer = Writer(game, options.ties)
-    search: AStar | LaoStar | None = None
+    search: CheapestRun | LaoStar | None = None
     try:
         search = _search(game, options)
         for _ in search.run():
@@ -119,7 +119,7 @@ def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:
         yield Assistance("feasible", lower, upper=game.pair(upper), policy=Policy((), None))
 
 
-def _unfinished(game: Game, writer: Writer, search: AStar | LaoStar | None, limit: str) -> Assistance:
+def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Assistance:
     """What is known when the time is up: doing nothing is always an answer, if he has a plan."""
     known = Solution(None, None) if search is None else search.solution(floors=False)
     if search is not None and known.upper is not None and known.lower == known.upper:
@@ -150,15 +150,15 @@ def _bound_without_search(game: Game, deadline: Deadline) -> Costs:
         return ZERO
 
 
-def _search(game: Game, options: Options) -> AStar | LaoStar:
+def _search(game: Game, options: Options) -> CheapestRun | LaoStar:
     bound = Bound(game)
     no_block = bool(options.no_block)
     if options.ties in ("fixed", "optimistic"):
-        return AStar(game, bound, fixed=options.ties == "fixed", no_block=no_block)
+        return CheapestRun(game, bound, fixed=options.ties == "fixed", no_block=no_block)
     return LaoStar(game, bound, Worst() if options.ties == "robust" else Mean(game), no_block=no_block)
 
 
-def _answer(writer: Writer, search: AStar | LaoStar, status: str) -> Assistance:
+def _answer(writer: Writer, search: CheapestRun | LaoStar, status: str) -> Assistance:
     solution = search.solution(floors=status == "optimal")
     has_policy = status in ("optimal", "feasible")
     return Assistance(

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, TypeVar
 
 from serendipity.model.deadline import Deadline
 
@@ -73,29 +73,41 @@ class Progress:
         return True
 
 
-class Space(Protocol):
-    """What a mode defines."""
+class Keyed(Protocol):
+    """What a search improves: an incumbent, with its key."""
 
-    def roots(self) -> Iterable[tuple[int, Node]]:
+    key: int
+
+
+N = TypeVar("N")
+Best = TypeVar("Best", bound=Keyed)
+Improved = TypeVar("Improved", bound=Keyed, contravariant=True)
+
+
+class Space(Protocol[N, Improved]):
+    """What a mode defines: its nodes (``N``), and how they lead to a better incumbent."""
+
+    def roots(self) -> Iterable[tuple[int, N]]:
         """Bounded initial nodes."""
 
-    def alive(self, node: Node) -> bool:
+    def alive(self, node: N) -> bool:
         """Whether no better node makes this one superfluous."""
 
-    def expand(self, node: Node, best: Incumbent) -> Iterable[tuple[int, Node]]:
+    def expand(self, node: N, best: Improved) -> Iterable[tuple[int, N]]:
         """Bounded successors; complete plans met on the way are offered to ``best``."""
 
 
-def best_first(space: Space, best: Incumbent, progress: Progress, deadline: Deadline) -> Iterator[Incumbent]:
+def best_first(space: Space[N, Best], best: Best, progress: Progress, deadline: Deadline) -> Iterator[Best]:
     """Yield each better incumbent, and now and then the same one where the bound has risen.
 
-    On return ``best`` is optimal and the bound is its key.
+    Of nodes with equal bounds the latest comes first.  On return ``best`` is optimal and the bound is
+    its key.
 
     Raises:
         LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
     """
     tie = count()
-    queue: list[tuple[int, int, Node]] = []
+    queue: list[tuple[int, int, N]] = []
     for bound, node in space.roots():
         heappush(queue, (bound, -next(tie), node))
     known = best.key

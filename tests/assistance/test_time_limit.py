@@ -15,8 +15,7 @@ from search.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alon
 from search.assistance.distances import closure
 from search.assistance.distances import perimeter as ball
 from search.assistance.game.game import Game
-from search.assistance.solvers import astar as shortest
-from search.assistance.solvers import lao_star as branching
+from search.assistance.solvers import cheapest_run, lao_star
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
 from tests.assistance.oracle import by_rounds, explore
@@ -35,7 +34,7 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
     options = Options(mode="assistance", ties=ties)
     *_, full = assist(PreparedTask(game), options, Deadline())
     with pytest.MonkeyPatch.context() as patch:
-        for module in (closure, provision, branching, shortest):
+        for module in (closure, provision, lao_star, cheapest_run):
             for name in ("_CHECK_EVERY", "SMALL", "MEDIUM"):
                 if hasattr(module, name):
                     patch.setattr(module, name, 1)

@@ -6,12 +6,12 @@ latest comes first, and first of all what a plan that attains the bound would do
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from heapq import heappop, heappush
 from typing import NamedTuple
 
 from search.assistance.bounds.bound import Bound
 from search.assistance.game.game import INFINITE, NOOP, Game, Move
 from search.assistance.game.solution import MAX_FLOORS, ZERO, Costs, Entry, Solution
+from search.engine.best_first import Progress, best_first
 
 
 class _Node(NamedTuple):
@@ -23,18 +23,27 @@ class _Node(NamedTuple):
     cost: int
     parent: "_Node | None"
     action: int
+    bound: int
+    """No run over here has a smaller value."""
+    ready: bool
+    """Whether the bound is its own; else it is its parent's."""
 
 
 @dataclass(slots=True)
 class _Best:
-    """The cheapest complete run: it ends in ``node``, or the supporter idles from there on."""
+    """The cheapest complete run: it ends in ``node``, or the supporter idles from there on.
 
-    value: int
+    Attributes:
+        key: its value.
+        node: where it ends, None while there is no run.
+    """
+
+    key: int
     node: _Node | None = None
 
 
-class AStar:
-    """The search.
+class CheapestRun:
+    """The search: a space for :func:`.best_first`.
 
     Args:
         game: the game.
@@ -48,18 +57,21 @@ class AStar:
         self._bound = bound
         self._fixed = fixed
         self._no_block = no_block
-        self._count = 0
-        self._queue: list[tuple[int, int, bool, _Node]] = []
         self._cheapest: dict[tuple[int, bool], int] = {}
         self._closed: dict[int, int] = {}
         self._best = _Best(INFINITE)
+        self._progress = Progress()
         self.expanded = 0
-        self.lower = 0
 
     @property
     def upper(self) -> int:
         """The value of the best run found."""
-        return self._best.value
+        return self._best.key
+
+    @property
+    def lower(self) -> int:
+        """A value that no run undercuts."""
+        return self._progress.bound
 
     def run(self) -> Iterator[None]:
         """Search; yields whenever ``upper`` falls.  On return it is the optimum.
@@ -67,82 +79,76 @@ class AStar:
         Raises:
             LimitReachedError: the deadline ran out; ``lower``, ``upper`` and the solution stand.
         """
-        game = self._game
-        root = _Node(game.init, False, 0, None, NOOP)
-        if game.goal.holds(game.init):
-            self._best = _Best(0, root)
-        self._push(root, self._bound(game.init), ready=True)
-        while self._queue:
-            game.deadline.tick()
-            f, _, ready, node = heappop(self._queue)
-            if f >= self._best.value:
-                break
-            self.lower = max(self.lower, f)
-            if self._cheapest[node.state, node.primes] < node.cost:
-                continue
-            if not ready:
-                estimate = node.cost + self._bound(node.state)
-                if estimate > f:
-                    self._push(node, estimate, ready=True)
-                    continue
-            self.expanded += 1
-            known = self._best.value
-            self._expand(node, f)
-            if self._best.value < known:
+        known = self.upper
+        for best in best_first(self, self._best, self._progress, self._game.deadline):
+            if best.key < known:
+                known = best.key
                 yield
-        self.lower = self._best.value
 
-    def _expand(self, node: _Node, f: int) -> None:
+    def roots(self) -> Iterator[tuple[int, _Node]]:
+        """The initial state, the supporter to move."""
+        init = self._game.init
+        root = _Node(init, False, 0, None, NOOP, self._bound(init), True)
+        if self._game.goal.holds(init):
+            self._best.key, self._best.node = 0, root
+        self._cheapest[init, False] = 0
+        yield root.bound, root
+
+    def alive(self, node: _Node) -> bool:
+        """Whether no cheaper way to the same has been found."""
+        return self._cheapest[node.state, node.primes] >= node.cost
+
+    def expand(self, node: _Node, best: _Best) -> Iterator[tuple[int, _Node]]:
+        """What the next move leads to; the node itself, where its own bound turns out to be higher."""
+        if not node.ready:
+            estimate = node.cost + self._bound(node.state)
+            if estimate > node.bound:
+                yield estimate, node._replace(bound=estimate, ready=True)
+                return
+        self.expanded += 1
         if node.primes:
-            self._prime(node, f)
+            yield from self._prime(node, best)
         else:
             self._closed[node.state] = node.cost
-            self._supporter(node, f)
+            yield from self._supporter(node, best)
 
-    def _supporter(self, node: _Node, f: int) -> None:
+    def _supporter(self, node: _Node, best: _Best) -> Iterator[tuple[int, _Node]]:
         wanted = self._bound.wanted(node.state)
         moves = self._game.supporter(node.state)
-        # The last one pushed comes up first: what is wanted, else waiting.
+        # The last one comes up first: what is wanted, else waiting.
         moves.sort(key=lambda move: (move.action in wanted, move.action == NOOP))
         for move in moves:
-            self._reach(node, move, primes=True, f=f)
+            yield from self._reach(node, move, best)
 
-    def _prime(self, node: _Node, f: int) -> None:
+    def _prime(self, node: _Node, best: _Best) -> Iterator[tuple[int, _Node]]:
         game = self._game
         alone = game.alone(node.state)
         if alone >= INFINITE:
-            if self._blocks(node):
-                return
-            if node.parent is not None and node.parent.state != node.state:
-                self._reach(node, Move(0, node.state, NOOP), primes=False, f=f)
+            if not self._blocks(node) and node.parent is not None and node.parent.state != node.state:
+                yield from self._reach(node, Move(0, node.state, NOOP), best)
             return
-        if node.cost + alone < self._best.value:
-            self._best = _Best(node.cost + alone, node)
+        if node.cost + alone < best.key:
+            best.key, best.node = node.cost + alone, node
         moves = game.prime(node.state)
         for move in moves[:1] if self._fixed else reversed(moves):
-            self._reach(node, move, primes=False, f=f)
+            yield from self._reach(node, move, best)
 
     def _blocks(self, node: _Node) -> bool:
         """Whether the supporter's move to a state without a plan took the plan away."""
         before = node.parent
         return self._no_block and before is not None and self._game.alone(before.state) < INFINITE
 
-    def _reach(self, parent: _Node, move: Move, *, primes: bool, f: int) -> None:
-        node = _Node(move.after, primes, parent.cost + move.value, parent, move.action)
-        if node.cost >= self._best.value:
+    def _reach(self, parent: _Node, move: Move, best: _Best) -> Iterator[tuple[int, _Node]]:
+        """The node after a move, if nothing as cheap is known; its bound is worked out when it comes up."""
+        cost, primes = parent.cost + move.value, not parent.primes
+        if cost >= best.key:
             return
+        node = _Node(move.after, primes, cost, parent, move.action, parent.bound, False)
         if self._game.goal.holds(move.after):
-            self._best = _Best(node.cost, node)
-            return
-        self._push(node, f, ready=False)
-
-    def _push(self, node: _Node, f: int, *, ready: bool) -> None:
-        form = (node.state, node.primes)
-        if not ready and self._cheapest.get(form, INFINITE) <= node.cost:
-            return
-        self._cheapest[form] = node.cost
-        self._count -= 1
-        heappush(self._queue, (f, self._count, ready, node))
+            best.key, best.node = cost, node
+        elif cost < self._cheapest.get((move.after, primes), INFINITE):
+            self._cheapest[move.after, primes] = cost
+            yield parent.bound, node
 
     def solution(self, *, floors: bool = True) -> Solution:
         """The best run as a policy, and lower bounds on what was expanded."""
@@ -151,7 +157,7 @@ class AStar:
         node = best.node
         while node is not None and node.parent is not None:
             if node.primes:
-                value = game.pair(best.value - node.parent.cost)
+                value = game.pair(best.key - node.parent.cost)
                 policy[node.parent.state] = Entry(value, node.action, node.state)
             node = node.parent
         proof: dict[int, Costs] | None = None
@@ -160,7 +166,7 @@ class AStar:
             proof = {s: self._rest(cost) for s, cost in known.items()}
         return Solution(
             lower=None if self.lower >= INFINITE else game.pair(self.lower),
-            upper=None if best.value >= INFINITE else game.pair(best.value),
+            upper=None if best.key >= INFINITE else game.pair(best.key),
             policy=dict(reversed(policy.items())),
             floors=proof,
         )
