@@ -12,7 +12,8 @@ from fractions import Fraction
 from search.algorithms.astar import AStar
 from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import OperatorIndex, forms_of
+from search.packed.operator_index import by_most_asked
+from search.packed.operators import forms_of
 from search.packed.successor_generator import Lookup
 from search.prepared_task import PreparedTask
 from serendipity.model.actions import Condition
@@ -67,7 +68,7 @@ class _Search:
         packed = context.packed
         own = sorted({op.action for op in packed.own} | seen)
         forms = forms_of((packed.op(i) for i in own), packed.all_ones, deadline)
-        self._lookup = Lookup(OperatorIndex(forms, packed.fields, deadline), context.weights.alone)
+        self._lookup = Lookup(by_most_asked(forms, packed.fields, deadline), context.weights.alone)
         self._keys = context.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal

@@ -13,14 +13,16 @@ last op on it (0 at the start).
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
+from itertools import chain
 from typing import NamedTuple
 
 from search.algorithms.shortest_paths import LevelQueue
 from search.heuristics.interactions import Need
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operator_index import by_variable
 from search.packed.operators import Operator, forms_of
 from search.packed.packed_task import PackedTask
-from search.robots.transition_graphs import TransitionGraphs, by_value, with_anything
+from search.robots.transition_graphs import TransitionGraphs
 from serendipity.model.deadline import Deadline
 
 Spot = tuple[int, int, int, int]
@@ -73,7 +75,7 @@ class AchieverAutomaton:
         self._packed = packed
         self._acts = transitions.on(field)
         changing = (op for op in flips if field & ~op.keep)
-        self._flips = by_value(field, forms_of(changing, packed.all_ones, deadline))
+        self._flips = by_variable(field, forms_of(changing, packed.all_ones, deadline))
         self._anyhow: dict[int, list[int]] = {}
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
@@ -152,7 +154,6 @@ class AchieverAutomaton:
         if exits is None:
             exits = self._open_exits[label] = self._exits(value, robot)
         exits.discard(place)
-        exits.discard(-1)
         weights = self._weights
         walks = [
             (weights[index], (value, team, robot, there))
@@ -172,7 +173,7 @@ class AchieverAutomaton:
         value, team, robot, place = spot
         edges: list[Edge] = []
         if robot:
-            ops = with_anything(self._acts.by_place(value, robot), place)
+            ops = self._acts.by_place(value, robot).at(place)
         else:
             ops = [op for op in self._acts.on(value) if not op.agents & team]
         for op in ops:
@@ -184,7 +185,7 @@ class AchieverAutomaton:
                     edges += [
                         (weight, (after, op.agents, other, p)) for p in self._after(op, other, field, here)
                     ]
-        for op in with_anything(self._flips, value):
+        for op in self._flips.at(value):
             edges.append((0, (op.put & self._field, team, robot, place)))
         if robot and team and len(self._places.field) > 1:
             edges.append((0, (value, team, 0, 0)))
@@ -216,16 +217,17 @@ class AchieverAutomaton:
             self._anyhow.setdefault(value, []).append(i)
 
     def _exits(self, value: int, robot: int) -> set[int]:
-        """Places in which something can happen to the value (-1: anywhere)."""
-        return {*self._acts.by_place(value, robot), *self._at_place.get((value, robot), ())}
+        """Places in which something can happen to the value, and that not everywhere."""
+        return {*self._acts.by_place(value, robot).by_value, *self._at_place.get((value, robot), ())}
 
     def _least_step(self, label: Label) -> int:
         """The least that a robot pays from where no exit is; 0 where it need not walk to go on."""
         value, team, robot = label
-        if team or with_anything(self._flips, value) or -1 in self._exits(value, robot):
+        if team or self._flips.at(value) or self._acts.by_place(value, robot).always:
             return 0
-        walks = self._acts.walks[robot].values()
-        return min((self._weights[index] for ways in walks for _, index in ways), default=0)
+        walks = self._acts.walks[robot]
+        listed = chain(walks.always, *walks.by_value.values())
+        return min((self._weights[index] for _, index in listed), default=0)
 
     def _accept(self, node: "_Node") -> None:
         """Note the needs that are provided at a spot."""

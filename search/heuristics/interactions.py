@@ -10,7 +10,8 @@ outside part of the condition of a touch.
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from search.packed.operators import Operator, OperatorIndex
+from search.packed.operator_index import OperatorIndex
+from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 
 
@@ -84,7 +85,7 @@ class Interactions:
     def _involves_others(self, op: Operator) -> bool:
         return self._packed.involves_others(op.agents, self._packed.mentioned(op))
 
-    def _look(self, index: OperatorIndex, value: int) -> list[Seen]:
+    def _look(self, index: OperatorIndex[Operator], value: int) -> list[Seen]:
         """The ops under a value of an index; under every value, if the field is not his own."""
         hidden = index.field & ~self.mask
         ops = (

@@ -11,14 +11,19 @@ its keys.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from search.algorithms.shortest_paths import backward
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_weights
+from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Signature, set_by
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.deadline import Deadline
 
 _MAX_STATES = 50_000
+
+Literals = tuple[tuple[int, int], ...]
+"""Fields, and values that they must not have."""
 
 Predecessors = dict[int, list[tuple[int, int]]]
 """Per projected state the cheapest ways to it: weight (:func:`.own_weights`), state before it."""
@@ -111,7 +116,7 @@ def human_graph(packed: PackedTask, deadline: Deadline) -> Projected:
     for count in range(len(private), 0, -1):
         fields = goal_first[:count]
         mask = sum(fields)
-        steps = _Steps(fields, weighed, deadline)
+        steps = _transitions(fields, weighed, deadline)
         graph = _explore(mask, packed.init & mask, steps, deadline)
         if graph is not None:
             return graph
@@ -128,70 +133,66 @@ def _satisfying(graph: Projected, goal: PackedGoal) -> list[int]:
     return [s for s in found if all(s & m != v for m, v in forbidden)] if forbidden else found
 
 
-def _explore(mask: int, start: int, steps: "_Steps", deadline: Deadline) -> Projected | None:
+class Transition(NamedTuple):
+    """An op seen through the projection; ``interaction`` tells whether it mentions what others change."""
+
+    need_mask: int
+    need: int
+    keep: int
+    put: int
+    forbidden: Literals
+    weight: int
+    interaction: bool
+
+
+def _explore(mask: int, start: int, steps: OperatorIndex[Transition], deadline: Deadline) -> Projected | None:
     """What leads from ``start`` to each projected state; None if they are too many."""
     moves: Predecessors = {start: []}
     interactions: Predecessors = {start: []}
-    index, by_value, always = steps.index, steps.by_value, steps.always
     pending = [start]
     while pending:
         state = pending.pop()
         deadline.tick()
-        for entries in (by_value.get(state & index, ()), always):
-            for need_mask, need, keep, put, forbidden, weight, interaction in entries:
-                if state & need_mask != need:
-                    continue
-                after = state & keep | put
-                if after == state or (forbidden and any(state & m == value for m, value in forbidden)):
-                    continue
-                if after not in moves:
-                    if len(moves) >= _MAX_STATES:
-                        return None
-                    moves[after], interactions[after] = [], []
-                    pending.append(after)
-                (interactions if interaction else moves)[after].append((weight, state))
+        for need_mask, need, keep, put, forbidden, weight, interaction in steps.candidates(state):
+            after = state & keep | put
+            if state & need_mask != need or after == state:
+                continue
+            if forbidden and any(state & m == value for m, value in forbidden):
+                continue
+            if after not in moves:
+                if len(moves) >= _MAX_STATES:
+                    return None
+                moves[after], interactions[after] = [], []
+                pending.append(after)
+            (interactions if interaction else moves)[after].append((weight, state))
     return Projected(mask, moves, interactions)
 
 
-Transition = tuple[int, int, int, int, tuple[tuple[int, int], ...], int, bool]
-"""``need_mask, need, keep, put, forbidden, weight`` of an op seen through the projection, and
-whether it is a touch."""
+def _transitions(
+    fields: Sequence[int], forms: Iterable[tuple[Signature, int, bool]], deadline: Deadline
+) -> OperatorIndex[Transition]:
+    """Ops in a projection onto some fields; of those that look alike there the cheapest.
 
-Literals = tuple[tuple[int, int], ...]
-"""Fields, and values that they must not have."""
-
-
-class _Steps:
-    """Ops in the projection, by the value of one field; those that look alike are merged, the cheapest kept.
-
-    Attributes:
-        index: the field that most of them ask for.
-        by_value: those that ask for it, by its value.
-        always: the others.
+    Args:
+        fields: masks of the fields.
+        forms: the ops, the cheapest last: their weight, and whether they are interactions.
+        deadline: polled while they are merged.
     """
-
-    def __init__(
-        self, fields: Sequence[int], forms: Iterable[tuple[Signature, int, bool]], deadline: Deadline
-    ) -> None:
-        mask = sum(fields)
-        merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
-        for form, weight, interaction in forms:
-            deadline.check()
-            if form.sets & mask:
-                shape = form.need_mask & mask, mask & ~form.sets, interaction
-                merged.setdefault(shape, {}).update(_seen(form, mask, weight))
-        self.index = max(fields, key=lambda field: sum(len(m) for s, m in merged.items() if s[0] & field))
-        self.by_value: dict[int, list[Transition]] = {}
-        self.always: list[Transition] = []
-        for (need_mask, keep, interaction), values in merged.items():
-            indexed = need_mask & self.index
-            for (need, put, forbidden), weight in values.items():
-                deadline.tick()
-                entry = (need_mask, need, keep, put, forbidden, weight, interaction)
-                if indexed:
-                    self.by_value.setdefault(need & self.index, []).append(entry)
-                else:
-                    self.always.append(entry)
+    mask = sum(fields)
+    merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
+    for form, weight, interaction in forms:
+        deadline.check()
+        if form.sets & mask:
+            shape = form.need_mask & mask, mask & ~form.sets, interaction
+            merged.setdefault(shape, {}).update(_seen(form, mask, weight))
+    asked = ((need_mask, len(values)) for (need_mask, _, _), values in merged.items())
+    steps: OperatorIndex[Transition] = OperatorIndex(most_asked(fields, asked))
+    for (need_mask, keep, interaction), values in merged.items():
+        for (need, put, forbidden), weight in values.items():
+            deadline.tick()
+            seen = Transition(need_mask, need, keep, put, forbidden, weight, interaction)
+            steps.add(need_mask, need, seen)
+    return steps
 
 
 def _seen(form: Signature, mask: int, weight: int) -> dict[tuple[int, int, Literals], int]:

@@ -8,8 +8,7 @@ Glossary: *field* - the bits of one variable; *op* - a packed ground action; *fo
 ops of the same agents that mention the same fields in the same way.
 """
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from serendipity.model.deadline import Deadline
@@ -63,7 +62,7 @@ def forms_of(ops: Iterable[Operator], all_ones: int, deadline: Deadline) -> tupl
     Args:
         ops: the ops.
         all_ones: all fields.
-        deadline: asked for time.
+        deadline: polled while they are sorted.
     """
     members: dict[tuple[int, int, int, int, int], list[Operator]] = {}
     for op in ops:
@@ -103,34 +102,6 @@ def split(mask: int, by_lowest_bit: dict[int, int]) -> Iterator[int]:
         field = by_lowest_bit[mask & -mask]
         yield field
         mask &= ~field
-
-
-class OperatorIndex:
-    """Ops of one leader by the value of one field: the one that most of them ask for."""
-
-    __slots__ = ("always", "by_value", "field")
-
-    def __init__(self, forms: Sequence[Signature], fields: Sequence[int], deadline: Deadline) -> None:
-        by_lowest_bit = {field & -field: field for field in fields}
-        asked: Counter[int] = Counter()
-        for form in forms:
-            for field in split(form.need_mask, by_lowest_bit):
-                asked[field] += len(form.ops)
-        self.field = max(fields, key=lambda field: asked[field], default=0)
-        self.by_value: dict[int, list[Operator]] = {}
-        self.always: list[Operator] = []
-        field = self.field
-        for form in forms:
-            deadline.check()
-            if not form.need_mask & field:
-                self.always += form.ops
-                continue
-            for op in form.ops:
-                self.by_value.setdefault(op.need & field, []).append(op)
-
-    def candidates(self, state: int) -> list[Operator]:
-        """Ops whose condition on the field holds in a packed state."""
-        return self.by_value.get(state & self.field, []) + self.always
 
 
 def applicable(op: Operator, state: int) -> bool:

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from search.packed.operators import Operator, OperatorIndex, Signature, forms_of, set_by
+from search.packed.operator_index import by_most_asked
+from search.packed.operators import Operator, Signature, forms_of, set_by
 from search.packed.relevance import relevant_to_goals
 from serendipity.model.actions import Condition, conflicting
 from serendipity.model.collection import no_collection
@@ -151,10 +152,10 @@ class PackedTask:
         led: dict[int, list[Signature]] = {}
         for form in self.other_forms:
             led.setdefault(form.agents & -form.agents, []).append(form)
-        self.own_index = OperatorIndex(self.own_forms, self.fields, deadline)
-        self.joint_index = OperatorIndex(self.joint_forms, self.fields, deadline)
+        self.own_index = by_most_asked(self.own_forms, self.fields, deadline)
+        self.joint_index = by_most_asked(self.joint_forms, self.fields, deadline)
         self.robot_indices = tuple(
-            OperatorIndex(forms, self.fields, deadline) for _, forms in sorted(led.items())
+            by_most_asked(forms, self.fields, deadline) for _, forms in sorted(led.items())
         )
 
     @cached_property

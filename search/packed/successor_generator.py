@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
 from typing import NamedTuple
 
-from search.packed.operators import Operator, OperatorIndex, applicable
+from search.packed.operator_index import OperatorIndex
+from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
 from serendipity.model.actions import disables
 from serendipity.model.deadline import Deadline
@@ -42,7 +43,7 @@ _MANY = 1023
 class Lookup:
     """Weighted ops of one leader; what a value of the index allows is put together once."""
 
-    def __init__(self, index: OperatorIndex, weight: Callable[[Operator], int]) -> None:
+    def __init__(self, index: OperatorIndex[Operator], weight: Callable[[Operator], int]) -> None:
         self._index = index
         self._field = index.field
         self._weight = weight

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from search.engine.best_first import Node
+from search.packed.operator_index import LiteralIndex
 from search.packed.operators import Operator, Signature
 from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Idle, JointAction, Successors, in_time, together
@@ -36,6 +37,10 @@ class CenterAction(NamedTuple):
     form: Signature
     need_mask: int
     at: tuple[tuple[int, int], ...]
+
+
+CenterActionIndex = LiteralIndex[tuple[CenterAction, Operator]]
+"""Ops of robots with their center actions."""
 
 
 class Decoupled:
@@ -61,7 +66,7 @@ class Decoupled:
         self.mask = sum(self.fields)
         self._moves: list[dict[int, list[tuple[int, Operator]]]] = [{} for _ in self.fields]
         self._from: dict[tuple[int, int], dict[int, tuple[int, int, int]]] = {}
-        self.joint = CenterActionIndex((), packed)
+        self.joint: CenterActionIndex = LiteralIndex()
         self.led: list[CenterActionIndex] = []
         # What only robots together move is the place of each of them, and of none alone.
         apart = all(self.fields) and len({*self.fields}) == len(self.fields)
@@ -86,8 +91,8 @@ class Decoupled:
                 joint.append(deed)
             else:
                 led.setdefault(form.agents & -form.agents, []).append(deed)
-        self.joint = CenterActionIndex(joint, packed)
-        self.led = [CenterActionIndex(deeds, packed) for _, deeds in sorted(led.items())]
+        self.joint = _by_largest(joint, packed)
+        self.led = [_by_largest(deeds, packed) for _, deeds in sorted(led.items())]
         costs = [{op.cost for moves in way.values() for _, op in moves} for way in self._moves]
         return all(len(cost) <= 1 for cost in costs)
 
@@ -186,27 +191,15 @@ class Decoupled:
             node = node.parent
 
 
-class CenterActionIndex:
-    """Deeds by the value of the largest field that they ask for, places aside."""
-
-    def __init__(self, deeds: Iterable[CenterAction], packed: PackedTask) -> None:
-        largest_first = sorted(packed.fields, key=lambda field: -len(packed.values(field)))
-        self._always: list[tuple[CenterAction, Operator]] = []
-        self._by_field: dict[int, dict[int, list[tuple[CenterAction, Operator]]]] = {}
-        for deed in deeds:
-            field = next((field for field in largest_first if deed.need_mask & field), 0)
-            if not field:
-                self._always += [(deed, op) for op in deed.form.ops]
-                continue
-            by_value = self._by_field.setdefault(field, {})
-            for op in deed.form.ops:
-                by_value.setdefault(op.need & field, []).append((deed, op))
-
-    def candidates(self, state: int) -> Iterator[tuple[CenterAction, Operator]]:
-        """Ops that may be possible in a packed state, with their deeds."""
-        yield from self._always
-        for field, by_value in self._by_field.items():
-            yield from by_value.get(state & field, ())
+def _by_largest(deeds: Iterable[CenterAction], packed: PackedTask) -> CenterActionIndex:
+    """Center actions by the value of the largest field that they ask for, places aside."""
+    largest_first = sorted(packed.fields, key=lambda field: -len(packed.values(field)))
+    index: CenterActionIndex = LiteralIndex()
+    for deed in deeds:
+        field = next((field for field in largest_first if deed.need_mask & field), 0)
+        for op in deed.form.ops:
+            index.add(field, op.need & field, (deed, op))
+    return index
 
 
 class DecoupledSuccessors(Successors):

@@ -3,15 +3,19 @@
 Glossary: *place* - the value of the field that most of a robot's own ops ask for.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
-from typing import TypeVar
 
+from search.packed.operator_index import OperatorIndex, by_variable, most_asked
 from search.packed.operators import Operator, Signature, set_by, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.deadline import Deadline
 
-Item = TypeVar("Item")
+Moves = OperatorIndex[tuple[int, Operator]]
+"""By a robot's place what sets it: the place after it, and the op."""
+
+Walks = OperatorIndex[tuple[int, int]]
+"""The same with the index of the op's cost."""
 
 
 class PositionVariables:
@@ -19,36 +23,28 @@ class PositionVariables:
 
     Attributes:
         field: per robot's bit its place field, 0 where it has none.
-        moves: per robot and place, -1 for anywhere, what sets its place: the place, and the op.
-        walks: the same with the index of the op's cost.
+        moves: per robot's bit what sets its place.
+        walks: the same with the index of the cost.
     """
 
     def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
         self.field: dict[int, int] = {}
-        self.moves: dict[int, dict[int, list[tuple[int, Operator]]]] = {}
+        self.moves: dict[int, Moves] = {}
         forms = (*packed.own_forms, *packed.joint_forms, *packed.other_forms)
         for robot in packed.task.robots:
             bit = 1 << robot
             mine = [form for form in packed.other_forms if form.agents & bit]
             foreign = set_by(form for form in forms if not form.agents & bit)
             private = set_by(mine) & ~foreign
-            counts = {
-                field: sum(len(form.ops) for form in mine if form.need_mask & field)
-                for field in packed.fields
-                if field & private
-            }
-            field = max(counts, key=lambda f: counts[f], default=0)
+            fields = [field for field in packed.fields if field & private]
+            field = most_asked(fields, ((form.need_mask, len(form.ops)) for form in mine))
             self.field[bit] = field
-            moves: dict[int, list[tuple[int, Operator]]] = {}
+            moves = self.moves[bit] = OperatorIndex(field)
             for form in mine:
-                if not field & form.sets:
-                    continue
-                # Without a condition on the place it can be done from anywhere: key -1.
-                anywhere = not form.need_mask & field
-                for op in form.ops:
-                    deadline.tick()
-                    moves.setdefault(-1 if anywhere else op.need & field, []).append((op.put & field, op))
-            self.moves[bit] = moves
+                if field & form.sets:
+                    for op in form.ops:
+                        deadline.tick()
+                        moves.add(op.need_mask, op.need, (op.put & field, op))
         self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
 
 
@@ -56,14 +52,13 @@ class TransitionGraph:
     """Robots' ops as one outside field sees them.
 
     Attributes:
-        walks: per robot and place what leads elsewhere without mentioning the field: the
-            place, and the index of the cost.  Walks that are possible anywhere stand under -1.
+        walks: per robot's bit what leads elsewhere without mentioning the field.
     """
 
     def __init__(self, field: int, forms: Sequence[Signature], places: PositionVariables) -> None:
-        self._on = by_value(field, forms)
+        self._on = by_variable(field, forms)
         self._places = places.field
-        self._here: dict[tuple[int, int], dict[int, list[Operator]]] = {}
+        self._here: dict[tuple[int, int], OperatorIndex[Operator]] = {}
         self.walks = places.walks
         if any(
             form.agents & bit and form.sets & place for form in forms for bit, place in self._places.items()
@@ -73,21 +68,20 @@ class TransitionGraph:
 
     def on(self, value: int) -> list[Operator]:
         """What robots can do to a value of the field."""
-        return with_anything(self._on, value)
+        return self._on.at(value)
 
     def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
         """Where a robot can walk from a place, with the index of the cost."""
-        return with_anything(self.walks[robot], place)
+        return self.walks[robot].at(place)
 
-    def by_place(self, value: int, robot: int) -> dict[int, list[Operator]]:
-        """What a robot can do to a value of the field, by its place (-1: anywhere)."""
+    def by_place(self, value: int, robot: int) -> OperatorIndex[Operator]:
+        """What a robot can do to a value of the field, by its place."""
         found = self._here.get((value, robot))
         if found is None:
-            found = self._here[value, robot] = {}
-            place = self._places[robot]
+            found = self._here[value, robot] = OperatorIndex(self._places[robot])
             for op in self.on(value):
                 if op.agents & robot:
-                    found.setdefault(op.need & place if op.need_mask & place else -1, []).append(op)
+                    found.add(op.need_mask, op.need, op)
         return found
 
 
@@ -116,30 +110,13 @@ class TransitionGraphs:
         return self._known[field]
 
 
-def with_anything(by_value: dict[int, list[Item]], value: int) -> list[Item]:
-    """What stands under a value or a place, and what stands under all of them (-1)."""
-    anything = by_value.get(-1)
-    known = by_value.get(value, [])
-    return known + anything if anything else known
-
-
-def _walks(
-    moves: dict[int, list[tuple[int, Operator]]], but: AbstractSet[int]
-) -> dict[int, list[tuple[int, int]]]:
+def _walks(moves: Moves, but: AbstractSet[int]) -> Walks:
     """Moves with the index of their cost, some actions left out."""
-    return {
-        origin: [(there, op.cost) for there, op in ops if op.action not in but]
-        for origin, ops in moves.items()
-    }
+    walks: Walks = OperatorIndex(moves.field)
+    walks.always = _costs(moves.always, but)
+    walks.by_value = {place: _costs(listed, but) for place, listed in moves.by_value.items()}
+    return walks
 
 
-def by_value(field: int, forms: Iterable[Signature]) -> dict[int, list[Operator]]:
-    """Ops by the value of a field that they ask for; under -1 where they don't."""
-    found: dict[int, list[Operator]] = {}
-    for form in forms:
-        if not form.need_mask & field:
-            found.setdefault(-1, []).extend(form.ops)
-            continue
-        for op in form.ops:
-            found.setdefault(op.need & field, []).append(op)
-    return found
+def _costs(moves: list[tuple[int, Operator]], but: AbstractSet[int]) -> list[tuple[int, int]]:
+    return [(there, op.cost) for there, op in moves if op.action not in but]

@@ -9,7 +9,6 @@ every action that asks for it sets, for the first time, one and the same fact th
 nothing ever unsets.  No plan of both together, with turns or without, is cheaper.
 """
 
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
@@ -17,6 +16,7 @@ from typing import NamedTuple
 
 from search.algorithms.astar import AStar
 from search.assistance.game.game import INFINITE, Game
+from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Operator
 
 Pair = tuple[int, int]
@@ -47,7 +47,7 @@ _Parents = dict[int, tuple[int, ChargedStep, int]]
 class _Context:
     """What is provided now: the steps under it, and what is known of states under it."""
 
-    steps: dict[int, list[ChargedStep]]
+    steps: OperatorIndex[ChargedStep]
     per_goal: dict[int, int]
     """Least value of a step that sets a bit of the goal."""
     known: _Known
@@ -64,7 +64,8 @@ class RelaxedProvision:
         self._private = by_prime & ~by_supporter
         self._provided = by_supporter & ~by_prime
         self._monotone = _monotone(packed.own, self._private, packed.fields)
-        self._field = _busiest(packed.own, packed.fields, self._private)
+        private = [field for field in packed.fields if field & self._private]
+        self._field = most_asked(private, ((op.need_mask, 1) for op in packed.own))
         self._setters = self._find_setters()
         self._charged = self._find_charged()
         goal = game.goal
@@ -147,14 +148,14 @@ class RelaxedProvision:
         return context
 
     def _make_context(self, provided: int) -> _Context:
-        steps: dict[int, list[ChargedStep]] = {}
+        steps: OperatorIndex[ChargedStep] = OperatorIndex(self._field)
         least: dict[int, Pair] = {}
         for op in self._game.packed.own:
             self._game.deadline.tick()
             step = self._step(op, provided)
             if step is None:
                 continue
-            steps.setdefault(op.need & self._field if op.need_mask & self._field else -1, []).append(step)
+            steps.add(op.need_mask, op.need, step)
             bit = op.put & self._countable
             if bit:
                 charge = sum(price for price, set_with, _ in step.charges if set_with == bit)
@@ -238,14 +239,14 @@ class RelaxedProvision:
         return value
 
     def _steps_from(self, context: _Context, at: int) -> Iterable[tuple[int, int, ChargedStep]]:
-        for steps in (context.steps.get(at & self._field, ()), context.steps.get(-1, ())):
-            for step in steps:
-                if at & step.need_mask != step.need or any(at & m == v for m, v in step.forbidden):
-                    continue
-                after = at & step.keep | step.put
-                if after != at:
-                    charge = sum(price for price, bit, _ in step.charges if not at & bit)
-                    yield (step.cost << self._game.unit_bits) + charge, after, step
+        """What the prime can do: its value with what is charged, the state after it, the step."""
+        for step in context.steps.candidates(at):
+            if at & step.need_mask != step.need or any(at & m == v for m, v in step.forbidden):
+                continue
+            after = at & step.keep | step.put
+            if after != at:
+                charge = sum(price for price, bit, _ in step.charges if not at & bit)
+                yield (step.cost << self._game.unit_bits) + charge, after, step
 
 
 def _monotone(ops: Iterable[Operator], private: int, fields: list[int]) -> int:
@@ -257,9 +258,3 @@ def _monotone(ops: Iterable[Operator], private: int, fields: list[int]) -> int:
     for op in ops:
         bits &= op.keep | op.put
     return bits
-
-
-def _busiest(ops: Iterable[Operator], fields: list[int], among: int) -> int:
-    asked = Counter(op.need_mask for op in ops)
-    private = [field for field in fields if field & among]
-    return max(private, key=lambda field: sum(n for mask, n in asked.items() if mask & field), default=0)

@@ -5,14 +5,13 @@ a state costs work once.  Small closures are explored state by state, large ones
 layers in arrays.
 """
 
-from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from search.algorithms.shortest_paths import backward
 from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.packed_task import PackedGoal
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LimitReachedError
@@ -26,15 +25,6 @@ SMALL: Final = 3_000
 
 MEDIUM: Final = 200_000
 """States that are all looked at before only those near the goal are."""
-
-
-@dataclass(frozen=True, slots=True)
-class _ByField:
-    """Arcs by the value of the field that most of them ask for."""
-
-    field: int
-    by_value: dict[int, list[Arc]]
-    always: list[Arc]
 
 
 class Closure:
@@ -65,7 +55,11 @@ class Closure:
         self._limit = limit
         self._deadline = deadline
         self._known: dict[int, int] = {}
-        self._by_field = _by_field(self._arcs, fields)
+        self._index: OperatorIndex[Arc] = OperatorIndex(
+            most_asked(fields, ((arc.condition.need_mask, 1) for arc in self._arcs))
+        )
+        for arc in self._arcs:
+            self._index.add(arc.condition.need_mask, arc.condition.need, arc)
         self._layers: list[Layers] = []
         self._balls: list[Perimeter] = []
 
@@ -119,16 +113,13 @@ class Closure:
         self._spread(seeds, predecessors)
 
     def _successors(self, state: int) -> list[tuple[int, int]]:
-        index = self._by_field
+        """Where arcs lead from a state, and their weights; those that lead nowhere else are left out."""
         found = []
-        for arcs in (index.by_value.get(state & index.field, ()), index.always):
-            for condition, keep, put, weight in arcs:
-                if state & condition.need_mask == condition.need and (
-                    not condition.forbidden or condition.holds(state)
-                ):
-                    after = state & keep | put
-                    if after != state:
-                        found.append((after, weight))
+        for condition, keep, put, weight in self._index.candidates(state):
+            if condition.holds(state):
+                after = state & keep | put
+                if after != state:
+                    found.append((after, weight))
         return found
 
     def _spread(self, seeds: list[tuple[int, int]], predecessors: dict[int, list[tuple[int, int]]]) -> None:
@@ -169,16 +160,3 @@ class Closure:
         if ball is not None:
             self._balls.append(ball)
         return ball is not None
-
-
-def _by_field(arcs: list[Arc], fields: Sequence[int]) -> _ByField:
-    asked = Counter(arc.condition.need_mask for arc in arcs)
-    field = max(fields, key=lambda field: sum(n for mask, n in asked.items() if mask & field), default=0)
-    by_value: dict[int, list[Arc]] = {}
-    always = []
-    for arc in arcs:
-        if arc.condition.need_mask & field:
-            by_value.setdefault(arc.condition.need & field, []).append(arc)
-        else:
-            always.append(arc)
-    return _ByField(field, by_value, always)

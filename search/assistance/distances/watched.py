@@ -4,7 +4,8 @@ from collections import Counter
 from collections.abc import Sequence
 from operator import itemgetter
 
-from search.packed.operators import Operator
+from search.packed.operator_index import LiteralIndex
+from search.packed.operators import Operator, split
 from serendipity.model.deadline import Deadline
 
 _RANK = itemgetter(0)
@@ -18,7 +19,7 @@ class Watched:
     Args:
         ops: the ops; candidates come in this order.
         fields: masks of the fields.
-        deadline: asked for time.
+        deadline: polled while they are sorted in.
     """
 
     def __init__(self, ops: Sequence[Operator], fields: Sequence[int], deadline: Deadline) -> None:
@@ -27,37 +28,18 @@ class Watched:
         count: Counter[tuple[int, int]] = Counter()
         for op in ops:
             deadline.tick()
-            pairs = _asked(op, by_lowest_bit)
+            pairs = [(field, op.need & field) for field in split(op.need_mask, by_lowest_bit)]
             asked.append(pairs)
             for pair in pairs:
                 count[pair] += 1
-        self._always: list[tuple[int, Operator]] = []
-        under: dict[int, dict[int, list[tuple[int, Operator]]]] = {}
+        self._index: LiteralIndex[tuple[int, Operator]] = LiteralIndex()
         for rank, (op, pairs) in enumerate(zip(ops, asked, strict=True)):
             deadline.tick()
-            if pairs:
-                field, value = min(pairs, key=lambda pair: count[pair])
-                under.setdefault(field, {}).setdefault(value, []).append((rank, op))
-            else:
-                self._always.append((rank, op))
-        self._under = list(under.items())
+            field, value = min(pairs, key=lambda pair: count[pair], default=(0, 0))
+            self._index.add(field, value, (rank, op))
 
     def candidates(self, state: int) -> list[Operator]:
         """Ops that may be applicable in a packed state; all that are, among them."""
-        found = self._always[:]
-        for field, by_value in self._under:
-            ops = by_value.get(state & field)
-            if ops is not None:
-                found += ops
+        found = self._index.candidates(state)
         found.sort(key=_RANK)
         return [op for _, op in found]
-
-
-def _asked(op: Operator, by_lowest_bit: dict[int, int]) -> list[tuple[int, int]]:
-    pairs = []
-    left = op.need_mask
-    while left:
-        field = by_lowest_bit[left & -left]
-        pairs.append((field, op.need & field))
-        left &= ~field
-    return pairs

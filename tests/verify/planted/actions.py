@@ -6,7 +6,8 @@ from typing import Any
 from search.packed import operators as ops
 from search.packed import packed_task
 from search.packed import parallelise as schedule
-from search.packed.operators import Operator, OperatorIndex
+from search.packed.operator_index import OperatorIndex
+from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import JointAction, Successors
 from serendipity.model import GroundAction
@@ -63,7 +64,7 @@ def _useful_by_adding(original: Any, task: Any, *arguments: Any) -> Any:
     return relevant, tuple(i for i in useful if relevant.intersection(task.actions[i].add))
 
 
-def _only_indexed(self: OperatorIndex, state: int) -> list[Operator]:
+def _only_indexed(self: OperatorIndex[Operator], state: int) -> list[Operator]:
     return self.by_value.get(state & self.field, [])
 
 

@@ -11,6 +11,7 @@ from search.heuristics.private_distances import PrivateDistances
 from search.human import pattern_database as projection
 from search.human.individual_planner import IndividualPlanner
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operator_index import OperatorIndex
 from search.packed.successor_generator import Idle
 from search.robots.transition_graphs import TransitionGraph
 from search.spaces import factory as windows
@@ -25,8 +26,8 @@ def _zero(original: Any, *arguments: Any) -> dict[int, int]:
     return dict.fromkeys(original(*arguments), 0)
 
 
-def _own_moves(original: Any, self: Any, fields: Any, forms: Any, *arguments: Any) -> None:
-    original(self, fields, [f for f in forms if not f[0].agents & (f[0].agents - 1)], *arguments)
+def _own_moves(original: Any, fields: Any, forms: Any, *arguments: Any) -> Any:
+    return original(fields, [f for f in forms if not f[0].agents & (f[0].agents - 1)], *arguments)
 
 
 def _too_late(original: Any, self: _Promise, *arguments: Any) -> None:
@@ -60,13 +61,14 @@ def _without_handing_over(original: Any, self: AchieverAutomaton, spot: Any) -> 
 
 def _never_flipped(original: Any, self: AchieverAutomaton, *arguments: Any) -> None:
     original(self, *arguments)
-    self._flips = {}
+    self._flips = OperatorIndex(0)
 
 
 def _slow_walks(original: Any, self: TransitionGraph, *arguments: Any) -> None:
     original(self, *arguments)
     for walks in self.walks.values():
-        walks.clear()
+        walks.always.clear()
+        walks.by_value.clear()
 
 
 def _far_goal(original: Any, self: PrivateDistances, *arguments: Any) -> Any:
@@ -105,7 +107,7 @@ BUGS = (
     Bug("projection", "distances are doubled", wrapped(projection, "backward", _doubled)),
     Bug("projection", "distances are all zero", wrapped(projection, "backward", _zero), _SLOWER),
     Bug("help: Helped", "says nothing", replaced(FirstInteraction, "__call__", always(0)), _SLOWER),
-    Bug("projection", "joint actions are forgotten", wrapped(projection._Steps, "__init__", _own_moves)),
+    Bug("projection", "joint actions are forgotten", wrapped(projection, "_transitions", _own_moves)),
     Bug(
         "alone: _search",
         "a value beyond the limit is taken for exact",
