@@ -81,6 +81,10 @@ class CostLayout:
         """Cost in a key, times ``scale``."""
         return (key >> self.cost_shift) & ((1 << self.cost_bits) - 1)
 
+    def exceeds(self, key: int, most_cost: int | None) -> bool:
+        """Whether the scaled cost in a key is above a limit (None: there is none)."""
+        return most_cost is not None and self.scaled_cost(key) > most_cost
+
     def cost(self, key: int) -> Fraction:
         """Cost in a key, in the domain's unit."""
         return Fraction(self.scaled_cost(key), self.scale)

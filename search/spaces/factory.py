@@ -1,17 +1,19 @@
 """Puts a windowed space together from the options (semantics 3.1, 3.3, 3.4)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
 
 from search.context import SearchContext
 from search.engine.dominance import ParetoFront
-from search.heuristics.achievers import Achievers
+from search.heuristics.achievers import Achievers, Provided
 from search.heuristics.first_interaction import Bounds, FirstInteraction, Timed, no_bound, survivors
 from search.heuristics.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
-from search.heuristics.private_distances import NEVER
+from search.heuristics.private_distances import NEVER, Corridor
 from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.operators import Operator
 from search.packed.packings import human_facts
+from search.packed.successor_generator import JointAction
 from search.spaces.windowed import AnyOfPlan, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan
@@ -40,11 +42,9 @@ def window_space(
     else:
         keys = context.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
-        on_the_way, helped = bounds_along(
-            context, plan, horizon, limit, opened, context.weights.robots, idle=idle
-        )
-        untouched = helped or no_bound
-        prefix = Timetable(context.followed(plan), on_the_way)
+        along = bounds_along(context, plan, horizon, limit, opened, context.weights.robots, idle=idle)
+        untouched = along.off_plan or no_bound
+        prefix = Timetable(context.followed(plan), along.on_the_way)
     return Windowed(
         initial=context.packed.init,
         idle=() if walks is None else (0,) * len(walks.fields),
@@ -75,6 +75,20 @@ def no_worse(keys: CostLayout, options: Options, most_cost: int | None) -> Calla
     return compared
 
 
+@dataclass(frozen=True, slots=True)
+class BoundsAlong:
+    """Bounds while the human follows ``pi_H``, and after a window has opened.
+
+    Attributes:
+        on_the_way: holds while he follows it.
+        off_plan: holds up to the first touch that is not on the plan; None where there is nothing
+            to tell apart.
+    """
+
+    on_the_way: FirstInteractionOnTheWay
+    off_plan: FirstInteraction | None
+
+
 def bounds_along(
     context: SearchContext,
     plan: HumanPlan,
@@ -84,11 +98,10 @@ def bounds_along(
     robots: Sequence[int],
     *,
     idle: bool,
-) -> tuple[FirstInteractionOnTheWay, FirstInteraction | None]:
+) -> BoundsAlong:
     """Bounds along ``pi_H`` and off it, up to the first touch that is not on the plan.
 
-    His private fields follow ``pi_H``, so his part of the first is known in advance.  The
-    second is None where there is nothing to tell apart.
+    His private fields follow ``pi_H``, so his part of the first is known in advance.
 
     Args:
         context: of the call.
@@ -99,52 +112,110 @@ def bounds_along(
         robots: key increment of a robots' op by the index of its cost.
         idle: robots do nothing.
     """
-    ways, outside = context.ways, context.interactions.outside
-    steps = context.followed(plan)
-    followed = [op for op, _ in steps]
-    providers = _achievers(context, robots, followed)
-    state, cost = context.packed.init, 0
-    sources, spent = [], []
-    for epoch, (op, option) in enumerate(steps):
-        sources.append((cost + opened[epoch], state))
-        spent.append(cost)
-        state = state & op.keep | op.put
-        cost += option.weight
-    floor = [base + context.bound(at) for base, at in sources]
-    openings = PrefixBounds(len(plan), _reach(context, horizon, limit), floor)
-    corridors = []
-    for first, end in providers.phases(len(plan)):
-        corridor = ways.explore(sources[first:end], limit)
-        ids = {providers.at(need, first): need for need in corridor.totals}
-        openings.add(end, corridor.without, {i: corridor.totals[need] for i, need in ids.items()})
-        corridors.append((first, end, corridor, ids))
-    least = openings.least
-    openings.latest = {i: horizon - 1 - ways.steps_after[providers.touched(i)] for i in least}
-    if idle or not least:
-        return FirstInteractionOnTheWay(openings, spent, dict.fromkeys(least), outside), None
-
-    def pays(cost: int) -> bool:
-        return cost + openings.least_after(providers.epochs(cost)) < limit
-
-    costs = providers.costs(sorted(least), pays)
-    paying = survivors(costs, limit, lambda i, cost: openings.rough(i, cost, providers.epochs(cost)))
+    builder = _BoundsAlong(context, plan, horizon, limit, opened, robots)
+    builder.explore()
+    paying = None if idle else builder.price_needs()
     if paying is None:
-        return FirstInteractionOnTheWay(openings, spent, dict.fromkeys(least), outside), None
-    for first, end, corridor, ids in corridors:
-        for i in ids.keys() & paying:
-            rest = corridor.through(ids[i])
-            at = [(base, state & context.interactions.mask) for base, state in sources[first:end]]
-            openings.refine(i, first, [base + rest.get(place, INFINITE_KEY) for base, place in at])
-    paying = [i for i in paying if openings.total(i, costs[i], providers.epochs(costs[i])) < limit]
-    slack = {i: limit - least[i] for i in paying}
-    provided = providers.provided(paying, horizon, slack, openings.latest)
-    off_plan = [
-        (providers.touched(i), provided[i], openings.total(i, costs[i], providers.epochs(costs[i])))
-        for i in paying
-    ]
-    return FirstInteractionOnTheWay(openings, spent, {**provided}, outside), FirstInteraction(
-        context.bound, ways, off_plan, horizon
-    )
+        return BoundsAlong(builder.on_the_way(dict.fromkeys(builder.openings.least)), None)
+    provided = builder.refine(paying)
+    return BoundsAlong(builder.on_the_way({**provided}), builder.off_plan(provided))
+
+
+class _BoundsAlong:
+    """What :func:`bounds_along` puts together, step by step; its arguments are the same.
+
+    Attributes:
+        openings: the human's totals, by need and by when the window opens.
+    """
+
+    def __init__(
+        self,
+        context: SearchContext,
+        plan: HumanPlan,
+        horizon: int,
+        limit: int,
+        opened: Sequence[int],
+        robots: Sequence[int],
+    ) -> None:
+        self._context = context
+        self._horizon = horizon
+        self._limit = limit
+        steps = context.followed(plan)
+        self._providers = _achievers(context, robots, [op for op, _ in steps])
+        self._sources: list[tuple[int, int]] = []  # key and state where a window opens, by epoch
+        self._spent: list[int] = []
+        self._corridors: list[tuple[int, int, Corridor, dict[int, int]]] = []  # from and to which epoch
+        self._costs: dict[int, int] = {}
+        self._follow(steps, opened)
+        floor = [base + context.bound(at) for base, at in self._sources]
+        self.openings = PrefixBounds(len(plan), _reach(context, horizon, limit), floor)
+
+    def _follow(self, steps: Sequence[tuple[Operator, JointAction]], opened: Sequence[int]) -> None:
+        """What following ``pi_H`` costs, and where he is before each of its epochs."""
+        state, cost = self._context.packed.init, 0
+        for opening, (op, option) in zip(opened, steps, strict=True):
+            self._sources.append((cost + opening, state))
+            self._spent.append(cost)
+            state = state & op.keep | op.put
+            cost += option.weight
+
+    def explore(self) -> None:
+        """His ways from each epoch of ``pi_H`` to touches, and on to the goal.
+
+        Between two changes of ``pi_H`` to what others depend on, a need goes by one id.
+        """
+        ways, providers, openings = self._context.ways, self._providers, self.openings
+        for first, end in providers.phases(len(self._sources)):
+            corridor = ways.explore(self._sources[first:end], self._limit)
+            ids = {providers.at(need, first): need for need in corridor.totals}
+            openings.add(end, corridor.without, {i: corridor.totals[need] for i, need in ids.items()})
+            self._corridors.append((first, end, corridor, ids))
+        openings.latest = {
+            i: self._horizon - 1 - ways.steps_after[providers.touched(i)] for i in openings.least
+        }
+
+    def price_needs(self) -> list[int] | None:
+        """Ids of the needs that may pay with what robots need for them; None if there is no telling."""
+        openings, providers = self.openings, self._providers
+        if not openings.least:
+            return None
+        self._costs = providers.costs(sorted(openings.least), self._pays)
+        return survivors(
+            self._costs, self._limit, lambda i, cost: openings.rough(i, cost, providers.epochs(cost))
+        )
+
+    def _pays(self, cost: int) -> bool:
+        """Whether anything can pay for which robots need this cost, or more."""
+        return cost + self.openings.least_after(self._providers.epochs(cost)) < self._limit
+
+    def refine(self, paying: Collection[int]) -> dict[int, Provided]:
+        """What robots can do about the needs that pay even with his totals epoch by epoch."""
+        mask = self._context.interactions.mask
+        for first, end, corridor, ids in self._corridors:
+            at = [(base, state & mask) for base, state in self._sources[first:end]]
+            for i in ids.keys() & paying:
+                rest = corridor.through(ids[i])
+                totals = [base + rest.get(place, INFINITE_KEY) for base, place in at]
+                self.openings.refine(i, first, totals)
+        left = [i for i in paying if self._total(i) < self._limit]
+        slack = {i: self._limit - self.openings.least[i] for i in left}
+        return self._providers.provided(left, self._horizon, slack, self.openings.latest)
+
+    def _total(self, i: int) -> int:
+        """Least total of a plan that touches a need first."""
+        cost = self._costs[i]
+        return self.openings.total(i, cost, self._providers.epochs(cost))
+
+    def on_the_way(self, provided: dict[int, Provided | None]) -> FirstInteractionOnTheWay:
+        """The bound while he follows ``pi_H``, over some needs."""
+        return FirstInteractionOnTheWay(
+            self.openings, self._spent, provided, self._context.interactions.outside
+        )
+
+    def off_plan(self, provided: Mapping[int, Provided]) -> FirstInteraction:
+        """The bound where he does not, over the needs that pay."""
+        needs = [(self._providers.touched(i), what, self._total(i)) for i, what in provided.items()]
+        return FirstInteraction(self._context.bound, self._context.ways, needs, self._horizon)
 
 
 def _achievers(context: SearchContext, weights: Sequence[int], followed: Sequence[Operator]) -> Achievers:

@@ -43,8 +43,9 @@ class Weighed:
         self.successors = Successors(context.packed, weight, context.deadline, strict=context.options.strict)
         self.suffix: Suffix = suffix_rule(context, plan)
         opened = [0] * len(plan)
-        on_the_way, self._helped = bounds_along(context, plan, horizon, limit, opened, robots, idle=False)
-        self.on_the_way: FirstInteractionOnTheWay = on_the_way
+        along = bounds_along(context, plan, horizon, limit, opened, robots, idle=False)
+        self.on_the_way: FirstInteractionOnTheWay = along.on_the_way
+        self._helped = along.off_plan
         self.bounds = Bounds(context.bound, context.steps, no_bound, context.interactions)
         self._choices: dict[int, list[Choice]] = {}
 

@@ -67,7 +67,7 @@ class Unrestricted:
             after = node.state & option.keep | option.put
             key = node.key + option.weight
             bound = key + bounds.private(after)
-            if bound >= best.key or self._too_dear(bound) or not option.actions:
+            if bound >= best.key or self._keys.exceeds(bound, self._most_cost) or not option.actions:
                 continue
             if self._horizon is not None and epoch + bounds.steps(after) > self._horizon:
                 continue
@@ -97,6 +97,3 @@ class Unrestricted:
         for part in (NOTHING, *successors.human(state), *successors.joint(state)):
             for option in successors.with_robots(part, state):
                 yield part, option
-
-    def _too_dear(self, key: int) -> bool:
-        return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost

@@ -6,7 +6,8 @@ may open before any epoch; each epoch inside it may be its last.
 """
 
 from collections.abc import Iterable, Iterator
-from typing import Protocol
+from functools import partial
+from typing import NamedTuple, Protocol
 
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
@@ -119,6 +120,22 @@ class AnyOfPlan(Unscheduled):
         return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
 
 
+class _Judged(NamedTuple):
+    """A node of the window and the human's part of the next epoch, evaluated together.
+
+    Attributes:
+        node: the node.
+        spent: key after the epoch, without what is done in it.
+        rest: least key increment after it by the human's private variables, which robots don't change.
+        touched: whether he has touched anything in the window by then.
+    """
+
+    node: Node
+    spent: int
+    rest: int
+    touched: bool
+
+
 class Windowed:
     """The search space of plans with a window.
 
@@ -190,7 +207,9 @@ class Windowed:
         start = node.epoch + 1
         key = node.key + self._keys.of_start(start, self._horizon)
         bound = node.key + self._prefix.opening(node.epoch, node.state, node.idle)
-        if not self._too_dear(bound) and self._labels.add(node.state, node.epoch, key, node.idle):
+        if not self._keys.exceeds(bound, self._most_cost) and self._labels.add(
+            node.state, node.epoch, key, node.idle
+        ):
             yield bound, node._replace(key=key, phase=WINDOW, start=start)
 
     def _follow(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
@@ -207,65 +226,76 @@ class Windowed:
                 key = node.key + option.weight
                 idle = successors.rested(node.idle, option, state)
                 bound = key + self._prefix.bound(epoch, state, idle)
-                if bound >= best.key or self._too_dear(bound):
+                if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
                     continue
                 if self._followed.add((epoch, state), epoch, key, idle):
                     yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions, idle)
 
     def _inside(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
-        epoch = node.epoch + 1
-        if epoch > self._horizon:
+        """Successors of a node of the window; each is offered as its end."""
+        if node.epoch >= self._horizon:
             return
-        base = node.key + self._keys.epoch_weight
-        again = self._keys.epoch_weight
-        goes_on = epoch < self._horizon and epoch - node.start + 1 < self._max_window
-        successors, bounds, state = self._successors, self._bounds, node.state
+        successors, state = self._successors, node.state
         sooner = _sooner(node.idle)
         for part in (NOTHING, *successors.human(state), *successors.joint(state)):
-            # Robots don't change the variables that the private bound looks at.
-            at = state & part.keep | part.put
-            rest = bounds.private(at)
-            if not in_time(part, node.idle):
+            judged = self._judge(node, part, best)
+            if judged is None:
                 continue
-            if base + part.weight + rest >= best.key or epoch + bounds.steps(at) > self._horizon:
-                continue
-            touched = node.phase == TOUCHED or bounds.interactions(part.actions)
-
-            def promising(option: JointAction, rest: int = rest, touched: bool = touched) -> bool:
-                least = rest
-                if not touched:
-                    after = state & option.keep | option.put
-                    least = max(rest, bounds.untouched(epoch, after, base + option.weight, sooner))
-                return base + option.weight + least < best.key
-
+            promising = partial(self._promising, judged, sooner, best)
             for option in successors.beside(part, state, node.idle, promising):
-                key = base + option.weight
-                bound = key + rest
-                if bound >= best.key or self._too_dear(bound):
+                key = judged.spent + option.weight
+                bound = key + judged.rest
+                if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
                     break
                 after = state & option.keep | option.put
-                phase = TOUCHED if touched else WINDOW
+                phase = TOUCHED if judged.touched else WINDOW
                 idle = successors.rested(node.idle, option, after)
-                child = Node(key, epoch, after, phase, node.start, node, option.actions, idle)
+                child = Node(key, node.epoch + 1, after, phase, node.start, node, option.actions, idle)
                 self._end(child, best)
-                if not goes_on or bound + again >= best.key:
-                    continue
-                ahead = rest if touched else max(rest, bounds.untouched(epoch, after, key, idle))
-                bound = key + again + ahead
-                if bound < best.key and self._labels.add(after, epoch, key, idle):
-                    yield bound, child
+                if self._goes_on(child, bound, best):
+                    bound = self._least(judged, option, idle) + self._keys.epoch_weight
+                    if bound < best.key and self._labels.add(after, child.epoch, key, idle):
+                        yield bound, child
+
+    def _judge(self, node: Node, part: JointAction, best: Incumbent) -> _Judged | None:
+        """What the human's part of the next epoch means; None if it comes too early, or can't pay."""
+        if not in_time(part, node.idle):
+            return None
+        at = node.state & part.keep | part.put
+        rest = self._bounds.private(at)
+        spent = node.key + self._keys.epoch_weight
+        if spent + part.weight + rest >= best.key or node.epoch + 1 + self._bounds.steps(at) > self._horizon:
+            return None
+        touched = node.phase == TOUCHED or self._bounds.interactions(part.actions)
+        return _Judged(node, spent, rest, touched)
+
+    def _least(self, judged: _Judged, option: JointAction, idle: Idle) -> int:
+        """Least key of a plan that goes on with an option; ``idle``: how long robots have been, after it."""
+        node, spent, rest, touched = judged
+        key = spent + option.weight
+        if touched:
+            return key + rest
+        after = node.state & option.keep | option.put
+        return key + max(rest, self._bounds.untouched(node.epoch + 1, after, key, idle))
+
+    def _promising(self, judged: _Judged, sooner: Idle, best: Incumbent, option: JointAction) -> bool:
+        """Whether the human's part and what one robot does may still pay."""
+        return self._least(judged, option, sooner) < best.key
+
+    def _goes_on(self, child: Node, bound: int, best: Incumbent) -> bool:
+        """Whether the window may have another epoch, and a plan with it may still pay."""
+        if child.epoch >= self._horizon or child.epoch - child.start + 1 >= self._max_window:
+            return False
+        return bound + self._keys.epoch_weight < best.key
 
     def _end(self, node: Node, best: Incumbent) -> None:
         """Offer the plan whose window ends after the node."""
         left = self._horizon - node.epoch
         limit = best.key - node.key
         rest = self._suffix.key(node.state, left, node.start, limit)
-        if rest < limit and not self._too_dear(node.key + rest):
+        if rest < limit and not self._keys.exceeds(node.key + rest, self._most_cost):
             tail = self._suffix.actions(node.state, left, node.start)  # where time may run out
             best.key, best.node, best.end, best.tail = node.key + rest, node, node.epoch + 1, tail
-
-    def _too_dear(self, key: int) -> bool:
-        return self._most_cost is not None and self._keys.scaled_cost(key) > self._most_cost
 
 
 def _sooner(idle: Idle) -> Idle:

@@ -24,7 +24,7 @@ def half_an_answer(patch: Patch) -> None:
     def end(self: Any, node: Any, best: Any) -> None:
         left, limit = self._horizon - node.epoch, best.key - node.key
         rest = self._suffix.key(node.state, left, node.start, limit)
-        if rest < limit and not self._too_dear(node.key + rest):
+        if rest < limit and not self._keys.exceeds(node.key + rest, self._most_cost):
             best.key, best.node, best.end = node.key + rest, node, node.epoch + 1
             best.tail = self._suffix.actions(node.state, left, node.start)
 

@@ -5,6 +5,7 @@ from typing import Any
 
 from search import planner
 from search.engine.best_first import Incumbent, Node
+from search.packed.cost_vector import CostLayout
 from search.packed.successor_generator import NOTHING, JointAction
 from search.planner import _Call
 from search.spaces.fixed_human_plan import FixedHumanPlan
@@ -78,12 +79,12 @@ def _first_is_best(space: Any, best: Incumbent, progress: Any, deadline: Any) ->
 best_first = planner.best_first
 
 
-def _never_dear(self: Any, key: int) -> bool:
+def _never_dear(self: CostLayout, key: int, most_cost: int | None) -> bool:
     return False
 
 
-def _dear_at_the_limit(self: Any, key: int) -> bool:
-    return self._most_cost is not None and self._keys.scaled_cost(key) >= self._most_cost
+def _dear_at_the_limit(self: CostLayout, key: int, most_cost: int | None) -> bool:
+    return most_cost is not None and self.scaled_cost(key) >= most_cost
 
 
 def _ties_help(self: _Call) -> bool:
@@ -128,16 +129,11 @@ BUGS = (
     Bug("windowed: max_window", "always 1", wrapped(Windowed, "__init__", _one_epoch)),
     Bug("windowed: horizon", "an epoch less", wrapped(Windowed, "__init__", _shorter_horizon)),
     Bug("windowed: horizon", "an epoch more", wrapped(Windowed, "__init__", _longer_horizon)),
-    Bug("windowed: max_cost", "ignored", replaced(Windowed, "_too_dear", _never_dear)),
-    Bug(
-        "windowed: max_cost",
-        "the limit itself is too dear",
-        replaced(Windowed, "_too_dear", _dear_at_the_limit),
-    ),
+    Bug("max_cost", "ignored", replaced(CostLayout, "exceeds", _never_dear)),
+    Bug("max_cost", "the limit itself is too dear", replaced(CostLayout, "exceeds", _dear_at_the_limit)),
     Bug("free: horizon", "an epoch less", wrapped(Unrestricted, "__init__", _shorter_horizon)),
     Bug("free: horizon", "an epoch more", wrapped(Unrestricted, "__init__", _longer_horizon)),
     Bug("free: goals", "the robots' goal is forgotten", wrapped(Unrestricted, "__init__", _own_goal)),
-    Bug("free: max_cost", "ignored", replaced(Unrestricted, "_too_dear", _never_dear)),
     Bug("followed: goals", "the robots' goal is forgotten", wrapped(FixedHumanPlan, "__init__", _own_goal)),
     Bug(
         "best_first",
