@@ -64,7 +64,7 @@ class GoalTimeline:
         max_window: most epochs of a window.
         per_start: whether labels that differ in their window's start are told apart.
         strict: strict interference.
-        deadline: asked for time.
+        deadline: polled at each epoch that is played.
     """
 
     packed: PackedTask

@@ -7,6 +7,16 @@ robot that takes part in both ops, from where the first one left it, or, where
 there is none, to any robot, anywhere, for nothing.  All other conditions are
 dropped, so distances are admissible for any number of robots that relay.
 
+An example: robot R stands in room a, robot S in room c of the corridor a - b - c, whose door is
+closed.  A step costs 1; to open the door, which is done in c, costs 2.  The outside field is the door.
+Forward from (closed, nobody, S, c), cost 0, opening leads to (open, {S}, S, c), cost 2; from
+(closed, nobody, R, a) it takes two steps first, cost 4 in all.  A need "the door is open" is provided at
+both, so its bound is min(2, 4) = 2.  A need "the door is open and R is in a" is not provided where S is
+tracked, for R's place is unknown there; but tracking passes on for nothing, to (open, {S}, 0, -),
+where any robot but S may be anywhere: R may be in a, so its bound is 2 as well, which is exact.  If R were
+alone, it would have to walk back: (open, {R}, R, c), cost 4, and two steps to (open, {R}, R, a), cost 6.
+Backward from the need these are the distances of all spots on the way: 6 at the start, 4 once R is in c.
+
 Glossary: *place* - see :mod:`search.robots.transition_graphs`; *label* - value of the field, team of the
 last op on it (0 at the start).
 """
@@ -50,7 +60,7 @@ class AchieverAutomaton:
         needs: ids of the needs that are judged by this field, with the needs.
         weights: key increment of a robots' op by the index of its cost.
         flips: ops of the human that may change the field on his way, for nothing.
-        deadline: asked for time.
+        deadline: polled at each spot that comes up.
 
     Attributes:
         cost: least cost from the initial state by need id.

@@ -47,7 +47,7 @@ class PrivateDistances:
         bound: private distances to the goal.
         steps: the same, counting actions.
         weights: key increments of the call.
-        deadline: asked for time.
+        deadline: polled at each state that comes up.
 
     Attributes:
         outside: the fields that others change.

@@ -6,6 +6,7 @@ search per projection, and a search also fills in the states along its result.
 """
 
 from collections.abc import Callable, Iterator
+from typing import Protocol
 
 from search.algorithms.astar import AStar
 from search.human.pattern_database import PatternDatabase
@@ -96,6 +97,16 @@ class Memory:
         self.plans: tuple[int, PlanGraph | None] | None = None
 
 
+class HumanOptimum(Protocol):
+    """What the human does by himself, optimally, with every robot idle."""
+
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """His optimal key from a packed state; at or above ``limit`` (a key) any value means "not below"."""
+
+    def plans(self, state: int) -> "PlanGraph | None":
+        """All his optimal plans from a packed state; None if there is none."""
+
+
 class IndividualPlanner:
     """The human's optimal key to a goal with every robot idle.
 
@@ -104,7 +115,7 @@ class IndividualPlanner:
         goal: what has to hold at the end.
         weight: key increment of one of his own ops.
         bound: admissible lower bound to ``goal``.
-        deadline: asked for time.
+        deadline: polled at each state that comes up.
         memory: what earlier calls have found with the same goal and weights.
     """
 
@@ -128,7 +139,7 @@ class IndividualPlanner:
         self._at_least = self._memory.at_least
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """His optimal key from a packed state; at or above ``limit`` any value means "not below"."""
+        """See :class:`HumanOptimum`."""
         state &= self._mask
         known = self._known.get(state)
         if known is not None:
@@ -187,7 +198,7 @@ class IndividualPlanner:
         return rest
 
     def plans(self, state: int) -> "PlanGraph | None":
-        """All his optimal plans from a packed state; None if there is none."""
+        """See :class:`HumanOptimum`."""
         start = state & self._mask
         last = self._memory.plans
         if last is None or last[0] != start:
@@ -242,7 +253,7 @@ class PricedPlanner:
         bound: what :func:`.own_projection` finds.
         memory: what earlier calls have found, see :func:`own_memory`.
         weights: key increments of the call, which say nothing of communication.
-        deadline: asked for time.
+        deadline: polled at each state that comes up.
     """
 
     def __init__(
@@ -253,7 +264,7 @@ class PricedPlanner:
         self._weights = weights
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """See :meth:`IndividualPlanner.key`."""
+        """See :class:`HumanOptimum`."""
         if limit >= INFINITE_KEY:
             found = self._alone.key(state)
         else:
@@ -261,7 +272,7 @@ class PricedPlanner:
         return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
 
     def plans(self, state: int) -> PlanGraph | None:
-        """See :meth:`IndividualPlanner.plans`."""
+        """See :class:`HumanOptimum`."""
         return self._alone.plans(state)
 
 
@@ -271,7 +282,7 @@ def own_memory(packed: PackedTask) -> Memory:
     return Memory(Lookup(packed.own_index, lambda op: own[op.cost]))
 
 
-def canonical(alone: IndividualPlanner | PricedPlanner, state: int) -> tuple[int, ...]:
+def canonical(alone: HumanOptimum, state: int) -> tuple[int, ...]:
     """The canonical optimal plan (semantics 1) from a packed state that has one."""
     graph = alone.plans(state)
     assert graph is not None, "asked for plans where there are none"

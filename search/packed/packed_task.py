@@ -52,7 +52,7 @@ class PackedTask:
     Args:
         task: the task.
         extra: ids of facts to pack although no useful action asks for them.
-        deadline: asked for time.
+        deadline: polled while facts and actions are packed.
         kept: ids of actions to pack although they contribute to nothing.
 
     Attributes:

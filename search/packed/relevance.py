@@ -15,7 +15,7 @@ def relevant_to_goals(
     Args:
         task: the task.
         extra: facts that matter, too.
-        deadline: asked for time.
+        deadline: polled while actions are gone through.
         kept: actions that matter, whatever they do.
     """
     actions = task.actions

@@ -78,7 +78,7 @@ class Successors:
     Args:
         encoding: the packed task.
         weight: key increment of an op.
-        deadline: asked for time; sets of several robots' actions can be many.
+        deadline: polled while sets of several robots' actions are put together, which can be many.
         strict: strict interference (semantics 2).
         idle: robots do nothing.
     """

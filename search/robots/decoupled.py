@@ -49,7 +49,7 @@ class Decoupled:
     Args:
         packed: the packed task.
         places: where robots are.
-        deadline: asked for time while they are found.
+        deadline: polled while they are found.
 
     Attributes:
         fields: per slot the place of a robot.
@@ -209,7 +209,7 @@ class DecoupledSuccessors(Successors):
         encoding: the packed task.
         walks: the robots' walks, foldable.
         weight: key increment of an op.
-        deadline: asked for time.
+        deadline: polled while deeds are looked for.
         strict: strict interference (semantics 2).
     """
 

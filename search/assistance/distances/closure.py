@@ -36,7 +36,7 @@ class Closure:
         fields: masks of the fields that a state consists of.
         values: all values of each field.
         limit: most states of one closure.
-        deadline: asked for time.
+        deadline: polled while tables are filled.
     """
 
     def __init__(
@@ -66,10 +66,12 @@ class Closure:
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
 
-        At or above ``limit`` any value that is not above the distance.
+        Args:
+            state: a packed state.
+            limit: in the unit of the arcs' weights; at or above it any value that is not above the distance.
 
         Raises:
-            TooManyStatesError: its closure exceeds the limit.
+            ClosureTooLargeError: its closure exceeds the limit.
         """
         known = self._known.get(state)
         if known is not None:

@@ -58,10 +58,10 @@ class Layers:
         fields: masks of the fields that a state consists of, ascending.
         start: the state.
         limit: most states.
-        deadline: asked for time.
+        deadline: polled at each transition of each layer; asked for the memory of large arrays.
 
     Raises:
-        TooManyStatesError: there are more, or a state does not fit a machine word.
+        ClosureTooLargeError: there are more, or a state does not fit a machine word.
     """
 
     def __init__(

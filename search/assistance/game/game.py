@@ -12,7 +12,7 @@ from math import lcm
 from typing import Final, NamedTuple
 
 from search.assistance.distances.watched import Watched
-from search.assistance.game.own import UNREACHABLE, OwnCosts
+from search.assistance.game.own import OwnCosts
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
@@ -132,7 +132,7 @@ class Game:
         Whatever he chooses among his optimal actions, the prime pays his optimal cost.
         """
         key = self.own.key(state)
-        return INFINITE if key >= UNREACHABLE else self.own.cost_in(key) << self.unit_bits
+        return INFINITE if key >= INFINITE_KEY else self.own.cost_in(key) << self.unit_bits
 
     def facts(self, state: int) -> frozenset[int]:
         """Ids of the relevant facts that are true in a packed state."""

@@ -17,9 +17,6 @@ from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.deadline import Deadline
 
 LENGTH_BITS: Final = 24
-UNREACHABLE: Final = INFINITE_KEY
-"""At or above it: he has no plan alone."""
-
 MAX_STATES: Final = 3_000_000
 """The largest table of one context; beyond it each state is searched by itself."""
 
@@ -30,7 +27,7 @@ class OwnCosts:
     Args:
         encoding: the packed task.
         scaled: integer cost by the index of an op's cost.
-        deadline: asked for time.
+        deadline: polled while tables are filled.
     """
 
     def __init__(self, packed: PackedTask, scaled: list[int], deadline: Deadline) -> None:
@@ -48,15 +45,15 @@ class OwnCosts:
         """The scaled cost in a key."""
         return key >> LENGTH_BITS
 
-    def key(self, state: int, limit: int = UNREACHABLE) -> int:
-        """His optimal key; ``UNREACHABLE`` if he has no plan; at or above ``limit`` any such value."""
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """His optimal key; ``INFINITE_KEY`` if he has no plan; at or above ``limit`` any such value."""
         context = state & self._mask & ~self._changed
         if context in self._context:
             table = self._context[context]
         else:
             table = self._context[context] = self._table(context)
         if table is None:
-            return UNREACHABLE
+            return INFINITE_KEY
         if not self._too_large:
             try:
                 return table.key(state & self._changed, limit)
@@ -67,7 +64,7 @@ class OwnCosts:
     def optimal(self, state: int) -> list[tuple[Operator, int]]:
         """Actions that start an optimal plan, ascending, with their successors."""
         key = self.key(state)
-        if key >= UNREACHABLE:
+        if key >= INFINITE_KEY:
             return []
         found = []
         for op in self._index.candidates(state):

@@ -1,6 +1,5 @@
 """How the prime's optimal actions count: the worst of them, or their mean."""
 
-import math
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, Protocol
@@ -55,7 +54,7 @@ class Worst:
 class Mean:
     """Expected: the mean of each cost, all actions alike likely."""
 
-    infinite: Value = (math.inf, math.inf)
+    infinite: Value = (INFINITE, INFINITE)
 
     def __init__(self, game: Game) -> None:
         self._unit = 1 << game.unit_bits
@@ -66,6 +65,8 @@ class Mean:
 
     def add(self, value: int, rest: Value) -> Value:
         """See :class:`ChoiceRule`."""
+        if rest == self.infinite:
+            return rest
         prime, supporter = divmod(value, self._unit)
         return (prime + rest[0], supporter + rest[1])
 

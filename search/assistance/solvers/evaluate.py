@@ -41,7 +41,7 @@ def evaluate(
         policy: per state the option chosen.
         rule: how the prime's moves count.
         outside: values of states that are not in the policy.
-        deadline: asked for time.
+        deadline: polled while they are worked out.
     """
     values: dict[int, Value] = {}
 
@@ -86,7 +86,7 @@ def _returning(
             else:
                 part = rule.add(outcome.value, value_of(outcome.after))
             total = (total[0] + part[0], total[1] + part[1])
-        if total[0] == rule.infinite[0]:
+        if total[0] >= rule.infinite[0]:
             return dict.fromkeys(component, rule.infinite)
         rows.append((len(outcomes), coefficients, total))
     solved = solve_linear(rows, deadline)
