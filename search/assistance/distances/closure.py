@@ -118,7 +118,9 @@ class Closure:
         """Where arcs lead from a state, and their weights; those that lead nowhere else are left out."""
         found = []
         for condition, keep, put, weight in self._index.candidates(state):
-            if condition.holds(state):
+            if state & condition.need_mask == condition.need and (
+                not condition.forbidden or condition.holds(state)
+            ):
                 after = state & keep | put
                 if after != state:
                     found.append((after, weight))
