@@ -4,7 +4,7 @@ Few costs differ in a planning task, so most distances recur.  The queue is ther
 distances, each of which is there once, with a list of what lies at it.
 """
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from heapq import heappop, heappush
 from typing import Generic, TypeVar
 
@@ -27,8 +27,7 @@ class LevelQueue(Generic[Item]):
         items: what is there from the start, with its distance.
 
     Attributes:
-        levels: the items by distance, for loops in which a call of :meth:`push` costs too much; only
-            :meth:`push` may add a distance.
+        levels: the items by distance; only :meth:`push` may add a distance.
     """
 
     __slots__ = ("_distances", "levels")
@@ -47,6 +46,17 @@ class LevelQueue(Generic[Item]):
             heappush(self._distances, distance)
         else:
             level.append(item)
+
+    def relax(self, distance: int, edges: Iterable[tuple[int, Item]], settled: Container[Item]) -> None:
+        """Add where edges lead from something at a distance, but for what is settled."""
+        levels = self.levels
+        for weight, item in edges:
+            if item not in settled:
+                level = levels.get(distance + weight)
+                if level is None:
+                    self.push(distance + weight, item)
+                else:
+                    level.append(item)
 
     @property
     def least(self) -> int | None:
@@ -93,7 +103,7 @@ def backward(
                 continue
             found[at] = distance
             for kind in edges:
-                for weight, earlier in kind.get(at, ()):
+                for weight, earlier in kind.get(at, ()):  # not relax: a call for each state would show
                     if earlier not in found:
                         level = levels.get(distance + weight)
                         if level is None:

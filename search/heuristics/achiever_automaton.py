@@ -260,10 +260,8 @@ class AchieverAutomaton:
             slack: a key increment; if robots pay as much or more from the initial state on, it is too dear.
         """
         queue = LevelQueue((0, node) for node in self._accepted.get(need, ()))
-        levels = queue.levels
         found: dict[_Node, int] = {}
         elsewhere: dict[Label, int] = {}
-        stopped = self._stopped
         for cost, level in queue:
             latest = slack - cost
             for node in level:
@@ -272,18 +270,12 @@ class AchieverAutomaton:
                 found[node] = cost
                 self._deadline.tick()
                 label = node.spot[:3]
-                if label in stopped and label not in elsewhere:
+                if label in self._stopped and label not in elsewhere:
                     # From beyond where it stopped walking this is in reach, at the least.
                     step = 0 if need in self._anyhow.get(label[0], ()) else self._steps[label]
                     elsewhere[label] = cost + step
-                    for before in stopped[label]:
-                        queue.push(cost + 2 * step, before)
-                for weight, before in node.edges:
-                    if before not in found:
-                        if (known := levels.get(cost + weight)) is not None:
-                            known.append(before)
-                        else:
-                            queue.push(cost + weight, before)
+                    queue.relax(cost, ((2 * step, before) for before in self._stopped[label]), found)
+                queue.relax(cost, node.edges, found)
         return AchieverCosts(self, self._field, self._places.field, found, elsewhere)
 
     def teams(self, value: int) -> Teams:

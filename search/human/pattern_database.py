@@ -155,9 +155,7 @@ def _explore(mask: int, start: int, steps: OperatorIndex[Transition], deadline: 
         deadline.tick()
         for need_mask, need, keep, put, forbidden, weight, interaction in steps.candidates(state):
             after = state & keep | put
-            if state & need_mask != need or after == state:
-                continue
-            if forbidden and any(state & m == value for m, value in forbidden):
+            if state & need_mask != need or after == state or (forbidden and _holds_any(forbidden, state)):
                 continue
             if after not in moves:
                 if len(moves) >= _MAX_STATES:
@@ -166,6 +164,11 @@ def _explore(mask: int, start: int, steps: OperatorIndex[Transition], deadline: 
                 pending.append(after)
             (interactions if interaction else moves)[after].append((weight, state))
     return Projected(mask, moves, interactions)
+
+
+def _holds_any(literals: Literals, state: int) -> bool:
+    """Whether one of some literals is true in a projected state."""
+    return any(state & mask == value for mask, value in literals)
 
 
 def _transitions(

@@ -243,19 +243,30 @@ class Windowed:
                 continue
             promising = partial(self._promising, judged, sooner, best)
             for option in successors.beside(part, state, node.idle, promising):
-                key = judged.spent + option.weight
-                bound = key + judged.rest
+                bound = judged.spent + option.weight + judged.rest
                 if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
                     break
-                after = state & option.keep | option.put
-                phase = TOUCHED if judged.touched else WINDOW
-                idle = successors.rested(node.idle, option, after)
-                child = Node(key, node.epoch + 1, after, phase, node.start, node, option.actions, idle)
+                child = self._child(judged, option)
                 self._end(child, best)
                 if self._goes_on(child, bound, best):
-                    bound = self._least(judged, option, idle) + self._keys.epoch_weight
-                    if bound < best.key and self._labels.add(after, child.epoch, key, idle):
+                    bound = self._least(judged, option, child.idle) + self._keys.epoch_weight
+                    if bound < best.key and self._labels.add(child.state, child.epoch, child.key, child.idle):
                         yield bound, child
+
+    def _child(self, judged: _Judged, option: JointAction) -> Node:
+        """The node after an epoch of the window."""
+        node = judged.node
+        after = node.state & option.keep | option.put
+        return Node(
+            judged.spent + option.weight,
+            node.epoch + 1,
+            after,
+            TOUCHED if judged.touched else WINDOW,
+            node.start,
+            node,
+            option.actions,
+            self._successors.rested(node.idle, option, after),
+        )
 
     def _judge(self, node: Node, part: JointAction, best: Incumbent) -> _Judged | None:
         """What the human's part of the next epoch means; None if it comes too early, or can't pay."""
