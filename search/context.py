@@ -4,7 +4,7 @@ from functools import cached_property
 
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
-from search.human.individual_planner import IndividualPlanner, PlanGraph, PricedPlanner
+from search.human.individual_planner import HumanOptimum, IndividualPlanner, PlanGraph, PricedPlanner
 from search.human.pattern_database import PatternDatabase, in_keys
 from search.packed.cost_vector import Weights
 from search.packed.operators import Operator
@@ -83,7 +83,7 @@ class SearchContext:
         return self.tables.human.steps(self.deadline)
 
     @cached_property
-    def alone(self) -> IndividualPlanner | PricedPlanner:
+    def alone(self) -> HumanOptimum:
         """The human by himself, to ``G_H``."""
         if not self.weights.announces:
             human = self.tables.human
@@ -92,7 +92,7 @@ class SearchContext:
         return IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, self.deadline)
 
     @cached_property
-    def alone_to_both(self) -> IndividualPlanner | None:
+    def alone_to_both(self) -> HumanOptimum | None:
         """The human by himself, to ``G_H`` and ``G_R``; None where he can't affect ``G_R``."""
         robot_goal = self.task.robot_goal
         touched = {*robot_goal.positive, *robot_goal.negative}

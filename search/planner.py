@@ -269,12 +269,7 @@ class _Call:
 
     def _most_cost(self) -> int | None:
         """``max_cost`` (eq. 11), scaled and rounded down."""
-        limit = self.options.max_cost
-        if limit is None:
-            return None
-        if limit == "human":
-            return None if self.baseline.key == INFINITE_KEY else self.keys.scaled_cost(self.baseline.key)
-        return int(Fraction(limit) * self.keys.scale)
+        return self.keys.most_cost(self.options.max_cost, self.baseline.key)
 
     def _helps(self) -> bool:
         """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""

@@ -81,6 +81,17 @@ class CostLayout:
         """Cost in a key, times ``scale``."""
         return (key >> self.cost_shift) & ((1 << self.cost_bits) - 1)
 
+    def most_cost(self, limit: Fraction | str | None, human: int) -> int | None:
+        """The largest scaled cost that a limit allows, rounded down; None where it allows any.
+
+        Args:
+            limit: ``max_cost`` of the options.
+            human: key of what the human does by himself, which is what the limit ``human`` means.
+        """
+        if limit is None or (limit == "human" and human >= INFINITE_KEY):
+            return None
+        return self.scaled_cost(human) if limit == "human" else int(Fraction(limit) * self.scale)
+
     def exceeds(self, key: int, most_cost: int | None) -> bool:
         """Whether the scaled cost in a key is above a limit (None: there is none)."""
         return most_cost is not None and self.scaled_cost(key) > most_cost

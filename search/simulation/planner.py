@@ -177,13 +177,7 @@ class _Call:
 
     def _most_cost(self) -> int | None:
         """``max_cost`` (eq. 11), scaled and rounded down."""
-        limit = self.options.max_cost
-        if limit is None:
-            return None
-        if limit == "human":
-            known = self.baseline.key < INFINITE_KEY
-            return self.human.keys.scaled_cost(self.baseline.key) if known else None
-        return int(Fraction(limit) * self.human.keys.scale)
+        return self.human.keys.most_cost(self.options.max_cost, self.baseline.key)
 
     def _unfinished(self) -> str:
         return "feasible" if self._has_answer() else "unknown"

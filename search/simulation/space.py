@@ -142,7 +142,7 @@ class Reactive:
         for option in self._successors.with_robots(part, state):
             key = node.key + option.weight
             bound = key + rest
-            if bound >= best.key or self._too_dear(bound):
+            if bound >= best.key or self._human.keys.exceeds(bound, self._most_cost):
                 break
             after = state & option.keep | option.put
             as_expected = settled and not (self._sees_all and (after ^ alone) & human.concern)
@@ -154,14 +154,16 @@ class Reactive:
         """Whether the goals hold: the plan ends there."""
         if not all(goal.holds(node.state) for goal in self._goals):
             return False
-        if node.key < best.key and not self._too_dear(node.key):
+        if node.key < best.key and not self._human.keys.exceeds(node.key, self._most_cost):
             best.key, best.node, best.end, best.tail = node.key, node, 0, ()
         return True
 
     def _offer_idle(self, node: Node, intention: Intention, best: Incumbent) -> None:
         """Offer the plan in which robots do nothing any more: he does what he means to do."""
         key = node.key + intention.weight
-        if key >= best.key or self._too_dear(key) or len(intention.actions) > self._horizon - node.epoch:
+        if key >= best.key or len(intention.actions) > self._horizon - node.epoch:
+            return
+        if self._human.keys.exceeds(key, self._most_cost):
             return
         best.key, best.node, best.end, best.tail = key, node, node.epoch + 1, intention.actions
 
@@ -185,6 +187,3 @@ class Reactive:
 
     def _place(self, node: Node) -> int:
         return node.phase >> 1 << self._width | node.state
-
-    def _too_dear(self, key: int) -> bool:
-        return self._most_cost is not None and self._human.keys.scaled_cost(key) > self._most_cost

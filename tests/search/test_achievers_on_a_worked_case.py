@@ -4,14 +4,15 @@ import pytest
 
 from search.heuristics.achiever_automaton import AchieverAutomaton
 from search.heuristics.interactions import Need
-from search.packed.packed_task import PackedTask, pack
+from search.packed.packed_task import PackedTask
+from search.prepared_task import PreparedTask, TaskTables
 from serendipity.model.deadline import Deadline
 from tests.support.builders import task
 
 OPEN, OPEN_AND_IN_A = 0, 1
 
 
-def corridor(robots: str) -> PackedTask:
+def corridor(robots: str) -> TaskTables:
     """Rooms a - b - c; robot r starts in a, robot s in c, where the door can be opened for 2."""
     actions = {"leave h": "open ra -> away"}
     for robot in robots.split():
@@ -24,7 +25,7 @@ def corridor(robots: str) -> PackedTask:
         goal="away",
         actions=actions,
     )
-    return pack(built, Deadline())
+    return PreparedTask(built).plain(Deadline())
 
 
 def literal(packed: PackedTask, fact: str) -> tuple[int, int]:
@@ -34,12 +35,13 @@ def literal(packed: PackedTask, fact: str) -> tuple[int, int]:
     return bits
 
 
-def explored(packed: PackedTask) -> AchieverAutomaton:
+def explored(tables: TaskTables) -> AchieverAutomaton:
     """The automaton of the door, costs not scaled."""
+    packed, transitions = tables.packed, tables.robots.transitions(Deadline())
     (door, is_open), (place, in_a) = literal(packed, "open"), literal(packed, "ra")
     needs = [(OPEN, Need(door, is_open)), (OPEN_AND_IN_A, Need(door | place, is_open | in_a))]
     weights = [int(cost) for cost in packed.costs]
-    automaton = AchieverAutomaton(packed, door, needs, weights, (), Deadline())
+    automaton = AchieverAutomaton(packed, transitions, door, needs, weights, (), Deadline())
     automaton.explore(lambda _: True)
     return automaton
 
@@ -48,15 +50,15 @@ def explored(packed: PackedTask) -> AchieverAutomaton:
     ("robots", "expected"), [("r s", {OPEN: 2, OPEN_AND_IN_A: 2}), ("r", {OPEN: 4, OPEN_AND_IN_A: 6})]
 )
 def test_costs_from_the_initial_state(robots: str, expected: dict[int, int]) -> None:
-    packed = corridor(robots)
-    automaton = explored(packed)
+    tables = corridor(robots)
+    automaton = explored(tables)
     assert automaton.cost == expected
     for need, cost in expected.items():
-        assert automaton.distances(need, 100)(packed.init) == cost
+        assert automaton.distances(need, 100)(tables.packed.init) == cost
 
 
 def test_distances_from_other_states() -> None:
-    packed = corridor("r")
-    costs = explored(packed).distances(OPEN_AND_IN_A, 100)
+    tables = corridor("r")
+    costs, packed = explored(tables).distances(OPEN_AND_IN_A, 100), tables.packed
     place, in_c = literal(packed, "rc")
     assert costs(packed.init & ~place | in_c) == 4
