@@ -61,13 +61,13 @@ def _planted(count: int) -> None:
     started = perf_counter()
     clean = fate(None, count)
     print(f"Without a bug: {clean.calls} calls, {clean.how}.\n")
-    print("| where | bug | fate | calls | certificate, error, or why it survives |\n|---|---|---|---|---|")
+    print("| role | bug | fate | calls | certificate, error, or why it survives |\n|---|---|---|---|---|")
     fates: Counter[str] = Counter()
     for bug in PLANTED:
         seen = fate(bug, count)
         fates[seen.how] += 1
         reason = seen.reason or bug.survives or "not explained"
-        print(f"| {bug.where} | {bug.what} | {seen.how} | {seen.calls} | {_cell(reason)} |", flush=True)
+        print(f"| {bug.role} | {bug.what} | {seen.how} | {seen.calls} | {_cell(reason)} |", flush=True)
     words = ", ".join(f"{how} {number}" for how, number in fates.most_common())
     _note(f"{len(PLANTED)} bugs: {words}; {perf_counter() - started:.0f} s")
 

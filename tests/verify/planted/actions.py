@@ -3,16 +3,10 @@
 from dataclasses import replace
 from typing import Any
 
-from search.packed import operators as ops
-from search.packed import packed_task
-from search.packed import parallelise as schedule
-from search.packed.operator_index import OperatorIndex
-from search.packed.operators import Operator
-from search.packed.packed_task import PackedGoal, PackedTask
-from search.packed.successor_generator import JointAction, Successors
 from serendipity.model import GroundAction
-from serendipity.model.actions import conflicting, disables
-from tests.verify.planted.bug import Bug, always, everywhere, replaced, wrapped
+from serendipity.model.actions import conflicting
+from tests.verify.planted.bug import Bug, always, replaced, wrapped
+from tests.verify.planted.roles import part
 
 
 def _without_agents(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
@@ -40,21 +34,21 @@ def _disables_by_deleting(a: GroundAction, b: GroundAction) -> bool:
     return any(f in b.pre for f in a.delete)
 
 
-def _packed_without_deletes(original: Any, self: PackedTask, action_id: int) -> Operator:
-    op: Operator = original(self, action_id)
+def _packed_without_deletes(original: Any, self: Any, action_id: int) -> Any:
+    op = original(self, action_id)
     deleted = 0
-    for fact in self.task.actions[action_id].delete:
-        bits = self.fact_bits[fact]
-        if bits is not None and fact in self.boolean:
+    for fact in part(self, "task").actions[action_id].delete:
+        bits = part(self, "bits of a fact")[fact]
+        if bits is not None and fact in part(self, "single facts"):
             deleted |= bits[0]
     return op._replace(keep=op.keep | deleted)
 
 
-def _positive_only(original: Any, self: PackedTask, positive: Any, negative: Any) -> Any:
+def _positive_only(original: Any, self: Any, positive: Any, negative: Any) -> Any:
     return original(self, positive, ())
 
 
-def _first_two(original: Any, self: PackedTask, positive: Any, negative: Any) -> Any:
+def _first_two(original: Any, self: Any, positive: Any, negative: Any) -> Any:
     return original(self, tuple(positive)[:2], negative)
 
 
@@ -64,114 +58,79 @@ def _useful_by_adding(original: Any, task: Any, *arguments: Any) -> Any:
     return relevant, tuple(i for i in useful if relevant.intersection(task.actions[i].add))
 
 
-def _only_indexed(self: OperatorIndex[Operator], state: int) -> list[Operator]:
-    return self.by_value.get(state & self.field, [])
+def _only_indexed(self: Any, state: int) -> list[Any]:
+    found: list[Any] = part(self, "index of operators").get(state & part(self, "indexed variable"), [])
+    return found
 
 
-def _one_robot(original: Any, self: Successors, state: int) -> list[JointAction]:
-    return [option for option in original(self, state) if len(option.actions) <= 1]
+def _changed_only(self: Any) -> Any:
+    return part(self, "variables that operators change")(part(self, "own operators"))
 
 
-def _idle(original: Any, self: Successors, first: JointAction, state: int) -> tuple[JointAction, ...]:
+def _one_robot(original: Any, self: Any, state: int) -> list[Any]:
+    return [chosen for chosen in original(self, state) if len(chosen.actions) <= 1]
+
+
+def _idle(original: Any, self: Any, first: Any, state: int) -> tuple[Any, ...]:
     return (first,)
 
 
 BUGS = (
     Bug(
-        "model/actions: applicable",
+        "whether an action is applicable",
         "negative preconditions are forgotten, by everybody",
-        replaced(GroundAction, "applicable", lambda self, state: all(f in state for f in self.pre)),
-        "the search packs actions by itself, and the verifier has its own rule",
+        replaced(lambda self, state: all(f in state for f in self.pre)),
+        survives="the search packs actions by itself, and the verifier has its own rule",
     ),
+    Bug("whether two actions conflict", "an agent may act twice in an epoch", replaced(_without_agents)),
     Bug(
-        "model/actions: conflicting",
-        "an agent may act twice in an epoch",
-        everywhere(conflicting, _without_agents),
-    ),
-    Bug(
-        "model/actions: conflicting",
+        "whether two actions conflict",
         "two actions may delete the same fact",
-        everywhere(conflicting, _without_double_deletes),
+        replaced(_without_double_deletes),
     ),
+    Bug("whether two actions conflict", "one may delete what another adds", replaced(_without_adds)),
+    Bug("whether two actions conflict", "strict interference is ignored", replaced(_never_strict)),
+    Bug("whether two actions conflict", "interference is always strict", replaced(_always_strict)),
     Bug(
-        "model/actions: conflicting",
-        "one may delete what another adds",
-        everywhere(conflicting, _without_adds),
-    ),
-    Bug(
-        "model/actions: conflicting", "strict interference is ignored", everywhere(conflicting, _never_strict)
-    ),
-    Bug(
-        "model/actions: conflicting", "interference is always strict", everywhere(conflicting, _always_strict)
-    ),
-    Bug(
-        "model/actions: disables",
+        "whether an action disables another",
         "negative preconditions are forgotten",
-        everywhere(disables, _disables_by_deleting),
+        replaced(_disables_by_deleting),
     ),
     Bug(
-        "ops: applicable",
+        "whether an operator is applicable",
         "values that a condition forbids are forgotten",
-        everywhere(ops.applicable, lambda op, state: state & op.need_mask == op.need),
+        replaced(lambda op, state: state & op.need_mask == op.need),
     ),
+    Bug("packing an action", "deletes of single facts are lost", wrapped(_packed_without_deletes)),
+    Bug("packing conditions", "negative conditions are lost", wrapped(_positive_only)),
+    Bug("packing conditions", "a third condition is lost", wrapped(_first_two)),
+    Bug("actions relevant to the goals", "deleting is of no use", wrapped(_useful_by_adding)),
+    Bug("whether two actions may share an epoch", "all may", replaced(always(True))),
+    Bug("whether two actions may share an epoch", "none may", replaced(always(False))),
     Bug(
-        "encoding: Encoding.op",
-        "deletes of single facts are lost",
-        wrapped(PackedTask, "_pack_action", _packed_without_deletes),
-    ),
-    Bug(
-        "encoding: Encoding.op",
-        "negative conditions are lost",
-        wrapped(PackedTask, "_literals", _positive_only),
-    ),
-    Bug("encoding: Encoding.op", "a third condition is lost", wrapped(PackedTask, "_literals", _first_two)),
-    Bug(
-        "encoding: relevance",
-        "deleting is of no use",
-        wrapped(packed_task, "relevant_to_goals", _useful_by_adding),
-    ),
-    Bug("encoding: Encoding.compatible", "everything is", replaced(PackedTask, "compatible", always(True))),
-    Bug("encoding: Encoding.compatible", "nothing is", replaced(PackedTask, "compatible", always(False))),
-    Bug(
-        "encoding: Goal.holds",
+        "whether the goal holds",
         "negative goals are forgotten",
-        replaced(PackedGoal, "holds", lambda self, state: state & self.need_mask == self.need),
+        replaced(lambda self, state: state & self.need_mask == self.need),
     ),
     Bug(
-        "ops: OpIndex",
-        "ops without the indexed field are lost",
-        replaced(OperatorIndex, "candidates", _only_indexed),
+        "operators that an index offers",
+        "those without the indexed variable are lost",
+        replaced(_only_indexed),
     ),
     Bug(
-        "encoding: own_mask",
-        "the key of the cache leaves out what he only asks for",
-        replaced(PackedTask, "own_mask", property(lambda self: self.changed_by(self.own))),
+        "variables of the human's own actions",
+        "the key of the cache leaves out what they only ask for",
+        replaced(property(_changed_only)),
     ),
+    Bug("variables that robots change", "there are none", replaced(property(always(0)))),
+    Bug("what robots do beside the human", "nothing, ever", wrapped(_idle)),
+    Bug("robots' joint actions", "one robot at a time", wrapped(_one_robot)),
+    Bug("joint actions with the human", "never offered", replaced(always([]))),
+    Bug("whether an action fits beside others", "it always does", replaced(always(True))),
+    Bug("whether a set can be done in some order", "every set can", replaced(always(True))),
     Bug(
-        "encoding: outside",
-        "robots are thought to change nothing",
-        replaced(PackedTask, "outside", property(always(0))),
-    ),
-    Bug(
-        "successors: with_robots",
-        "robots never act",
-        wrapped(Successors, "with_robots", _idle),
-    ),
-    Bug("successors: robots", "one robot at a time", wrapped(Successors, "robots", _one_robot)),
-    Bug("successors: joint", "never offered", replaced(Successors, "joint", always([]))),
-    Bug(
-        "successors: _fits",
-        "everything does",
-        replaced(Successors, "_fits", always(True)),
-    ),
-    Bug(
-        "successors: sequential",
-        "every set is",
-        replaced(Successors, "sequential", always(True)),
-    ),
-    Bug(
-        "schedule",
+        "conflicts while a plan is put into epochs",
         "sets that disturb each other share an epoch",
-        replaced(schedule, "conflicting", always(False)),
+        replaced(always(False)),
     ),
 )

@@ -7,7 +7,10 @@ from typing import Any
 
 import pytest
 
-Plant = Callable[[pytest.MonkeyPatch], None]
+from tests.verify.planted.roles import Place, place
+
+Change = Callable[[Any], Any]
+"""What stands in a place now -> what stands there with the bug."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,21 +18,41 @@ class Bug:
     """A bug in the planner.
 
     Attributes:
-        where: module and function.
+        role: what is broken, one of ``roles.PLACES``.
         what: what is wrong.
-        plant: plants it.
+        change: makes it wrong.
         survives: why no certificate can refute it; empty where one has to.
+        crashes: the error that the planner dies of, or with which its answer is refused; empty
+            where it is refuted.
     """
 
-    where: str
+    role: str
     what: str
-    plant: Plant
+    change: Change
     survives: str = ""
+    crashes: str = ""
+
+    @property
+    def name(self) -> str:
+        """Role and bug."""
+        return f"{self.role}: {self.what}"
+
+    def plant(self, patch: pytest.MonkeyPatch) -> None:
+        """Plant it.
+
+        Raises:
+            LookupError: if nothing plays its role any more.
+        """
+        at = place(self.role)
+        now = getattr(at.owner, at.name)
+        wrong = self.change(now)
+        for owner in (at.owner, *_importers(at, now)):
+            patch.setattr(owner, at.name, wrong)
 
 
-def replaced(owner: Any, name: str, value: Any) -> Plant:
-    """``owner.name`` replaced."""
-    return lambda patch: patch.setattr(owner, name, value)
+def replaced(value: Any) -> Change:
+    """Replaced, whatever it was."""
+    return lambda _: value
 
 
 def always(value: Any) -> Callable[..., Any]:
@@ -37,24 +60,26 @@ def always(value: Any) -> Callable[..., Any]:
     return lambda *_, **__: value
 
 
-def wrapped(owner: Any, name: str, around: Callable[..., Any]) -> Plant:
+def wrapped(around: Callable[..., Any]) -> Change:
     """A function or method replaced by ``around(original, *arguments)``."""
-    original = getattr(owner, name)
 
-    def broken(*arguments: Any, **keywords: Any) -> Any:
-        return around(original, *arguments, **keywords)
+    def change(original: Any) -> Any:
+        def broken(*arguments: Any, **keywords: Any) -> Any:
+            return around(original, *arguments, **keywords)
 
-    return lambda patch: patch.setattr(owner, name, broken)
+        return broken
+
+    return change
 
 
-def everywhere(function: Callable[..., Any], broken: Callable[..., Any]) -> Plant:
-    """A function replaced in every module of the program that has imported it by its name."""
-
-    def plant(patch: pytest.MonkeyPatch) -> None:
-        name = function.__name__
-        for where, module in list(sys.modules.items()):
-            ours = where.partition(".")[0] in ("serendipity", "search", "verify")
-            if ours and getattr(module, name, None) is function:
-                patch.setattr(module, name, broken)
-
-    return plant
+def _importers(at: Place, function: Any) -> list[Any]:
+    """The modules of the program that have imported a function from the one that defines it."""
+    if at.owner is not at.module or getattr(function, "__module__", None) != at.module.__name__:
+        return []
+    return [
+        module
+        for where, module in list(sys.modules.items())
+        if where.partition(".")[0] in ("serendipity", "search", "verify")
+        and module is not at.module
+        and getattr(module, at.name, None) is function
+    ]

@@ -3,45 +3,40 @@
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from search import planner
-from search.engine.best_first import Incumbent, Node
-from search.packed.cost_vector import CostLayout
-from search.packed.successor_generator import NOTHING, JointAction
-from search.planner import _Call
-from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.spaces.unrestricted import Unrestricted
-from search.spaces.windowed import AnyOfPlan, Timetable, Windowed
+from search.packed.successor_generator import NOTHING
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
+from tests.verify.planted.roles import part
 
 
-def _unchecked(self: Timetable, epoch: int, state: int) -> Iterable[JointAction]:
-    return (self._steps[epoch - 1][1],)
+def _unchecked(self: Any, epoch: int, state: int) -> Iterable[Any]:
+    return (part(self, "steps of pi_H")[epoch - 1][1],)
 
 
-def _own_actions(self: AnyOfPlan, epoch: int, state: int) -> Iterable[JointAction]:
-    return (NOTHING, *self._successors.human(state))
+def _own_actions(self: Any, epoch: int, state: int) -> Iterable[Any]:
+    return (NOTHING, *part(self, "successors").human(state))
 
 
-def _only_waiting(self: AnyOfPlan, epoch: int, state: int) -> Iterable[JointAction]:
+def _only_waiting(self: Any, epoch: int, state: int) -> Iterable[Any]:
     return (NOTHING,)
 
 
-def _joint_before(self: AnyOfPlan, epoch: int, state: int) -> Iterable[JointAction]:
-    own = self._successors.human(state)
-    planned = (option for option in own if self._actions[option.actions[0]].name in self._planned)
-    return (NOTHING, *planned, *self._successors.joint(state))
+def _joint_before(self: Any, epoch: int, state: int) -> Iterable[Any]:
+    own = part(self, "successors").human(state)
+    actions, names = part(self, "actions"), part(self, "names of pi_H")
+    planned = (chosen for chosen in own if actions[chosen.actions[0]].name in names)
+    return (NOTHING, *planned, *part(self, "successors").joint(state))
 
 
-def _later_start(original: Any, self: Windowed, node: Node) -> Iterator[tuple[int, Node]]:
+def _later_start(original: Any, self: Any, node: Any) -> Iterator[tuple[int, Any]]:
     for bound, opened in original(self, node):
         yield bound, opened._replace(start=opened.start + 1)
 
 
-def _longer(original: Any, self: Windowed, **keywords: Any) -> None:
+def _longer(original: Any, self: Any, **keywords: Any) -> None:
     original(self, **{**keywords, "max_window": keywords["max_window"] + 1})
 
 
-def _one_epoch(original: Any, self: Windowed, **keywords: Any) -> None:
+def _one_epoch(original: Any, self: Any, **keywords: Any) -> None:
     original(self, **{**keywords, "max_window": 1})
 
 
@@ -55,12 +50,12 @@ def _longer_horizon(original: Any, self: Any, **keywords: Any) -> None:
     original(self, **{**keywords, "horizon": None if horizon is None else horizon + 1})
 
 
-def _only_from_the_start(original: Any, self: Windowed, node: Node) -> Iterator[tuple[int, Node]]:
+def _only_from_the_start(original: Any, self: Any, node: Any) -> Iterator[tuple[int, Any]]:
     if node.epoch == 0:
         yield from original(self, node)
 
 
-def _late_end(original: Any, self: Windowed, node: Node, best: Incumbent) -> None:
+def _late_end(original: Any, self: Any, node: Any, best: Any) -> None:
     known = best.node
     original(self, node, best)
     if best.node is not known:
@@ -71,80 +66,49 @@ def _own_goal(original: Any, self: Any, **keywords: Any) -> None:
     original(self, **{**keywords, "goals": keywords["goals"][:1]})
 
 
-def _first_is_best(space: Any, best: Incumbent, progress: Any, deadline: Any) -> Iterator[Incumbent]:
-    found = best_first(space, best, progress, deadline)
-    yield from (answer for answer, _ in zip(found, range(1), strict=False))
+def _first_is_best(original: Any, *arguments: Any) -> Iterator[Any]:
+    yield from (answer for answer, _ in zip(original(*arguments), range(1), strict=False))
 
 
-best_first = planner.best_first
-
-
-def _never_dear(self: CostLayout, key: int, most_cost: int | None) -> bool:
+def _never_dear(self: Any, key: int, most_cost: int | None) -> bool:
     return False
 
 
-def _dear_at_the_limit(self: CostLayout, key: int, most_cost: int | None) -> bool:
+def _dear_at_the_limit(self: Any, key: int, most_cost: int | None) -> bool:
     return most_cost is not None and self.scaled_cost(key) >= most_cost
 
 
-def _ties_help(self: _Call) -> bool:
-    if self.plan is None or self.best.node is None:
+def _ties_help(self: Any) -> bool:
+    best, layout = part(self, "incumbent"), part(self, "layout of the call")
+    if part(self, "predicted plan") is None or best.node is None:
         return False
-    return self.keys.cost(self.best.key) <= self.keys.cost(self.idle.key)
-
-
-def _nothing_helps(self: _Call) -> bool:
-    return False
+    return bool(layout.cost(best.key) <= layout.cost(part(self, "best with robots idle").key))
 
 
 BUGS = (
     Bug(
-        "windowed: Timetable",
+        "prefix that follows pi_H",
         "pi_H is followed where it is not applicable",
-        replaced(Timetable, "options", _unchecked),
+        replaced(_unchecked),
     ),
-    Bug("windowed: AnyOfPlan", "any own action is in pi_H", replaced(AnyOfPlan, "options", _own_actions)),
-    Bug(
-        "windowed: AnyOfPlan",
-        "he only waits before the window",
-        replaced(AnyOfPlan, "options", _only_waiting),
-    ),
-    Bug(
-        "windowed: AnyOfPlan",
-        "joint actions before the window",
-        replaced(AnyOfPlan, "options", _joint_before),
-    ),
-    Bug(
-        "windowed: _open",
-        "the window is said to start an epoch later",
-        wrapped(Windowed, "_open", _later_start),
-    ),
-    Bug(
-        "windowed: _open",
-        "the window opens in epoch 1 only",
-        wrapped(Windowed, "_open", _only_from_the_start),
-    ),
-    Bug("windowed: _end", "the window is said to end an epoch earlier", wrapped(Windowed, "_end", _late_end)),
-    Bug("windowed: max_window", "an epoch more", wrapped(Windowed, "__init__", _longer)),
-    Bug("windowed: max_window", "always 1", wrapped(Windowed, "__init__", _one_epoch)),
-    Bug("windowed: horizon", "an epoch less", wrapped(Windowed, "__init__", _shorter_horizon)),
-    Bug("windowed: horizon", "an epoch more", wrapped(Windowed, "__init__", _longer_horizon)),
-    Bug("max_cost", "ignored", replaced(CostLayout, "exceeds", _never_dear)),
-    Bug("max_cost", "the limit itself is too dear", replaced(CostLayout, "exceeds", _dear_at_the_limit)),
-    Bug("free: horizon", "an epoch less", wrapped(Unrestricted, "__init__", _shorter_horizon)),
-    Bug("free: horizon", "an epoch more", wrapped(Unrestricted, "__init__", _longer_horizon)),
-    Bug("free: goals", "the robots' goal is forgotten", wrapped(Unrestricted, "__init__", _own_goal)),
-    Bug("followed: goals", "the robots' goal is forgotten", wrapped(FixedHumanPlan, "__init__", _own_goal)),
-    Bug(
-        "best_first",
-        "the first plan found is called optimal",
-        replaced(planner, "best_first", _first_is_best),
-    ),
-    Bug("planner: _helps", "a tie is an opportunity", replaced(_Call, "_helps", _ties_help)),
-    Bug("planner: _helps", "nothing is an opportunity", replaced(_Call, "_helps", _nothing_helps)),
-    Bug(
-        "planner: _improve_alone",
-        "a given plan is taken for optimal",
-        replaced(_Call, "_improve_alone", always(None)),
-    ),
+    Bug("prefix of actions of pi_H", "any own action is in pi_H", replaced(_own_actions)),
+    Bug("prefix of actions of pi_H", "the human only waits before the window", replaced(_only_waiting)),
+    Bug("prefix of actions of pi_H", "joint actions before the window", replaced(_joint_before)),
+    Bug("opening a window", "it is said to start an epoch later", wrapped(_later_start)),
+    Bug("opening a window", "in epoch 1 only", wrapped(_only_from_the_start)),
+    Bug("ending a window", "it is said to end an epoch earlier", wrapped(_late_end)),
+    Bug("limits of the window space", "max_window: an epoch more", wrapped(_longer)),
+    Bug("limits of the window space", "max_window: always 1", wrapped(_one_epoch)),
+    Bug("limits of the window space", "horizon: an epoch less", wrapped(_shorter_horizon)),
+    Bug("limits of the window space", "horizon: an epoch more", wrapped(_longer_horizon)),
+    Bug("whether a cost exceeds max_cost", "it never does", replaced(_never_dear)),
+    Bug("whether a cost exceeds max_cost", "the limit itself does", replaced(_dear_at_the_limit)),
+    Bug("limits of the unrestricted space", "horizon: an epoch less", wrapped(_shorter_horizon)),
+    Bug("limits of the unrestricted space", "horizon: an epoch more", wrapped(_longer_horizon)),
+    Bug("limits of the unrestricted space", "the robots' goal is forgotten", wrapped(_own_goal)),
+    Bug("limits of the space of a fixed plan", "the robots' goal is forgotten", wrapped(_own_goal)),
+    Bug("best-first search", "the first plan found is called optimal", wrapped(_first_is_best)),
+    Bug("whether an answer is an opportunity", "a tie is one", replaced(_ties_help)),
+    Bug("whether an answer is an opportunity", "nothing is one", replaced(always(False))),
+    Bug("improving a given plan", "it is taken for optimal", replaced(always(None))),
 )

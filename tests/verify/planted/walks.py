@@ -2,34 +2,32 @@
 
 from typing import Any
 
-from search.packed.successor_generator import Idle, JointAction, in_time
-from search.robots.decoupled import Decoupled, DecoupledSuccessors
-from tests.verify.planted.bug import Bug, always, everywhere, replaced, wrapped
+from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
-def _short_cut(original: Any, self: Decoupled, slot: int, here: int, there: int) -> int:
+def _short_cut(original: Any, self: Any, slot: int, here: int, there: int) -> int:
     steps: int = original(self, slot, here, there)
     return steps - 1 if steps > 1 else steps
 
 
-def _deeds_take_no_time(
-    original: Any, self: DecoupledSuccessors, idle: Idle, option: JointAction, state: int
-) -> Idle:
-    found: Idle = original(self, idle, option._replace(due=()), state)
-    return found
+def _take_no_time(original: Any, self: Any, idle: Any, joint_action: Any, state: int) -> Any:
+    return original(self, idle, joint_action._replace(due=()), state)
 
 
-def _stays(original: Any, self: Decoupled, node: Any) -> Any:
+def _stays(original: Any, self: Any, node: Any) -> Any:
     return list(original(self, node))[1:]
 
 
 BUGS = (
-    Bug("walks: in_time", "robots need no time to walk", everywhere(in_time, always(True))),
-    Bug("walks: distance", "a step shorter", wrapped(Decoupled, "distance", _short_cut)),
-    Bug("walks: distance", "nothing is in reach", replaced(Decoupled, "distance", always(-1))),
-    Bug("walks: rested", "deeds take no time", wrapped(DecoupledSuccessors, "rested", _deeds_take_no_time)),
     Bug(
-        "walks: touched_by", "nobody minds where robots are", replaced(Decoupled, "touched_by", always(False))
+        "whether a walk ends in time",
+        "robots need no time to walk",
+        replaced(always(True)),
+        crashes="InputError",
     ),
-    Bug("walks: steps", "a walk is not written down", wrapped(Decoupled, "steps", _stays)),
+    Bug("length of a walk", "a step shorter", wrapped(_short_cut)),
+    Bug("length of a walk", "nothing is in reach", replaced(always(-1))),
+    Bug("how long robots have been idle", "what they do takes no time", wrapped(_take_no_time)),
+    Bug("whether pi_H asks where robots are", "never", replaced(always(False))),
+    Bug("writing walks down", "a walk is left out", wrapped(_stays)),
 )
