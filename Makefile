@@ -2,6 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
+PROBLEMS := $(or $(SERENDIPITY_PROBLEMS),../shared)
 
 .DEFAULT_GOAL := help
 .PHONY: help .venv demo test test-browser pictures browser check docs bench fuzz requirements clean
@@ -78,10 +79,10 @@ bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders 
 	         -r requirements-bench.txt; fi; } \
 	  || echo "No Fast Downward, and it can't be installed here: it is left out."
 	@mkdir -p build/bench
-	@$(BIN)/python -m benchmarks.usar
-	@echo && $(BIN)/serendipity bench ../shared/usar200 --stride 4 --discounts 0,0.1,0.3,0.5,0.7,0.9 \
+	@$(BIN)/python -m benchmarks.usar $(PROBLEMS)/usar200
+	@echo && $(BIN)/serendipity bench $(PROBLEMS)/usar200 --stride 4 --discounts 0,0.1,0.3,0.5,0.7,0.9 \
 	  --contenders search,in-turn,automata,fast-downward -o build/bench/side-by-side.csv --plot build/bench/side-by-side.png
-	@echo && $(BIN)/serendipity bench ../shared/usar200 --stride 20 --discounts 0.9 --modes serendipity,communication \
+	@echo && $(BIN)/serendipity bench $(PROBLEMS)/usar200 --stride 20 --discounts 0.9 --modes serendipity,communication \
 	  --contenders search,again,paper -o build/bench/paper.csv --plot build/bench/paper.png
 	@echo && $(BIN)/serendipity bench --scaling all --seeds 3 -o build/bench/scaling.csv --plot build/bench/scaling.png
 

@@ -19,10 +19,10 @@ from random import Random
 from typing import Any
 
 import serendipity
+from benchmarks.problems import PROBLEMS
 from serendipity import SerendipityError, Task
 from serendipity.evaluation.crosscheck.calls import PlanCall, random_call
 
-SHARED = Path(__file__).resolve().parents[2] / "shared"
 TIMED = ("elapsed_seconds", "seconds", "gap")
 """What depends on the clock: improvements are told of now and then."""
 
@@ -32,7 +32,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--count", type=int, default=600, help="random calls")
-    parser.add_argument("--usar", type=Path, default=SHARED / "usar200")
+    parser.add_argument("--usar", type=Path, default=PROBLEMS / "usar200")
     arguments = parser.parse_args()
     lines = 0
     with arguments.output.open("w") as out:

@@ -19,6 +19,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import serendipity
+from benchmarks.problems import PROBLEMS
 from search import PreparedTask
 from search.assistance import joint_optimum
 from serendipity import Task
@@ -34,7 +35,6 @@ ORDER = (
     ("optimistic", "expected"),
     ("expected", "robust"),
 )
-DEFAULT = Path(__file__).resolve().parents[2] / "shared" / "spa"
 
 Costs = tuple[Fraction, Fraction]
 Bounds = tuple[Costs, Costs | None]
@@ -81,7 +81,7 @@ class Tally:
 def main() -> int:
     """Run all problems under all ties; 1 where values do not stand in their order."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", nargs="?", type=Path, default=DEFAULT)
+    parser.add_argument("folder", nargs="?", type=Path, default=PROBLEMS / "spa")
     parser.add_argument("--only", default="", help="part of the problems' names")
     parser.add_argument("--ties", nargs="+", default=TIES, choices=TIES)
     parser.add_argument("--time-limit", type=float, default=60)

@@ -22,6 +22,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from benchmarks.problems import PROBLEMS
 from search import prepare, solve
 from serendipity.model import Options, Task
 from serendipity.model.collection import no_collection
@@ -34,13 +35,12 @@ MODES = {
     "composite": {},
     "composite without horizon": {"mode": "composite", "horizon": "inf"},
 }
-DEFAULT = Path(__file__).resolve().parents[2] / "shared" / "usar200"
 
 
 def main() -> None:
     """Print a table of medians, 95th percentiles and maxima."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("folder", nargs="?", type=Path, default=DEFAULT)
+    parser.add_argument("folder", nargs="?", type=Path, default=PROBLEMS / "usar200")
     parser.add_argument("--stride", type=int, default=1, help="take every N-th task")
     options = parser.parse_args()
     folders = sorted(options.folder.glob("test*"), key=lambda p: int(p.name.removeprefix("test")))

@@ -7,9 +7,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from benchmarks.problems import PROBLEMS
 from serendipity.cli.streams import progress_lines
-
-SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("ci", derandomize=True, max_examples=100, database=None, **_CALM)
@@ -27,9 +26,9 @@ def _patience() -> Iterator[None]:
 
 
 def _data(name: str) -> Path:
-    folder = SHARED / name
+    folder = PROBLEMS / name
     if not folder.is_dir():
-        pytest.skip(f"needs the data folder '{name}' beside the repository")
+        pytest.skip(f"needs the folder '{name}' in {PROBLEMS} (SERENDIPITY_PROBLEMS says where to look)")
     return folder
 
 
