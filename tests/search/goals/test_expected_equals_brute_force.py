@@ -13,8 +13,8 @@ from search.engine.outcome import plan_steps
 from search.goals import Candidate, Expected, ServedGoal, solve_expected
 from search.goals.planner import _Search
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
-from tests.goals.oracle import best_expected, robots_sets
-from tests.goals.strategies import literals, rivals
+from tests.search.goals.oracle import best_expected, robots_sets
+from tests.search.goals.strategies import literals, rivals
 from tests.support.builders import task as build
 from tests.support.oracle import optimal_human_plan
 from tests.support.strategies import Call, calls

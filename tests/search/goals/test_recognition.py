@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Condition, Task, UsageError
-from tests.goals.strategies import literals, reachable_goals
+from tests.search.goals.strategies import literals, reachable_goals
 from tests.support.builders import task as build
 from tests.support.oracle import Alone, optimal_human_plan
 from tests.support.strategies import tasks

@@ -14,9 +14,9 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Task
 from serendipity.model.deadline import Deadline
-from tests.assistance.oracle import by_rounds, explore, mean_over_all_policies
-from tests.assistance.strategies import games
-from tests.assistance.test_search_equals_brute_force import solve
+from tests.search.assistance.oracle import by_rounds, explore, mean_over_all_policies
+from tests.search.assistance.strategies import games
+from tests.search.assistance.test_search_equals_brute_force import solve
 
 
 @contextmanager

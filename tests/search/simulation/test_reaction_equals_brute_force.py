@@ -5,7 +5,7 @@ from hypothesis import given
 
 from search import Outcome, PreparedTask
 from search.simulation import simulate, solve_for_human
-from tests.simulation.strategies import Reaction, reactions
+from tests.search.simulation.strategies import Reaction, reactions
 from tests.support.oracle.reactions import best_reaction
 
 MODELS = ["observant", "local"]

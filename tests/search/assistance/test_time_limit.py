@@ -18,8 +18,8 @@ from search.assistance.game.game import Game
 from search.assistance.solvers import cheapest_run, lao_star
 from serendipity.model import Options, Task
 from serendipity.model.deadline import Deadline
-from tests.assistance.oracle import by_rounds, explore
-from tests.assistance.strategies import games
+from tests.search.assistance.oracle import by_rounds, explore
+from tests.search.assistance.strategies import games
 from tests.support.builders import task
 from tests.support.cases import case_5, case_6
 from tests.support.countdown import Countdown

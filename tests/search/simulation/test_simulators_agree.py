@@ -4,7 +4,7 @@ from hypothesis import given, settings
 
 from search import PreparedTask
 from search.simulation import simulate
-from tests.simulation.strategies import Played, played
+from tests.search.simulation.strategies import Played, played
 from verify.simulator import play
 
 EXAMPLES = 10_000 if settings().max_examples >= 1000 else 300

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 
 import serendipity
 from serendipity.model import Certificate, Options, PlanStep, Result, Task, surroundings
-from tests.simulation.strategies import Reaction, reactions
+from tests.search.simulation.strategies import Reaction, reactions
 from tests.support.builders import task as build
 from tests.support.cases import case_1, case_2, case_4
 from tests.support.oracle.reactions import best_reaction

@@ -7,7 +7,7 @@ from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from serendipity.model import Task
 from serendipity.model.deadline import Deadline
-from tests.assistance.strategies import games
+from tests.search.assistance.strategies import games
 
 
 @given(task=games())
