@@ -25,7 +25,7 @@ class SearchContext:
     Args:
         prepared: the task.
         options: options in force.
-        deadline: asked for time while tables are built.
+        deadline: polled while tables are built.
         plan: ``pi_H`` where it is known; None while it is being predicted.
         tables: a packing of the task, with its tables; None for the one that the options ask for.
     """
@@ -79,12 +79,12 @@ class SearchContext:
 
     @property
     def steps(self) -> PatternDatabase:
-        """Lower bound on the number of his actions to ``G_H``."""
+        """Lower bound on the number of the human's actions to ``G_H``."""
         return self.tables.human.steps(self.deadline)
 
     @cached_property
     def alone(self) -> HumanOptimum:
-        """The human by himself, to ``G_H``."""
+        """The human alone, to ``G_H``."""
         if not self.weights.announces:
             human = self.tables.human
             bound = human.projection(self.deadline)
@@ -93,7 +93,7 @@ class SearchContext:
 
     @cached_property
     def alone_to_both(self) -> HumanOptimum | None:
-        """The human by himself, to ``G_H`` and ``G_R``; None where he can't affect ``G_R``."""
+        """The human alone, to ``G_H`` and ``G_R``; None where they can't affect ``G_R``."""
         robot_goal = self.task.robot_goal
         touched = {*robot_goal.positive, *robot_goal.negative}
         affects = bool(touched) and any(
@@ -112,7 +112,7 @@ class SearchContext:
 
     @cached_property
     def ways(self) -> PrivateDistances:
-        """The human's ways to his touches."""
+        """The human's ways to their touches."""
         own = self.tables.private_distances
         return PrivateDistances(own, self.interactions, self.bound, self.steps, self.weights, self.deadline)
 
@@ -143,7 +143,7 @@ class SearchContext:
         return self.packed.goal, self.packed.robot_goal
 
     def optimal_plans(self) -> PlanGraph | None:
-        """The human's optimal plans from ``I``, or None where he has none."""
+        """The human's optimal plans from ``I``, or None where they have none."""
         return self.alone.plans(self.packed.init)
 
     @cached_property

@@ -56,7 +56,7 @@ def solve(
 
 
 def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
-    """All optimal plans of the human alone, or None where he has none.
+    """All optimal plans of the human alone, or None where they have none.
 
     Raises:
         LimitReachedError: the deadline ran out.
@@ -80,7 +80,7 @@ class LeftAlone:
 
 
 def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlone | None:
-    """Doing nothing for the human, in a mode with windows; None where he has no plan alone.
+    """Doing nothing for the human, in a mode with windows; None where they have no plan alone.
 
     Args:
         context: of the call.
@@ -101,7 +101,7 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
 
 
 def _individual(context: SearchContext, plan: HumanPlan) -> Outcome:
-    """The human alone, optimally, whatever plan of his is given."""
+    """The human alone, optimally, whatever plan of theirs is given."""
     graph = context.optimal_plans()
     assert graph is not None, "a plan that reaches the goal was given or found"
     best = graph.canonical()
@@ -166,7 +166,7 @@ class _Call:
         self.unaided = Incumbent(INFINITE_KEY)
         self.best = Incumbent(INFINITE_KEY)
         self.settled = not given
-        """Whether it is known what the human gains by himself."""
+        """Whether it is known what the human gains alone."""
         self.improvable = False
         """Whether a given plan costs more than an optimal one."""
         self.limit: str | None = None
@@ -196,7 +196,7 @@ class _Call:
         return "unknown" if self.progress.bound < INFINITE_KEY else "infeasible"
 
     def leave_alone(self) -> None:
-        """The first incumbent: the human follows ``pi_H``; robots, without him, see to ``G_R``."""
+        """The first incumbent: the human follows ``pi_H``; robots, without the human, see to ``G_R``."""
         plan, epochs = self.plan, self.epochs
         if plan is not None and (epochs is None or len(plan) <= epochs):
             if not self.task.robot_goal:
@@ -204,7 +204,7 @@ class _Call:
             else:
                 self._pursue_robot_goal(plan)
         self.idle = replace(self.baseline, key=self.baseline.key + self._window_of_nothing())
-        # With a goal of the robots' own, leaving him alone is what a plan with a window is
+        # With a goal of the robots' own, leaving the human alone is what a plan with a window is
         # compared with, but it is not itself one that fits every window (semantics 3.1).
         if not (self.options.windowed and self.task.robot_goal):
             self.best = replace(self.idle)
@@ -231,12 +231,12 @@ class _Call:
         return self.keys.epoch_weight + self.keys.of_start(len(self.plan), self.epochs)
 
     def _least(self) -> int:
-        """A first bound, before there is any of the robots: what the human has to do himself."""
+        """A first bound, before there is any of the robots: what the human has to do themselves."""
         window = self.keys.epoch_weight if self._window_of_nothing() else 0
         return self.context.bound(self.context.packed.init) + window
 
     def _improve_alone(self) -> None:
-        """A given plan may not be optimal: what the human gains by himself (semantics 1)."""
+        """A given plan may not be optimal: what the human gains alone (semantics 1)."""
         if not self.given or self.plan is None:
             return
         optimum = self.context.alone.key(self.context.packed.init)

@@ -35,7 +35,7 @@ class TaskTables:
     Attributes:
         packed: the packed task.
         scales: its costs as integers.
-        human: what the human can do by himself.
+        human: what the human can do alone.
         robots: what robots can do.
     """
 
@@ -114,7 +114,7 @@ class PreparedTask:
         return TaskTables(PackedTask(self.task, facts, deadline, actions))
 
     def with_diversions(self, deadline: Deadline) -> TaskTables:
-        """Also packed is what a human who replans lets himself be kept busy with (semantics 6)."""
+        """Also packed is what a human who replans lets themselves be kept busy with (semantics 6)."""
         if self._with_diversions is None:
             found = self.diversions(deadline)
             self._with_diversions = (
@@ -123,7 +123,7 @@ class PreparedTask:
         return self._with_diversions
 
     def doubtful(self, deadline: Deadline) -> TaskTables:
-        """Packed for a human who may be wrong, and sees what is where he is."""
+        """Packed for a human who may be wrong, and sees what is where they are."""
         if self._doubtful is None:
             self._doubtful = self.doubting(frozenset(), deadline)
         return self._doubtful
@@ -151,7 +151,7 @@ class PreparedTask:
         return self._diversions
 
     def surroundings(self, deadline: Deadline) -> Surroundings:
-        """What an agent sees from where he is."""
+        """What an agent sees from where they are."""
         if self._surroundings is None:
             self._surroundings = surroundings(self.task, deadline.tick)
         return self._surroundings
@@ -191,7 +191,7 @@ class PreparedTask:
         Args:
             goals: goals of the human's.
             facts: ids of facts to pack besides what the goals ask for.
-            deadline: asked for time.
+            deadline: polled.
         """
         asked = facts.union(*((*goal.positive, *goal.negative) for goal in goals))
         packed = self.including(asked, deadline).packed
@@ -205,12 +205,12 @@ def prepare(task: Task, deadline: Deadline | None = None) -> PreparedTask:
     """Pack a task, and find what every call needs of it and what takes time linear in the files.
 
     That is what robots' actions do to what they share with the human, and the human's private
-    distances, unless his private states may be more than the task has actions.  The first
+    distances, unless their private states may be more than the task has actions.  The first
     planning call finds it otherwise, within its time limit.
 
     Args:
         task: the task.
-        deadline: asked for time and memory.
+        deadline: polled for time, and asked for memory.
 
     Raises:
         LimitReachedError: the deadline came first.

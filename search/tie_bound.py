@@ -1,7 +1,7 @@
 """What no answer costs less than, whichever optimal plan the human follows (semantics 1).
 
-All his optimal plans are as long and cost as much, so one search does for them: before the
-window he does, in each epoch, anything that some optimal plan does then.  That allows at least
+All their optimal plans are as long and cost as much, so one search does for them: before the
+window they do, in each epoch, anything that some optimal plan does then.  That allows at least
 what each plan allows.  A window of n epochs is answered only if it saves at least (n - 1) K.
 """
 
@@ -30,12 +30,12 @@ from serendipity.model.task import HumanPlan
 def least_over_ties(
     prepared: PreparedTask, options: Options, graph: PlanGraph, deadline: Deadline
 ) -> Fraction | None:
-    """A lower bound on the cost of the answers to all of his optimal plans; None if time is up.
+    """A lower bound on the cost of the answers to all of the human's optimal plans; None if time is up.
 
     Args:
         prepared: the task; robots have no goals of their own.
         options: of the call, in mode ``serendipity`` or ``communication``.
-        graph: his optimal plans from the initial state.
+        graph: their optimal plans from the initial state.
         deadline: deadline and cancellation.
     """
     plan = graph.canonical()

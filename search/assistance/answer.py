@@ -36,7 +36,7 @@ class Assistance:
         status: as in :class:`serendipity.model.Result`.
         lower: no policy is worth less.
         upper: what the policy is worth, or at most worth; None without one.
-        human_plan: his canonical optimal plan alone; None if there is none, or it is unknown.
+        human_plan: their canonical optimal plan alone; None if there is none, or it is unknown.
         policy: what the supporter does; None without one.
         plan: both agents' actions, S before P in each epoch; None where P may choose.
         reason: why there is no policy.
@@ -120,7 +120,7 @@ def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:
 
 
 def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Assistance:
-    """What is known when the time is up: doing nothing is always an answer, if he has a plan."""
+    """What is known when the time is up: doing nothing is always an answer, if the prime has a plan."""
     known = Solution(None, None) if search is None else search.solution(floors=False)
     if search is not None and known.upper is not None and known.lower == known.upper:
         return _answer(writer, search, "optimal")

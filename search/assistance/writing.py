@@ -27,7 +27,7 @@ class Writer:
                 self._named[bits] = game.task.facts[fact]
 
     def human_plan(self) -> HumanPlan | None:
-        """The prime's canonical optimal plan alone, or None where he has none."""
+        """The prime's canonical optimal plan alone, or None where they have none."""
         game, state = self._game, self._game.init
         if game.alone(state) >= INFINITE:
             return None

@@ -1,4 +1,4 @@
-"""Dominance: who can wait is never worse off for being early and cheap."""
+"""Dominance: whoever can wait loses nothing by being somewhere early and at low cost."""
 
 from collections.abc import Callable, Hashable
 from operator import ge

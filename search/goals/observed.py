@@ -30,8 +30,8 @@ class Likelihood:
     """What the observations cost a human who wants one goal.
 
     Attributes:
-        with_observed: ``cost(G, O)``: least cost of his plans that embed them; None if none does.
-        without_observed: ``cost(G, not O)``: least cost of his other plans; None if there is none.
+        with_observed: ``cost(G, O)``: least cost of their plans that embed them; None if none does.
+        without_observed: ``cost(G, not O)``: least cost of their other plans; None if there is none.
         plan: the canonical one among the (cost, length)-optimal plans that embed them.
     """
 
@@ -48,7 +48,7 @@ def explanations(
     Args:
         task: the task; robots idle, its own goal plays no part.
         goals: the candidate goals.
-        observed: names of actions, in the order in which he did them.
+        observed: names of actions, in the order in which the human did them.
         deadline: deadline and cancellation.
     """
     deadline = deadline or Deadline()
@@ -130,7 +130,7 @@ class _Search:
         into: dict[_At, list[tuple[int, _At, int]]],
         distance: dict[_At, int],
     ) -> HumanPlan:
-        """From the start the smallest action that continues an optimal plan (semantics 1)."""
+        """The canonical plan: at each step the smallest action of an optimal plan (semantics 1)."""
         onward: dict[_At, list[tuple[int, _At]]] = {}
         pending, seen = list(ends), set(ends)
         while pending:

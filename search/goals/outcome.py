@@ -14,7 +14,7 @@ class Candidate:
 
     Attributes:
         goal: the goal.
-        plan: his current plan, if that is his goal.
+        plan: their current plan, if that is their goal.
         weight: its probability, more than 0.
     """
 
@@ -29,7 +29,7 @@ class ServedGoal:
 
     Attributes:
         steps: what everybody does.
-        window: in which his plan is interrupted, or None where it is left alone.
+        window: in which their plan is interrupted, or None where it is left alone.
         cost: what it costs the team.
     """
 
@@ -49,7 +49,7 @@ class Expected:
         served: per candidate what happens then.
         cost: expected cost for the team.
         baseline: expected cost of the human's plans, robots idle.
-        saving_alone: what the human gains by himself, if his plans are not optimal.
+        saving_alone: what the human gains alone, if their plans are not optimal.
         objective: expected cost and window.
         lower_bound: no plan has a smaller objective.
         opportunity: the robots' plan is cheaper than doing nothing.

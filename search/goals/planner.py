@@ -152,7 +152,7 @@ class _Search:
             return (0, 0)
         if outcome.opportunity:
             return self._scaled(outcome.objective), self._scaled(outcome.cost)
-        if outcome.saving_alone:  # his plan is not the best with idle robots: the answer bounds nothing
+        if outcome.saving_alone:  # not the best with idle robots: the answer bounds nothing
             return (0, 0)
         return self._scaled(outcome.cost + window), self._scaled(outcome.cost)
 

@@ -1,7 +1,7 @@
 """One candidate goal beside a robots' plan that is played epoch by epoch.
 
-All that can have happened so far, if this is the human's goal, is kept as labels: he still
-follows his plan, he is inside a window, or his window is over.  Labels of the same state
+All that can have happened so far, if this is the human's goal, is kept as labels: they still
+follow their plan, they are inside a window, or their window is over.  Labels of the same state
 and phase differ in their keys only, and the smallest is enough.
 """
 
@@ -28,7 +28,7 @@ class Ended(NamedTuple):
     key: int
     node: Node
     end: int
-    """First epoch of the suffix, 0 where his plan is left alone."""
+    """First epoch of the suffix, 0 where the human's plan is left alone."""
     tail: tuple[int, ...]
 
 
@@ -37,7 +37,7 @@ class Situation:
     """What can have happened after some epochs.
 
     Attributes:
-        follows: he has followed his plan all the time; None if robots made that impossible.
+        follows: the human has followed their plan all the time; None if robots made that impossible.
         inside: the window is open.
         ended: the best of the windows that are over; robots must not act any more.
         bound: no completion has a smaller key.
@@ -56,9 +56,9 @@ class GoalTimeline:
     Attributes:
         encoding: the packed task, the same for all candidates.
         goal: the candidate, packed.
-        steps: his plan: packed actions and what they do.
+        steps: the human's plan: packed actions and what they do.
         suffix: rule 3.
-        private: lower bound on what he still has to pay.
+        private: lower bound on what they still have to pay.
         keys: layout of keys.
         horizon: ``T``.
         max_window: most epochs of a window.
@@ -87,7 +87,7 @@ class GoalTimeline:
     def after(
         self, now: Situation, epoch: int, robots: JointAction, acting: Successors, limit: int
     ) -> Situation | None:
-        """After ``epoch``, in which the robots do exactly ``robots``, but for joint actions with him.
+        """After ``epoch``, in which the robots do exactly ``robots``, but for joint actions with the human.
 
         Args:
             now: before the epoch.
@@ -97,7 +97,7 @@ class GoalTimeline:
             limit: labels that can't stay below this key are dropped.
 
         Returns:
-            None if nothing fits: the robots' actions break his plan, or are too dear.
+            None if nothing fits: the robots' actions break their plan, or are too dear.
         """
         follows = self._follow(now.follows, epoch, robots)
         inside: dict[_Place, Node] = {}
@@ -119,7 +119,7 @@ class GoalTimeline:
         """The best timeline after the last epoch; ties go to the plan that is left alone."""
         left = None
         if last.follows is not None and self.goal.holds(last.follows.state):
-            # Leaving him alone counts as the shortest and latest window (semantics 3.1).
+            # Leaving the human alone counts as the shortest and latest window (semantics 3.1).
             left = Ended(last.follows.key + self._untouched, last.follows, 0, ())
         if left is None or (last.ended is not None and last.ended.key < left.key):
             return last.ended
@@ -130,7 +130,7 @@ class GoalTimeline:
         return self.keys.epoch_weight + self.keys.of_start(max(1, len(self.steps)), self.horizon)
 
     def _follow(self, node: Node | None, epoch: int, robots: JointAction) -> Node | None:
-        """Rule 1; beyond the end of his plan he waits."""
+        """Rule 1; beyond the end of the human's plan they wait."""
         if node is None:
             return None
         part = NOTHING
@@ -152,7 +152,7 @@ class GoalTimeline:
     def _play(
         self, node: Node, epoch: int, robots: JointAction, acting: Successors, limit: int
     ) -> list[Node]:
-        """Rule 2: he is free, and robots that are idle in their own plan can join him."""
+        """Rule 2: the human is free, and robots that are idle in their own plan can join them."""
         found = []
         for part in (NOTHING, *acting.human(node.state), *acting.joint(node.state)):
             child = self._together(node, part, robots)
@@ -163,7 +163,7 @@ class GoalTimeline:
         return found
 
     def _together(self, node: Node, part: JointAction, robots: JointAction) -> Node | None:
-        """The epoch after ``node`` with his part and theirs, if both are applicable together."""
+        """The epoch after ``node`` with the human's part and the robots', if both are applicable together."""
         if part.agents & robots.agents or not self._possible(robots, node.state):
             return None
         for mine in part.actions:

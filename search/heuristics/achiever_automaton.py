@@ -59,7 +59,7 @@ class AchieverAutomaton:
         field: the outside field.
         needs: ids of the needs that are judged by this field, with the needs.
         weights: key increment of a robots' op by the index of its cost.
-        flips: ops of the human that may change the field on his way, for nothing.
+        flips: ops of the human that may change the field on their way, for nothing.
         deadline: polled at each spot that comes up.
 
     Attributes:
@@ -212,7 +212,7 @@ class AchieverAutomaton:
         return self._packed.values(field)
 
     def _index(self, i: int, need: Need) -> None:
-        """By value and place, where a need is provided."""
+        """The values and places at which a need is provided."""
         value = need.value & self._field
         robots = self._robots.get(need.mask)
         if robots is None:

@@ -1,9 +1,9 @@
 """A lower bound that asks who helps: nothing gets cheaper unless robots provide a touch.
 
 Whatever happens after a node, the human either touches nothing outside any more,
-or there is a first touch.  Until then he moves by himself in his private fields,
+or there is a first touch.  Until then they move alone in their private fields,
 and only robots change what lies outside; so the node costs at least what robots
-need to provide the touch, plus his way to it, the touch, and his private rest
+need to provide the touch, plus their way to it, the touch, and their private rest
 (``search.human.pattern_database``), and there must be epochs enough for both.  Touches that
 are too dear already from the initial state stay so, since both parts are
 distances: a first pass leaves few of them.
@@ -133,7 +133,7 @@ class FirstInteraction:
         return kept
 
     def _from(self, at: int, least: int) -> list[tuple[int, Provided, int]]:
-        """What costs him less than doing without, from a projected state."""
+        """What costs the human less than doing without, from a projected state."""
         known = self._cheap.get(at)
         if known is None:
             costs = ((p.way.get(at, INFINITE_KEY), p.provided, p.latest) for p in self._promises)

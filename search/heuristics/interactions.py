@@ -1,9 +1,9 @@
-"""How the human depends on others: his touches, and what each of them needs.
+"""How the human depends on others: their touches, and what each of them needs.
 
 Fields fall apart into the human's *private* ones (no op changes them without
-him), and *outside* ones, which robots change.  A *touch* is an op of his that
-mentions an outside field, or a joint one.  Between touches he is by himself in
-his private fields, and nothing outside changes but by robots.  A *need* is the
+them), and *outside* ones, which robots change.  A *touch* is an op of theirs that
+mentions an outside field, or a joint one.  Between touches they are alone in
+their private fields, and nothing outside changes but by robots.  A *need* is the
 outside part of the condition of a touch.
 """
 
@@ -23,7 +23,7 @@ class Need(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """An op of his in the projection onto his private fields."""
+    """An op of the human's in the projection onto their private fields."""
 
     need_mask: int
     need: int
@@ -44,7 +44,7 @@ class Interactions:
 
     Attributes:
         mask: the private fields that the projection keeps.
-        outside: the fields that some op without him changes.
+        outside: the fields that some op without them changes.
         needs: the needs met so far; a need's id is its index.
     """
 
@@ -86,7 +86,7 @@ class Interactions:
         return self._packed.involves_others(op.agents, self._packed.mentioned(op))
 
     def _look(self, index: OperatorIndex[Operator], value: int) -> list[Seen]:
-        """The ops under a value of an index; under every value, if the field is not his own."""
+        """The ops under a value of an index; under every value, if the field is not the human's own."""
         hidden = index.field & ~self.mask
         ops = (
             (op for ops in index.by_value.values() for op in ops) if hidden else index.by_value.get(value, ())

@@ -10,7 +10,7 @@ from search.packed.successor_generator import Idle
 
 
 class PrefixBounds:
-    """The human's totals while he follows ``pi_H``, by need and by the epoch before the window.
+    """The human's totals while they follow ``pi_H``, by need and by the epoch before the window.
 
     Args:
         epochs: length of ``pi_H``.
@@ -63,7 +63,7 @@ class PrefixBounds:
         return row[opens] + cost
 
     def least_after(self, steps: int) -> int:
-        """Least total at all, if robots need some epochs to provide what he touches."""
+        """Least total at all, if robots need some epochs to provide what the human touches."""
         opens = max(0, steps - self.reach)
         return self.floor[opens] if opens < len(self.floor) else INFINITE_KEY
 
@@ -84,7 +84,7 @@ class Offer(NamedTuple):
     need: int
 
     def soonest(self, idle: Idle) -> int:
-        """In how many epochs from now, where robots have been idle for some."""
+        """In how many epochs from now robots can provide it, having been idle for some."""
         if not idle:
             return min(self.epochs)
         return max(0, min(epochs - rest for epochs, rest in zip(self.epochs, idle, strict=False)))
@@ -94,7 +94,7 @@ class FirstInteractionOnTheWay:
     """The bound while the human follows ``pi_H``; a window has still to open.
 
     Args:
-        openings: his totals.
+        openings: their totals.
         spent: what following ``pi_H`` has cost by each epoch.
         needs: the surviving needs; None where robots may provide them for nothing.
         outside: the fields on which their costs depend.

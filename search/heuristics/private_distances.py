@@ -1,4 +1,4 @@
-"""The human's side of help: his way to each touch, and on to the goal, in his private fields."""
+"""The human's side of help: their way to each touch, and on to the goal, in their private fields."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
@@ -42,8 +42,8 @@ class PrivateDistances:
     """Distances by moves alone, up to a first touch.
 
     Args:
-        own: his ways backward, asked for where they are needed.
-        interactions: what his ops mention.
+        own: the human's ways backward, asked for where they are needed.
+        interactions: what their ops mention.
         bound: private distances to the goal.
         steps: the same, counting actions.
         weights: key increments of the call.
@@ -77,7 +77,7 @@ class PrivateDistances:
         """From some states at once, in order of what has been spent.
 
         Args:
-            sources: what has been spent, and where he is then (a packed state).
+            sources: what has been spent, and where the human is then (a packed state).
             limit: what costs as much or more is left out.
         """
         found = Corridor(self._deadline)
@@ -101,9 +101,9 @@ class PrivateDistances:
         return found
 
     def _leave(self, at: int, spent: int, found: Corridor, limit: int) -> list[tuple[int, int]]:
-        """His moves from a projected state: weight, state after it.
+        """The human's moves from a projected state: weight, state after it.
 
-        They are recorded in ``found``, and so is what else he can do.
+        They are recorded in ``found``, and so is what else they can do.
         """
         bound, actions, weights = self._bound.distances, self._steps.distances, self._weights.human
         moves = []
@@ -134,11 +134,11 @@ class PrivateDistances:
 
 
 class OwnPrivateDistances:
-    """His ways backward, in the unit of :func:`.own_weights`.
+    """The human's ways backward, in the unit of :func:`.own_weights`.
 
     Args:
         packed: the packed task.
-        interactions: what his ops mention.
+        interactions: what their ops mention.
         distances: to the goal, by projected state.
         moves: what leads to each projected state without an interaction.
     """

@@ -1,7 +1,7 @@
-"""The human by himself: his optimal cost from a state, and all his optimal plans.
+"""The human alone: their optimal cost from a state, and all their optimal plans.
 
 *Optimal* means least cost, then fewest actions (semantics 1); both are in the key.
-Costs are cached on the facts that his own actions mention, so a state costs one
+Costs are cached on the facts that their own actions mention, so a state costs one
 search per projection, and a search also fills in the states along its result.
 """
 
@@ -98,13 +98,13 @@ class Memory:
 
 
 class HumanOptimum(Protocol):
-    """What the human does by himself, optimally, with every robot idle."""
+    """What the human does alone, optimally, with every robot idle."""
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """His optimal key from a packed state; at or above ``limit`` (a key) any value means "not below"."""
+        """The human's optimal key from a packed state; at or above ``limit`` (a key) any value means "not below"."""
 
     def plans(self, state: int) -> "PlanGraph | None":
-        """All his optimal plans from a packed state; None if there is none."""
+        """All the human's optimal plans from a packed state; None if there is none."""
 
 
 class IndividualPlanner:
@@ -113,7 +113,7 @@ class IndividualPlanner:
     Args:
         encoding: the packed task.
         goal: what has to hold at the end.
-        weight: key increment of one of his own ops.
+        weight: key increment of one of their own ops.
         bound: admissible lower bound to ``goal``.
         deadline: polled at each state that comes up.
         memory: what earlier calls have found with the same goal and weights.
@@ -178,7 +178,7 @@ class IndividualPlanner:
         return limit
 
     def _rest(self, state: int) -> int | None:
-        """His optimal key where it is known or a goal is reached; else None."""
+        """The human's optimal key where it is known or a goal is reached; else None."""
         known = self._known.get(state)
         return 0 if known is None and self._goal.holds(state) else known
 
@@ -187,7 +187,7 @@ class IndividualPlanner:
 
         Args:
             state: where it ends.
-            rest: his optimal key there.
+            rest: the human's optimal key there.
             parents: the state before each state but the start, and the weight of the step.
         """
         self._known[state] = rest

@@ -1,9 +1,9 @@
 """Admissible bounds on what the human still has to pay, by projection.
 
-His *private* variables are those that no action changes without him.  Projected
-onto them, with every other condition dropped, each of his actions (joint ones
+Their *private* variables are those that no action changes without them.  Projected
+onto them, with every other condition dropped, each of their actions (joint ones
 included) is a weighted transition; exact distances to the projected goal bound
-his share of any plan from below, in every mode, since robots' costs are only
+their share of any plan from below, in every mode, since robots' costs are only
 left out.  This is a pattern database (Culberson and Schaeffer 1998) on one
 agent's variables.  It depends on the packed task alone; a call has the distances in
 its keys.
@@ -51,7 +51,7 @@ class PatternDatabase:
 
 @dataclass(frozen=True, slots=True)
 class Projected:
-    """The human's actions projected onto fields of his, as far as they lead from ``I``.
+    """The human's actions projected onto fields of theirs, as far as they lead from ``I``.
 
     Attributes:
         mask: the fields that are kept.
@@ -70,12 +70,12 @@ def in_keys(own: PatternDatabase, weights: Weights) -> PatternDatabase:
 
 
 def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
-    """Costs to his goal in his private variables, or in as many as stay tractable.
+    """Costs to the human's goal in their private variables, or in as many as stay tractable.
 
     Args:
         packed: the packed task.
         graph: what :func:`human_graph` makes of it.
-        deadline: asked for time while the table is built.
+        deadline: polled while the table is built.
 
     Returns:
         Distances in the unit of :func:`search.packed.cost_vector.own_weights`.
@@ -90,7 +90,7 @@ def steps_in(own: PatternDatabase) -> PatternDatabase:
 
 
 def human_steps(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
-    """The least number of his actions to his goal, in the same variables."""
+    """The least number of the human's actions to their goal, in the same variables."""
     goals = [(0, state) for state in _satisfying(graph, packed.goal)]
     counted = [
         {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}
@@ -100,13 +100,13 @@ def human_steps(packed: PackedTask, graph: Projected, deadline: Deadline) -> Pat
 
 
 def private_fields(packed: PackedTask) -> list[int]:
-    """The fields that only he changes, alone or with others."""
+    """The fields that only the human changes, alone or with others."""
     changed = set_by((*packed.own_forms, *packed.joint_forms))
     return [field for field in packed.fields if field & changed and not field & packed.outside]
 
 
 def human_graph(packed: PackedTask, deadline: Deadline) -> Projected:
-    """His graph over all his private fields, or over as many as stay tractable."""
+    """The human's graph over all their private fields, or over as many as stay tractable."""
     private = private_fields(packed)
     goal_first = sorted(private, key=lambda field: (not field & packed.goal.mask, field))
     weights = own_weights(packed)

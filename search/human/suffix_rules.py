@@ -1,4 +1,4 @@
-"""What the human does after the window, by himself (semantics 3.1 rule 3, 3.3)."""
+"""What the human does after the window, alone (semantics 3.1 rule 3, 3.3)."""
 
 from typing import Protocol
 
@@ -31,11 +31,11 @@ class Suffix(Protocol):
 
 
 class Replan:
-    """An optimal plan of his own, without regard to the horizon (Def. 2.0a).
+    """An optimal plan of the human's own, without regard to the horizon (Def. 2.0a).
 
     Args:
-        alone: his optimal keys to ``G_H``.
-        both: his optimal keys to ``G_H`` and the robots' goal, or None where he can't
+        alone: their optimal keys to ``G_H``.
+        both: their optimal keys to ``G_H`` and the robots' goal, or None where they can't
             affect that goal.
         robot_goal: the robots' goal.
         keys: layout of keys.
@@ -61,7 +61,7 @@ class Replan:
         if own >= limit or self._keys.actions(own) > epochs:
             return INFINITE_KEY
         if self._both is not None:
-            # His plan must be optimal for G_H alone and happen to leave G_R true.
+            # The human's plan must be optimal for G_H alone and happen to leave G_R true.
             kept = self._both.key(state)
             shift = self._keys.action_shift
             if kept >> shift != own >> shift:

@@ -1,4 +1,4 @@
-"""What the human can do by himself, as far as it follows from the packed task alone."""
+"""What the human can do alone, as far as it follows from the packed task alone."""
 
 from search.human.individual_planner import Memory, own_memory
 from search.human.pattern_database import (
@@ -34,19 +34,19 @@ class HumanTables:
         return self._graph is not None and state & self._graph.mask in self._graph.moves
 
     def graph(self, deadline: Deadline) -> Projected:
-        """His actions, projected onto his private variables."""
+        """The human's actions, projected onto their private variables."""
         if self._graph is None:
             self._graph = human_graph(self._packed, deadline)
         return self._graph
 
     def projection(self, deadline: Deadline) -> PatternDatabase:
-        """His private distances to the goal, in the unit of :func:`.own_weights`."""
+        """The human's private distances to the goal, in the unit of :func:`.own_weights`."""
         if self._projection is None:
             self._projection = own_projection(self._packed, self.graph(deadline), deadline)
         return self._projection
 
     def steps(self, deadline: Deadline) -> PatternDatabase:
-        """The same, counting his actions."""
+        """The same, counting the human's actions."""
         if self._steps is None:
             if len(self._packed.costs) == 1:  # every action costs the same: the cheapest way is the shortest
                 self._steps = steps_in(self.projection(deadline))
@@ -55,7 +55,7 @@ class HumanTables:
         return self._steps
 
     def memory(self) -> Memory:
-        """What calls have found out about him alone."""
+        """What calls have found out about the human alone."""
         if self._memory is None:
             self._memory = own_memory(self._packed)
         return self._memory

@@ -32,7 +32,7 @@ class CostLayout:
 
     ``epoch_weight`` is the increment of one more epoch of the window.  ``announced`` holds
     the communication cost of a suffix, which ranks below the human's own preferences while
-    he replans and is moved into the objective afterwards.
+    they replan and is moved into the objective afterwards.
     """
 
     scale: int
@@ -86,7 +86,7 @@ class CostLayout:
 
         Args:
             limit: ``max_cost`` of the options.
-            human: key of what the human does by himself, which is what the limit ``human`` means.
+            human: key of what the human does alone, which is what the limit ``human`` means.
         """
         if limit is None or (limit == "human" and human >= INFINITE_KEY):
             return None
@@ -155,7 +155,7 @@ class Weights:
         self._per_cost = scaled.per_cost
         self._human_bit = packed.human_bit
         self._actions = packed.task.actions
-        # By name: who does what they planned did not change their mind, whichever of its variants it is.
+        # By name: a human who does another variant of what they planned did not change their mind.
         self._planned = packed.task.names(plan or ()) if announces else frozenset()
 
     def team(self, op: Operator) -> int:
@@ -248,7 +248,7 @@ def own_weights(packed: PackedTask) -> list[int]:
     """Undiscounted costs by their index, in a unit that no option changes.
 
     Cost (in the least unit of the task's costs) and number of actions are the two fields of
-    an int: what the human prefers by himself (semantics 1).  :meth:`Weights.of_own` makes keys of sums.
+    an int: what the human prefers alone (semantics 1).  :meth:`Weights.of_own` makes keys of sums.
     """
     scale = _own_scale(packed.costs)
     return [(int(cost * scale) << _ACTIONS_BITS) + 1 for cost in packed.costs]

@@ -4,7 +4,7 @@ An action is then two masks to test and two to apply, whatever the number of
 facts.  Only facts that some useful action or a goal can ask for are packed;
 conflicts between actions are still judged on their declared effects (semantics 2).
 
-*Leader* is the agent under whom an op is looked up: the human if he takes part.
+*Leader* is the agent under whom an op is looked up: the human if they take part.
 """
 
 from bisect import bisect_left

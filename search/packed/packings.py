@@ -20,7 +20,7 @@ def human_facts(task: Task) -> frozenset[int]:
 def diversions(packed: PackedTask, deadline: Deadline) -> tuple[int, ...]:
     """Joint actions that contribute to no goal, and still change what a human who replans does.
 
-    That is what he takes part in because it costs nothing, and is busy with (semantics 6).
+    That is what they take part in because it costs nothing, and is busy with (semantics 6).
     """
     task, found = packed.task, list[int]()
     for i, action in enumerate(task.actions):
@@ -33,9 +33,9 @@ def diversions(packed: PackedTask, deadline: Deadline) -> tuple[int, ...]:
 def doubted(task: Task, deadline: Deadline) -> Task:
     """The task for a human who may be wrong about everything that others change.
 
-    A belief of his may hold two values of one variable, or none: he saw that the kit has
-    left the room, but not where it went.  So for him only the variables that nobody
-    else changes stay variables, of which he always knows the truth; every other fact is
+    A belief of theirs may hold two values of one variable, or none: they saw that the kit has
+    left the room, but not where it went.  So for them only the variables that nobody
+    else changes stay variables, of which they always know the truth; every other fact is
     a bit by itself.
     """
     shared: set[int] = set()

@@ -1,6 +1,6 @@
 """Robots' walks, folded into what they walk to.
 
-A robot's *walk* changes nothing but its own place, at no risk to anybody; whatever else
+A robot's *walk* changes nothing but its own place, and nobody depends on that; whatever else
 it does, a *deed*, happens at one place.  Walks then commute with everything, so a search
 need not decide on them: a robot can do a deed at a place if it has been idle for as many
 epochs as the way there is long, and pays for the way then.  What would be a product of
@@ -122,7 +122,7 @@ class Decoupled:
         return form._replace(ops=rest)
 
     def _deed(self, form: Signature) -> CenterAction | None:
-        """None where a place is left open, or is somebody's who takes no part."""
+        """None where the form leaves a place open, or asks for that of a robot that takes no part."""
         at = []
         for slot, (bit, place) in enumerate(zip(self._bits, self.fields, strict=True)):
             if form.agents & bit:

@@ -1,4 +1,4 @@
-"""The human who replans: what he does with a plan that nobody told him of (semantics 6)."""
+"""The human who replans: what they do with a plan that nobody told them of (semantics 6)."""
 
 from search.simulation.planner import solve_for_human
 from search.simulation.simulator import Epoch, Simulated, Skipped, simulate

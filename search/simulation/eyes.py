@@ -1,4 +1,4 @@
-"""What the human comes to believe when he looks up (semantics 6)."""
+"""What the human comes to believe when they look up (semantics 6)."""
 
 from typing import Protocol
 
@@ -14,7 +14,7 @@ class Eyes(Protocol):
 
 
 class Everywhere:
-    """The observant human: he sees the whole state."""
+    """The observant human: they see the whole state."""
 
     def look(self, belief: int, state: int) -> int:
         """See :class:`Eyes`."""
@@ -22,7 +22,7 @@ class Everywhere:
 
 
 class Nearby:
-    """The local human: he sees what is where he is."""
+    """The local human: they see what is where they are."""
 
     def __init__(self, encoding: PackedTask, places: Surroundings) -> None:
         task = encoding.task
@@ -58,7 +58,7 @@ class Nearby:
 
 
 class AsTold:
-    """The local human of a caller who says himself what is visible."""
+    """The local human of a caller who says themselves what is visible."""
 
     def __init__(self, encoding: PackedTask, visible: Visible) -> None:
         self._encoding = encoding

@@ -1,4 +1,4 @@
-"""The human's state machine: what he decides when he looks up (semantics 6, steps 1 and 2)."""
+"""The human's state machine: what they decide when they look up (semantics 6, steps 1 and 2)."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ from serendipity.model.visibility import Visible
 
 @dataclass(frozen=True, slots=True)
 class Glance:
-    """What a look makes of his plan; costs are scaled, None is infinite.
+    """What a look makes of the human's plan; costs are scaled, None is infinite.
 
     Attributes:
-        intention: what he means to do now.
-        kept: ``c``, what his plan costs where it still works.
-        best: ``h``, his optimal cost alone; where it is None he waits.
+        intention: what they mean to do now.
+        kept: ``c``, what their plan costs where it still works.
+        best: ``h``, their optimal cost alone; where it is None they wait.
     """
 
     intention: Intention
@@ -33,23 +33,23 @@ class Glance:
 
     @property
     def replanned(self) -> bool:
-        """Whether he has changed his mind."""
+        """Whether the human has changed their mind."""
         return self.best is not None and self.kept != self.best
 
 
 class Human:
-    """One human with his beliefs, plans and decisions, in packed states.
+    """One human with their beliefs, plans and decisions, in packed states.
 
     Args:
         prepared: the task.
         options: discount and weights.
-        deadline: asked for time.
+        deadline: polled.
         human_model: ``observant`` or ``local``.
         actions: ids of actions that will be asked about, beyond the useful ones.
         visible: what a local human sees; None for the default.
 
     Attributes:
-        context: the task as he sees it.
+        context: the task as they see it.
     """
 
     def __init__(
@@ -86,7 +86,7 @@ class Human:
         self._looks: dict[tuple[int, int], Glance] = {}
 
     def decide(self, belief: int, intention: Intention) -> Glance:
-        """Step 1: whether he keeps his plan, makes another, or waits."""
+        """Step 1: whether they keep their plan, make another, or wait."""
         key = (belief & self.concern, intention.number)
         look = self._looks.get(key)
         if look is None:
@@ -103,7 +103,7 @@ class Human:
         return Glance(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
 
     def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
-        """Step 2: whether he takes part, ``best`` being his cost alone now."""
+        """Step 2: whether the human takes part, ``best`` being their cost alone now."""
         if not applicable(joint, belief):
             return False
         if best is None:
@@ -115,11 +115,11 @@ class Human:
         return self.alone.key(belief & joint.keep | joint.put, limit) < limit
 
     def stuck(self, state: int) -> bool:
-        """Whether he has no plan alone from a packed state, as it truly is."""
+        """Whether the human has no plan alone from a packed state, as it truly is."""
         return self.alone.key(state) >= INFINITE_KEY
 
     def learn(self, belief: int, state: int, op: Operator) -> int:
-        """The belief after he tried an action in vain: its preconditions as they are."""
+        """The belief after the human tried an action in vain: its preconditions as they are."""
         mask = _asked_by(op)
         return belief & ~mask | state & mask
 
@@ -131,7 +131,7 @@ class Human:
 def _packings(
     prepared: PreparedTask, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
 ) -> tuple[TaskTables, TaskTables]:
-    """The task packed as it is, and as he sees it; both hold what the actions ask for."""
+    """The task packed as it is, and as the human sees it; both hold what the actions ask for."""
     plain = prepared.with_diversions(deadline)
     missing = _missing(plain.packed, actions)
     if missing:
@@ -171,7 +171,7 @@ def _translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) -
     """A bound on private variables, for states that are packed in another way.
 
     The bound of the other packing itself would also look at single facts of shared
-    variables ("he has the kit"), and grow with every subset of them.
+    variables ("the human has the kit"), and grow with every subset of them.
     """
     fields: dict[int, dict[int, int]] = {}
     mask = 0

@@ -12,7 +12,7 @@ from search.packed.successor_generator import NOTHING, JointAction
 
 @dataclass(frozen=True, eq=False)
 class Intention:
-    """A sequence of his own actions; one object for each sequence.
+    """A sequence of the human's own actions; one object for each sequence.
 
     Attributes:
         number: tells intentions apart.

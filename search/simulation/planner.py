@@ -30,7 +30,7 @@ def solve_for_human(
     """Answers with falling cost and rising lower bound; the last one is the best known.
 
     The minimum is over the robots' action sequences of at most ``T`` epochs.  The human
-    produces prefix, window and suffix himself, so an answer has no window, and ``K``
+    produces prefix, window and suffix unasked, so an answer has no window, and ``K``
     does not count.
 
     Args:
@@ -69,9 +69,9 @@ def solve_for_human(
 
 
 def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Outcome:
-    """The first answer: robots do nothing, and the human does what he was going to do.
+    """The first answer: robots do nothing, and the human does what they were going to do.
 
-    What he gains by himself is known only of an optimal plan.
+    What they gain alone is known only of an optimal plan.
     """
     cost = task.cost_of(plan)
     return Outcome(
@@ -105,8 +105,8 @@ def _epochs(task: Task, options: Options, plan: HumanPlan) -> int:
 class _Call:
     """One planning call: its incumbents and its bound.
 
-    ``baseline`` leaves him alone (or, with ``G_R``, follows ``pi_H`` beside the robots);
-    ``idle`` is what he does by himself, if it reaches all goals; ``best`` is the incumbent over everything.
+    ``baseline`` leaves the human alone (or, with ``G_R``, follows ``pi_H`` beside the robots);
+    ``idle`` is what they do alone, if it reaches all goals; ``best`` is the incumbent over everything.
     """
 
     def __init__(
@@ -123,7 +123,7 @@ class _Call:
         self.idle = Incumbent(INFINITE_KEY)
         self.best = Incumbent(INFINITE_KEY)
         self.settled = False
-        """Whether it is known what he does by himself."""
+        """Whether it is known what the human does alone."""
         self.limit: str | None = None
 
     def answers(self) -> Iterator[Outcome]:
@@ -144,7 +144,7 @@ class _Call:
         yield self._outcome(status)
 
     def _follow(self) -> None:
-        """The plan in which he does ``pi_H`` exactly, robots seeing to ``G_R`` beside him."""
+        """The plan in which the human does ``pi_H`` exactly, robots seeing to ``G_R`` beside them."""
         context = self.human.context
         steps = context.followed(self.plan)
         if not self.task.robot_goal:
@@ -183,11 +183,11 @@ class _Call:
         return "feasible" if self._has_answer() else "unknown"
 
     def _has_answer(self) -> bool:
-        """Without ``G_R``, leaving him alone is always an answer."""
+        """Without ``G_R``, leaving the human alone is always an answer."""
         return self.best.key < INFINITE_KEY or not self.task.robot_goal
 
     def _helps(self) -> bool:
-        """Whether the incumbent costs less than ``pi_H``, and than what he does by himself."""
+        """Whether the incumbent costs less than ``pi_H``, and than what the human does alone."""
         keys, found = self.human.keys, self.best.key
         if found >= self.idle.key or not self.settled:
             return False
@@ -217,7 +217,7 @@ class _Call:
         )
 
     def _saving_alone(self, baseline: Fraction | None) -> Fraction | None:
-        """What he gains by himself; not compared where robots have goals."""
+        """What the human gains alone; not compared where robots have goals."""
         if baseline is None or not self.settled:
             return None
         if self.task.robot_goal or self.idle.key == INFINITE_KEY:

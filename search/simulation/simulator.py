@@ -32,15 +32,15 @@ class Epoch:
 
     Attributes:
         epoch: from 1.
-        saw: ids of the facts that he found other than expected, with their truth.
-        kept: ``c``: cost of his former plan where it still works, undiscounted.
-        best: ``h``: his optimal cost alone.
-        replanned: whether he has made another plan.
-        plan: what he means to do, from this epoch on.
-        accepted: the joint action that he takes part in, or None.
-        own: what he does by himself, or None.
+        saw: ids of the facts that the human found other than expected, with their truth.
+        kept: ``c``: cost of their former plan where it still works, undiscounted.
+        best: ``h``: their optimal cost alone.
+        replanned: whether they have made another plan.
+        plan: what they mean to do, from this epoch on.
+        accepted: the joint action that they take part in, or None.
+        own: what they do alone, or None.
         failed: whether ``own`` turned out to be impossible.
-        robots: what robots do without him.
+        robots: what robots do without them.
         skipped: what the plan says and does not happen.
     """
 
@@ -107,12 +107,12 @@ def simulate(
     Args:
         prepared: the task.
         options: discount and interference.
-        human_plan: his plan at the beginning; empty where he has none.
-        steps: the composite plan; what it wants him to do alone is not looked at.
+        human_plan: their plan at the beginning; empty where they have none.
+        steps: the composite plan; what it wants the human to do alone is not looked at.
         human_model: ``observant`` or ``local``.
         horizon: ``T``, or None for any.
         visible: what a local human sees; None for the default.
-        deadline: asked for time.
+        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline ran out in the first epoch, or before it.
@@ -135,7 +135,7 @@ def variants(task: Task, action: int) -> tuple[int, ...]:
 
 
 class _Run:
-    """One simulation: true state, his belief, what he expects to see next."""
+    """One simulation: true state, the human's belief, what they expect to see next."""
 
     def __init__(
         self,
@@ -208,7 +208,7 @@ class _Run:
         return epoch, intention.rest if own is not None and not failed else intention
 
     def _look(self, belief: int, intention: Intention) -> Glance:
-        """Step 1; while all goes as he expected, the rest of an optimal plan is optimal."""
+        """Step 1; while all goes as the human expected, the rest of an optimal plan is optimal."""
         if self.settled and not (belief ^ self.expected) & self.human.concern:
             return Glance(intention, intention.cost, intention.cost)
         return self.human.decide(belief, intention)
@@ -216,7 +216,7 @@ class _Run:
     def _joint(
         self, offered: Sequence[int], belief: int, look: Glance
     ) -> tuple[Operator | None, list[Skipped]]:
-        """The joint action with him that takes place, and those that do not."""
+        """The joint action with the human that takes place, and those that do not."""
         taken: Operator | None = None
         skipped = []
         for i in offered:
@@ -234,7 +234,7 @@ class _Run:
         return taken, skipped
 
     def _robots(self, offered: Sequence[int], his: Operator | None, skipped: list[Skipped]) -> list[int]:
-        """What robots do without him; he has priority, and among them the smaller id."""
+        """What robots do without the human; the human has priority, and among robots the smaller id."""
         done: list[int] = []
         taken = [] if his is None else [his.action]
         for i in offered:
@@ -250,7 +250,7 @@ class _Run:
         return done
 
     def _variant(self, action: int) -> int:
-        """Of ground actions with one name and the same agents, one that is applicable."""
+        """One that is applicable among ground actions with one name and the same agents."""
         possible = variants(self.task, action)
         return next((i for i in possible if applicable(self.packed.op(i), self.state)), action)
 

@@ -1,8 +1,8 @@
 """Robots' action sequences, with the human simulated (semantics 6, optimising under a model).
 
-A node is an epoch, the true state, and the human's mind: what he expects to see and
-what he means to do.  He does not wait for anybody, but in equal state and mind an
-earlier epoch is no worse: robots can do the same, only sooner, and he answers the
+A node is an epoch, the true state, and the human's mind: what they expect to see and
+what they mean to do.  They do not wait for anybody, but in equal state and mind an
+earlier epoch is no worse: robots can do the same, only sooner, and they answer the
 same.  So labels dominate as elsewhere, on state and mind.
 """
 
@@ -21,9 +21,9 @@ class Mind(NamedTuple):
     """The human between two epochs.
 
     Attributes:
-        belief: what he expects to see; 0 where he sees everything anyway.
-        intention: what remains of his plan.
-        guarded: he must have a plan alone in the true state (``no_block``).
+        belief: what they expect to see; 0 where they see everything anyway.
+        intention: what remains of their plan.
+        guarded: they must have a plan alone in the true state (``no_block``).
     """
 
     belief: int
@@ -35,13 +35,13 @@ class Reactive:
     """The search space of robots' action sequences.
 
     Args:
-        human: his state machine.
+        human: their state machine.
         successors: what agents can do in an epoch.
         horizon: number of epochs ``T``.
         human_plan: ``pi_H``.
-        no_block: robots must not leave him without a plan.
+        no_block: robots must not leave them without a plan.
         most_cost: largest scaled cost of an acceptable plan, or None.
-        sees_all: he is observant, so that beliefs need no telling apart.
+        sees_all: they are observant, so that beliefs need no telling apart.
     """
 
     def __init__(
@@ -98,7 +98,7 @@ class Reactive:
         yield from self._act(node, best, belief, look, guarded=self._no_block and not stuck)
 
     def _look(self, mind: Mind, state: int, *, settled: bool) -> tuple[int, Glance]:
-        """What he believes and decides; while all goes as expected an optimal plan stays so."""
+        """What the human believes and decides; while all goes as expected an optimal plan stays so."""
         human, rho = self._human, mind.intention
         belief = state if self._sees_all else human.eyes.look(mind.belief, state)
         surprised = not self._sees_all and (belief ^ mind.belief) & human.concern
@@ -137,7 +137,7 @@ class Reactive:
         if node.key + part.weight + rest >= best.key:
             return
         if mind.guarded and not self._sees_all and human.stuck(alone):
-            mind = mind._replace(guarded=False)  # his own mistake, whatever robots do
+            mind = mind._replace(guarded=False)  # the human's own mistake, whatever robots do
         number = self._number(mind) << 1
         for option in self._successors.with_robots(part, state):
             key = node.key + option.weight
@@ -159,7 +159,7 @@ class Reactive:
         return True
 
     def _offer_idle(self, node: Node, intention: Intention, best: Incumbent) -> None:
-        """Offer the plan in which robots do nothing any more: he does what he means to do."""
+        """Offer the plan in which robots do nothing any more: the human does as intended."""
         key = node.key + intention.weight
         if key >= best.key or len(intention.actions) > self._horizon - node.epoch:
             return
@@ -168,7 +168,7 @@ class Reactive:
         best.key, best.node, best.end, best.tail = key, node, node.epoch + 1, intention.actions
 
     def _stuck(self, state: int, look: Glance) -> bool:
-        """Whether he has no plan alone in the true state."""
+        """Whether the human has no plan alone in the true state."""
         if self._sees_all:
             return look.best is None
         return self._no_block and self._human.stuck(state)

@@ -80,7 +80,7 @@ class BoundsAlong:
     """Bounds while the human follows ``pi_H``, and after a window has opened.
 
     Attributes:
-        on_the_way: holds while he follows it.
+        on_the_way: holds while they follow it.
         off_plan: holds up to the first touch that is not on the plan; None where there is nothing
             to tell apart.
     """
@@ -101,7 +101,7 @@ def bounds_along(
 ) -> BoundsAlong:
     """Bounds along ``pi_H`` and off it, up to the first touch that is not on the plan.
 
-    His private fields follow ``pi_H``, so his part of the first is known in advance.
+    The human's private fields follow ``pi_H``, so their part of the first is known in advance.
 
     Args:
         context: of the call.
@@ -151,7 +151,7 @@ class _BoundsAlong:
         self.openings = PrefixBounds(len(plan), _reach(context, horizon, limit), floor)
 
     def _follow(self, steps: Sequence[tuple[Operator, JointAction]], opened: Sequence[int]) -> None:
-        """What following ``pi_H`` costs, and where he is before each of its epochs."""
+        """What following ``pi_H`` costs, and where the human is before each of its epochs."""
         state, cost = self._context.packed.init, 0
         for opening, (op, option) in zip(opened, steps, strict=True):
             self._sources.append((cost + opening, state))
@@ -160,7 +160,7 @@ class _BoundsAlong:
             cost += option.weight
 
     def explore(self) -> None:
-        """His ways from each epoch of ``pi_H`` to touches, and on to the goal.
+        """The human's ways from each epoch of ``pi_H`` to touches, and on to the goal.
 
         Between two changes of ``pi_H`` to what others depend on, a need goes by one id.
         """
@@ -189,7 +189,7 @@ class _BoundsAlong:
         return cost + self.openings.least_after(self._providers.epochs(cost)) < self._limit
 
     def refine(self, paying: Collection[int]) -> dict[int, Provided]:
-        """What robots can do about the needs that pay even with his totals epoch by epoch."""
+        """What robots can do about the needs that pay even with the human's totals epoch by epoch."""
         mask = self._context.interactions.mask
         for first, end, corridor, ids in self._corridors:
             at = [(base, state & mask) for base, state in self._sources[first:end]]
@@ -207,13 +207,13 @@ class _BoundsAlong:
         return self.openings.total(i, cost, self._providers.epochs(cost))
 
     def on_the_way(self, provided: dict[int, Provided | None]) -> FirstInteractionOnTheWay:
-        """The bound while he follows ``pi_H``, over some needs."""
+        """The bound while the human follows ``pi_H``, over some needs."""
         return FirstInteractionOnTheWay(
             self.openings, self._spent, provided, self._context.interactions.outside
         )
 
     def off_plan(self, provided: Mapping[int, Provided]) -> FirstInteraction:
-        """The bound where he does not, over the needs that pay."""
+        """The bound where the human does not, over the needs that pay."""
         needs = [(self._providers.touched(i), what, self._total(i)) for i, what in provided.items()]
         return FirstInteraction(self._context.bound, self._context.ways, needs, self._horizon)
 

@@ -1,4 +1,4 @@
-"""The human executes ``pi_H`` exactly while robots, without him, see to ``G_R`` (semantics 3.1)."""
+"""The human executes ``pi_H`` exactly while robots, without the human, see to ``G_R`` (semantics 3.1)."""
 
 from collections.abc import Iterator
 

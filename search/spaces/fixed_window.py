@@ -105,7 +105,7 @@ class FixedWindow:
                 yield from self._act(node, part, best)
 
     def _follow(self, node: Node, part: JointAction, best: Incumbent) -> Iterator[tuple[int, Node]]:
-        """Robots act while the human takes his step of ``pi_H``."""
+        """Robots act while the human takes their step of ``pi_H``."""
         epoch = node.epoch + 1
         phase = PREFIX if epoch < self._opens else WINDOW
         for option in self._weighed.successors.with_robots(part, node.state):
@@ -137,7 +137,7 @@ class FixedWindow:
                 yield bound, Node(key, epoch, state, phase, 0, node, option.actions)
 
     def _bound_before(self, epoch: int, state: int) -> int:
-        """Least key increment after an epoch of the prefix, in which he follows ``pi_H``."""
+        """Least key increment after an epoch of the prefix, in which the human follows ``pi_H``."""
         return self._weighed.on_the_way.opening_after(self._opens, epoch, state, self._window.end - 1)
 
     def _remember(self, epoch: int, state: int, key: int) -> bool:

@@ -46,10 +46,10 @@ class Prefix(Protocol):
 class Timetable:
     """Rule 1: in epoch ``t`` the human does exactly ``pi_H[t]`` (Def. 3.0).
 
-    His private variables follow ``pi_H``, so the bound is known per epoch in advance.
+    Their private variables follow ``pi_H``, so the bound is known per epoch in advance.
 
     Args:
-        steps: his packed actions and what they do, in order.
+        steps: their packed actions and what they do, in order.
         bound: lower bound after ``0 .. |pi_H| - 1`` epochs of the prefix.
     """
 
@@ -73,11 +73,11 @@ class Timetable:
 
 
 class Unscheduled:
-    """A :class:`Prefix` whose epochs are not known in advance: his private distances bound the rest.
+    """A :class:`Prefix` whose epochs are not known in advance: the human's private distances bound the rest.
 
     Args:
         last: the last epoch in which a window may open.
-        bound: his private distances to the goal.
+        bound: their private distances to the goal.
         keys: layout of keys.
         horizon: number of epochs.
     """
@@ -127,7 +127,7 @@ class _Judged(NamedTuple):
         node: the node.
         spent: key after the epoch, without what is done in it.
         rest: least key increment after it by the human's private variables, which robots don't change.
-        touched: whether he has touched anything in the window by then.
+        touched: whether they have touched anything in the window by then.
     """
 
     node: Node

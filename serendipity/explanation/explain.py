@@ -30,7 +30,7 @@ class Explanation:
 
     Attributes:
         answer: what is explained.
-        removal: what disappears from his plan and what replaces it; None without help.
+        removal: what disappears from the human's plan and what replaces it; None without help.
         parts: what the answer's plan costs; None without a plan.
         moments: each start of the window; empty where windows play no part.
         discount: where help begins to pay; None where that is not computed.
@@ -201,7 +201,7 @@ def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation
 def _has_thresholds(ask: Ask, answer: Result) -> bool:
     """Whether "doing nothing" has a fixed price, and price is all that stops a plan.
 
-    Not with goals of the robots' own, a plan that he can improve alone, or a limit on cost.
+    Not with goals of the robots' own, a plan that the human can improve alone, or a limit on cost.
     """
     limited = ask.options.max_cost not in (None, "human")
     return not (ask.task.robot_goal or answer.saving_alone or limited)

@@ -20,7 +20,7 @@ _UNFIT: Final = "#c8cdd3"
 
 
 def heat_map(report: InterruptionReport) -> Picture:
-    """Two maps beside each other: what he saves, and what the team saves, by window.
+    """Two maps beside each other: what the human saves, and what the team saves, by window.
 
     Grey cells are windows that no plan fits; where none is, a limit came before it was examined.
     """

@@ -35,9 +35,9 @@ class Miss:
     Attributes:
         rule: a key of ``RULES``.
         cost: of the answer then.
-        saving: against his own plan.
+        saving: against the human's own plan.
         window: of the answer then, or the shortest that its cost needs.
-        removal: what would disappear from his plan, and what would replace it.
+        removal: what would disappear from their plan, and what would replace it.
     """
 
     rule: str
@@ -71,7 +71,7 @@ def misses(ask: Ask, report: InterruptionReport | None) -> tuple[Miss, ...]:
 
 
 def removal_of(answer: Result) -> Removal:
-    """What an answer takes out of the human's plan, and what he does instead."""
+    """What an answer takes out of the human's plan, and what they do instead."""
     steps = sorted(answer.plan or (), key=lambda step: step.epoch)
     executed = tuple(step.action for step in steps if answer.human in step.agents)
     return removal(answer.human_plan or (), executed)

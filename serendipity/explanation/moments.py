@@ -29,7 +29,7 @@ class Moment:
         cost: least cost for the team in it, or None where no plan fits.
         why: a key of ``WHY``.
         instead: the nearest window from there that would help, if any.
-        saving: what the team saves in ``instead`` (``not-in-time``), or he does (``costs-more``).
+        saving: what the team saves in ``instead`` (``not-in-time``), or the human does (``costs-more``).
     """
 
     start: int

@@ -30,6 +30,11 @@ def assistance_answers(
     the lexicographic optimum; ``saving`` is what the human saves.  The pairs themselves
     are in ``statistics["bounds"]``, as exact texts.
 
+    Args:
+        prepared: the task, prepared.
+        options: options in force.
+        deadline: polled.
+
     Raises:
         UsageError: there is not exactly one robot.
     """

@@ -88,12 +88,12 @@ class InterruptionReport:
     """The report of semantics 3.2.
 
     Attributes:
-        human: his name.
-        human_plan: names of ``pi_H``, or None where he has no plan alone (no report then).
+        human: the human's name.
+        human_plan: names of ``pi_H``, or None where they have no plan alone (no report then).
         human_cost: cost(pi_H).
-        team_cost: what doing nothing for him costs the team.
+        team_cost: what doing nothing for them costs the team.
         horizon: ``T``.
-        interruptible: whether he pays less in some window (Def. 2.1); None where a limit came first.
+        interruptible: whether they pay less in some window (Def. 2.1); None where a limit came first.
         windows: ascending; where a limit came first, those that were examined.
         options: in force.
         limit: which limit that was (as ``Result.reason`` has it); None where the report is complete.

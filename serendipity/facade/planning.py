@@ -55,15 +55,15 @@ def plan(
     Args:
         task: the task.
         human_plan: names of the actions that the human is going to do; None predicts
-            an optimal plan of his (semantics 1).
+            an optimal plan of theirs (semantics 1).
         visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
-            ``human_model="local"`` sees; None for what is where he is.
+            ``human_model="local"`` sees; None for what is where they are.
         cancelled: set from another thread, it ends the call like a time limit.
         deadline: one that other work shares, such as loading the task; it holds beside
             ``time_limit`` and ``memory_limit``, which are of this call alone.
         goals: goals that the human may have, instead of the task's, as :func:`recognise` takes
             them: the least expected cost over their posterior is wanted (semantics 8).
-        observed: what he has done from the initial state on, for the posterior.
+        observed: what they have done from the initial state on, for the posterior.
         beta: of the posterior.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
             ``discount=0.6``, ``time_limit=0.1`` (seconds) and so on.
@@ -102,7 +102,7 @@ def planned(
     if goals is not None:
         if given is not None:
             raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
-        # Loaded only here, before time counts: who knows the goal has nothing to do with it.
+        # Loaded only here, before time counts: calls with a known goal do not need it.
         from serendipity.facade.unknown_goals import plan_for_goals
 
         chosen = options_from(options)
@@ -150,7 +150,7 @@ def planned_anytime(
     """:func:`plan_anytime` for those who hold a prepared task."""
     answers = _answers(prepared, given, visible, options, cancelled, deadline)
     while True:
-        with no_collection():  # only while it plans: what the caller does with an answer is his
+        with no_collection():  # only while it plans: what the caller does with an answer is the caller's
             answer = next(answers, None)
             result = None if answer is None else answer()
         if result is None:
@@ -204,7 +204,7 @@ def _answers(
     """Answers that are put into words only if somebody asks for them."""
     chosen = options_from(options)
     if chosen.mode == "assistance":
-        # Loaded only here, before time counts: the other modes have nothing to do with it.
+        # Loaded only here, before time counts: the other modes do not need it.
         from serendipity.facade.assistance import assistance_answers, load_arrays
 
         if chosen.time_limit is not None:

@@ -88,7 +88,7 @@ class Session:
     def execute(self, actions: Iterable[str]) -> None:
         """Move on by one epoch in which these actions were executed (none: everybody waited).
 
-        The human's plan goes on behind his action.  It is predicted anew after a joint
+        The human's plan goes on behind their action.  It is predicted anew after a joint
         action, after one that was not next, and where its rest does not work any more.
 
         Raises:

@@ -37,7 +37,7 @@ def simulate(
     Args:
         task: the task that was asked.
         result: the answer, from :func:`serendipity.plan` or read from JSON.
-        human_model: ``observant`` (he sees everything) or ``local`` (what is where he is).
+        human_model: ``observant`` (they see everything) or ``local`` (what is where they are).
         visible: ``visible(agent, fact, state)`` says what a local human sees, by ids of the
             task; None for the default of ``docs/semantics.md``, section 6.
         time_limit: seconds, or None; the epochs played by then are told, as far as they go.
@@ -86,6 +86,16 @@ def realised(
     """The verdicts that a result carries: always ``observant``, ``local`` if it was planned for.
 
     Those that the deadline leaves no time for are missing.
+
+    Args:
+        prepared: the task, prepared.
+        options: options in force.
+        human_plan: ``pi_H`` by ids.
+        steps: the plan of the answer.
+        cost: its exact cost.
+        horizon: ``T``, ``"inf"`` or None.
+        visible: what a local human sees; None for the default.
+        deadline: polled.
     """
     models = ("observant",) if options.human_model != "local" else HUMAN_MODELS
     epochs = horizon if isinstance(horizon, int) else None
@@ -169,7 +179,7 @@ class _Story:
         return f"{self._departure()}{miss}"
 
     def _departure(self) -> str:
-        """The first epoch in which he does not do what the plan wants of him."""
+        """The first epoch in which the human does not do what the plan wants of them."""
         for epoch in self.simulated.epochs:
             did, wanted = (
                 epoch.own if epoch.accepted is None else epoch.accepted,

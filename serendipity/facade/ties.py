@@ -141,7 +141,7 @@ def _mean(outcomes: list[Outcome], first: Result) -> Result:
 
 
 def _unknown(answer: Result, limit: str | None) -> Result:
-    """Nothing but whose plan it is about."""
+    """An answer of which nothing is known but which plan of the human it is about."""
     return Result(
         answer.mode,
         "unknown",

@@ -1,7 +1,7 @@
 """Planning where the human's goal is not known: answers of ``plan(goals=..., observed=...)`` (semantics 8).
 
 Epoch 1 is the first epoch of the human's plans, and observations are actions of those plans:
-his current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
+their current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
 """
 
 from collections.abc import Callable, Sequence
@@ -103,7 +103,7 @@ def _recognised(
     beta: float,
     deadline: Deadline,
 ) -> tuple[Recognition, list[HumanPlan | None]]:
-    """The posterior, and for each goal the plan of his that is considered.
+    """The posterior, and for each goal the plan of the human's that is considered.
 
     Raises:
         LimitReachedError: the deadline ran out.
@@ -111,7 +111,7 @@ def _recognised(
     conditions = [candidate.goal for candidate in candidates]
     found = explanations(task, conditions, observed, deadline)
     recognition = posterior(task, candidates, observed, found, beta)
-    if not recognition.explained:  # his plans, as if nothing had been observed
+    if not recognition.explained:  # the human's plans, as if nothing had been observed
         found = explanations(task, conditions, (), deadline)
     return recognition, [explanation.plan for explanation in found]
 
@@ -189,7 +189,7 @@ def _result(task: Task, options: Options, answer: Expected, asked: list[Candidat
 def _entry(
     task: Task, options: Options, name: str, candidate: Candidate, served: ServedGoal
 ) -> dict[str, Any]:
-    """What happens if one goal is his, as plain values."""
+    """What happens if one goal is the human's, as plain values."""
     window = served.window
     return {
         "name": name,

@@ -27,7 +27,7 @@ _PARTS: Final = {
 """Requirements that stand for others (PDDL 2.1, Fox and Long 2003)."""
 
 _CHECKED: Final = {*_PARTS[":adl"], *_PARTS[":quantified-preconditions"], ":action-costs"} - {":strips"}
-"""Those of which this module knows whether they are used."""
+"""The requirements of which this module knows whether they are used."""
 
 
 def requirement_findings(units: Sequence[Unit]) -> Iterator[Finding]:

@@ -103,6 +103,11 @@ def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
     They can't if an agent takes part in both, if both delete a fact, or if one
     deletes what the other adds; with ``strict`` also if one deletes or negates a
     precondition of the other.
+
+    Args:
+        a: one action.
+        b: another.
+        strict: whether interference is strict.
     """
     if any(agent in b.participants for agent in a.participants):
         return True

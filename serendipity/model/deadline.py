@@ -69,7 +69,13 @@ class Deadline:
         memory_limit: float | None = None,
         cancelled: threading.Event | None = None,
     ) -> "Deadline":
-        """A deadline for a part of the work, starting now: its own limits, and never beyond this one's."""
+        """A deadline for a part of the work, starting now: its own limits, and never beyond this one's.
+
+        Args:
+            time_limit: seconds from now on, or None.
+            memory_limit: what the process may have in memory, in MiB, or None.
+            cancelled: ends the part when it is set; None: what ends the whole.
+        """
         own = Deadline(time_limit, memory_limit, cancelled)
         part = copy(self)
         part.started = own.started

@@ -79,7 +79,7 @@ class InputError(SerendipityError):
 
 
 class PlanError(InputError):
-    """A given human plan is not applicable, misses the goal or is not his alone.
+    """A given human plan is not applicable, misses the goal or is not theirs alone.
 
     Remedy: correct the action that the message names (docs/semantics.md section 1).
 

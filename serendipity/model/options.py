@@ -56,7 +56,7 @@ class Options:
         communication_weight: cost per unit of the human's actions that are not in pi_H.
         keep_prefix: the paper's second (7b), in communication mode.
         human_model: what the human does (semantics 6).
-        ties: over the human's optimal plans (semantics 1), or over his choices (semantics 7).
+        ties: over the human's optimal plans (semantics 1), or over their choices (semantics 7).
         max_ties: the most optimal human plans that are enumerated, at most :data:`MAX_TIES`.
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).

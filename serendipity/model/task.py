@@ -93,7 +93,7 @@ class Task:
         """States ``s_0 .. s_n`` while the human executes ``plan`` and robots idle.
 
         Raises:
-            PlanError: an action is not his alone or not applicable, or ``G_H`` is missed.
+            PlanError: an action is not theirs alone or not applicable, or ``G_H`` is missed.
         """
         states = [self.init]
         for step, action_id in enumerate(plan, start=1):
@@ -127,7 +127,7 @@ class Task:
         A name shared by several actions is read as the first that is applicable there.
 
         Raises:
-            PlanError: naming the first step that is unknown, not his, or not applicable,
+            PlanError: naming the first step that is unknown, not theirs, or not applicable,
                 or saying that the goal is missed.
         """
         plan: list[int] = []

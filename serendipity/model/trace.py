@@ -1,4 +1,4 @@
-"""A simulation told epoch by epoch: what he saw, expected and did, and what did not happen."""
+"""A simulation told epoch by epoch: what the human saw, expected and did, and what did not happen."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -34,19 +34,19 @@ class TraceSkip:
 
 @dataclass(frozen=True, slots=True)
 class TraceEpoch:
-    """One epoch as the human lived through it; costs are his own, undiscounted.
+    """One epoch as the human lived through it; costs are their own, undiscounted.
 
     Attributes:
         epoch: from 1.
-        saw: facts that he found other than he expected, ``not`` in front of false ones;
-            of those only that matter to what he can do.
-        expected_cost: what was left of his former plan would cost (``c``), None where it
+        saw: facts that they found other than they expected, ``not`` in front of false ones;
+            of those only that matter to what they can do.
+        expected_cost: what was left of their former plan would cost (``c``), None where it
             does not work any more.
-        best_cost: his optimal cost alone from here (``h``), None where there is no plan.
-        decision: ``keeps`` his plan, ``replans``, or ``waits``.
+        best_cost: their optimal cost alone from here (``h``), None where there is no plan.
+        decision: ``keeps`` their plan, ``replans``, or ``waits``.
         why: the decision in words.
-        plan: what he means to do, from this epoch on.
-        did: what he does, joint actions included; None where he waits.
+        plan: what they mean to do, from this epoch on.
+        did: what they do, joint actions included; None where they wait.
         failed: whether it turned out to be impossible.
         steps: what takes place, with what it costs the team.
         skipped: what the plan says and does not happen.
@@ -70,7 +70,7 @@ class Trace:
     """A plan played against a human who replans (semantics 6).
 
     Attributes:
-        human: his name.
+        human: the human's name.
         human_model: ``observant`` or ``local``.
         realised: the goals hold, nothing was skipped or refused, and the cost is at most
             the promised one; None where a limit came before that was known.

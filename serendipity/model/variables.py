@@ -44,6 +44,12 @@ def find_variables(
     Sound for every input: a group that is not exactly-one under each action is not
     reported.  Not complete: some groups that exist may be missed.
 
+    Args:
+        n_facts: how many facts there are.
+        init: ids of those that hold in ``I``.
+        actions: every ground action.
+        deadline: polled; None for no limit.
+
     Raises:
         LimitReachedError: the deadline came first.
     """
@@ -202,7 +208,7 @@ class _GroupFinder:
         return dropped
 
     def _standing(self, fact: int) -> tuple[int, int]:
-        """Of facts added together, the one that is consumed most makes the best member."""
+        """The best member among facts that are added together: the one that is consumed most."""
         return len(self.consumers[fact]), -fact
 
 

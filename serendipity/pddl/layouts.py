@@ -65,12 +65,12 @@ def read_agents(
 ) -> Task:
     """Read one pair of files per agent; facts are shared by name.
 
-    An agent's actions range over the objects of his own files.  Actions of the team
+    An agent's actions range over the objects of its own files.  Actions of the team
     that no agent owns are joint: their participants are the agents whose names occur
     among the parts of the ground action's name, split at ``_`` and blanks.
 
     Args:
-        agents: domain and problem file of each agent, by his name.
+        agents: domain and problem file of each agent, by its name.
         team: domain and problem file of the joint actions, or None.
         human: name of the human, or None for the only agent with a goal.
         name: of the task; default is that of the human's problem.

@@ -74,6 +74,11 @@ def within_limits(
 ) -> T:
     """What ``load`` makes.
 
+    Args:
+        load: does the work, and polls what it is given.
+        deadline: None for no limit.
+        on_progress: told now and then what is being done.
+
     Raises:
         LimitReachedError: a limit came first, or memory is used up; it says what was being done.
     """

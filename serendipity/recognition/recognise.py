@@ -32,8 +32,8 @@ def recognise(
     """How probable each candidate goal is, given what the human has done from ``I`` on.
 
     ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``.  Where only one of the costs
-    is finite it is exactly 0 or 1.  Observations are actions of his in their order, from the
-    task's initial state on; he may have done more between them.
+    is finite it is exactly 0 or 1.  Observations are actions of theirs in their order, from the
+    task's initial state on; they may have done more between them.
 
     Args:
         task: the task; its own goal plays no part.
@@ -78,7 +78,15 @@ def posterior(
     found: Sequence[Likelihood],
     beta: float,
 ) -> Recognition:
-    """Bayes' rule over the candidates; their priors, if none explains the observations."""
+    """Bayes' rule over the candidates; their priors, if none explains the observations.
+
+    Args:
+        task: the task.
+        candidates: goals with priors.
+        observed: names of the observed actions, in order.
+        found: ``cost(G, O)`` and ``cost(G, not O)`` of each candidate, in the same order.
+        beta: how strictly the human is taken to minimise cost, per unit of cost.
+    """
     logs = [_log_likelihood(explanation, beta) for explanation in found]
     known = [log for log, candidate in zip(logs, candidates, strict=True) if candidate.prior]
     most = max(known)

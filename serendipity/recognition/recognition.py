@@ -18,8 +18,8 @@ class GoalPosterior:
         likelihood: ``P(O | G)``; None where the human can't reach the goal alone at all.
         posterior: given the observations.
         weight: the rational that the posterior is rounded from; planning adds up these.
-        with_observed: ``cost(G, O)``; None if no plan of his embeds the observations.
-        without_observed: ``cost(G, not O)``; None if all of his plans embed them.
+        with_observed: ``cost(G, O)``; None if no plan of theirs embeds the observations.
+        without_observed: ``cost(G, not O)``; None if all of their plans embed them.
         plan: the canonical optimal plan that embeds the observations, or None.
     """
 
@@ -52,9 +52,9 @@ class Recognition:
     """The posterior over the human's goals.
 
     Attributes:
-        human: his name.
+        human: the human's name.
         observed: names of the actions that were observed.
-        beta: how strictly he is taken to minimise cost.
+        beta: how strictly they are taken to minimise cost.
         explained: whether some candidate explains the observations; if none does, the
             posterior is the prior.
         goals: in the order in which they were given; posteriors add up to 1.

@@ -60,7 +60,7 @@ def example(name: str, *, deadline: Deadline | None = None) -> Task:
 
     Args:
         name: its name.
-        deadline: asked for time; it may be one that planning shares.
+        deadline: polled; it may be one that planning shares.
 
     Raises:
         UsageError: there is no example of that name.

@@ -25,7 +25,7 @@ PROBLEM = "(define (problem p) (:domain d) (:objects h r) (:init (held r)) (:goa
 
 @pytest.fixture
 def stuck(tmp_path: Path) -> str:
-    """A task whose human can't reach his goal alone."""
+    """A task whose human can't reach their goal alone."""
     (tmp_path / "d.pddl").write_text(HUMAN_ALONE_CANNOT)
     (tmp_path / "p.pddl").write_text(PROBLEM)
     return "d.pddl p.pddl --human h --robot r"

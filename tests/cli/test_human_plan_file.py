@@ -13,7 +13,7 @@ from tests.cli.conftest import Run, assert_one_line
 
 @pytest.fixture
 def names() -> list[str]:
-    """His plan in the example room2."""
+    """The human's plan in the example room2."""
     plan = serendipity.plan(serendipity.example("room2")).human_plan
     assert plan is not None
     return list(plan)

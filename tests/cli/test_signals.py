@@ -1,4 +1,4 @@
-"""Who asks a process to end gets one line, and the best answer so far, at any moment and by any signal."""
+"""A process that is asked to end says so in one line and gives its best answer, at any moment and signal."""
 
 import json
 import signal

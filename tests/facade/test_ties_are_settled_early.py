@@ -1,4 +1,4 @@
-"""Answers over his optimal plans stop where the rest can't matter, and claim no more than is proved."""
+"""Answers over ties stop where the rest can't matter, and claim no more than is proved."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace

@@ -9,7 +9,7 @@ from tests.support.builders import task as build
 
 
 def _door() -> Task:
-    """From b on he needs ``p``, which only a robot changes: the private bound takes it for granted."""
+    """From b on the human needs ``p``, which only a robot changes: the private bound takes it for granted."""
     actions = {
         "in h": "a -> b !a",
         "out h": "b p -> g !b",

@@ -56,7 +56,7 @@ def _wrong(task: Task, answer: Result) -> str | None:
 
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
 def test_no_opportunity_before_the_answer_without_robots_is_known(options: dict[str, Any]) -> None:
-    """What he gains by himself was taken for help while it was still being looked for."""
+    """What the human gains alone was taken for help while it was still being looked for."""
     task = _detours()
     *early, last = _planned(task, human_plan=[f"step{i} h" for i in range(4)], **options)
     assert last.status == "optimal"

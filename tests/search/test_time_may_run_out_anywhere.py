@@ -102,7 +102,7 @@ def test_time_may_run_out_at_any_look(
 
 
 def goals_of(task: Task) -> list[dict[str, Any]]:
-    """His goal, and that he stands where his plan leads first."""
+    """The human's goal, and that they stand where their plan leads first."""
     own = [task.facts[fact] for fact in task.goal.positive]
     first = task.actions[task.plan_from_names(alone(task))[0]]
     return [{"goal": own, "prior": 3}, {"goal": [task.facts[first.add[0]]], "prior": 1}]

@@ -13,7 +13,7 @@ from verify.rules.replay import replay
 
 
 def _door() -> Task:
-    """He planned to open with the key; once the robot has unlocked, opening takes no key."""
+    """The human planned to open with the key; once the robot has unlocked, opening takes no key."""
     return build(
         goal="inside",
         actions={
@@ -50,14 +50,14 @@ def _both(task: Task, **options: Any) -> Result:
 
 @pytest.mark.parametrize(("task", "cost"), [(_door(), 3.5), (_switch(), 3.0)], ids=["or", "when"])
 def test_another_variant_of_what_was_planned_costs_no_communication(task: Task, cost: float) -> None:
-    """Who planned to open and opens did not change their mind."""
+    """A human who planned to open, and opens, did not change their mind."""
     answer = _both(task, mode="communication", communication_weight=1)
     assert answer.opportunity
     assert answer.cost == answer.objective == cost
 
 
 def test_nor_does_it_leave_a_prefix_of_planned_actions() -> None:
-    """With the second (7b) he may enter before the window, whatever opens the door to him."""
+    """With the second (7b) the human may enter before the window, whatever opens the door to them."""
     task = build(
         goal="inside",
         actions={

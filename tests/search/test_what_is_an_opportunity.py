@@ -63,7 +63,7 @@ def test_beside_a_plan_that_is_not_optimal_a_robot_has_to_act(mode: str) -> None
 
 @pytest.mark.parametrize("human_model", ["observant", "local"])
 def test_also_under_a_human_model(human_model: str) -> None:
-    """Shown a detour he turns round by himself, and does the robots' work by the way."""
+    """Shown a detour the human turns round alone, and does the robots' work by the way."""
     task = _tidy(**{"detour h": "-> done @ 7", "do h": "-> done tidy"})
     answer = serendipity.plan(task, human_plan=["detour h"], human_model=human_model)
     assert (answer.cost, answer.opportunity, answer.saving) == (1.0, False, 0.0)
@@ -118,7 +118,7 @@ def test_without_an_opportunity_nothing_is_saved(mode: str) -> None:
 
 @pytest.mark.parametrize("human_model", ["observant", "local"])
 def test_under_a_human_model_its_optimum_counts_even_where_it_is_dearer(human_model: str) -> None:
-    """He would take a short cut that robots open on their way, and undo what they are about to do."""
+    """The human would take the short cut that robots open by the way, and undo what these are about to do."""
     task = build(
         goal="done",
         robot_goal="tidy",

@@ -18,7 +18,7 @@ DOMAIN = texts.domain(
 
 @pytest.mark.parametrize(("init", "cost"), [("(p)", 1.0), ("(p) (q)", 5.0)], ids=["never", "some day"])
 def test_what_is_out_of_reach_mentions_nothing(init: str, cost: float, tmp_path: Path) -> None:
-    """Help takes p away.  An action of his that needs p and q minds that only if q can ever hold."""
+    """Help takes p away.  An action of the human's that needs p and q minds that only if q can ever hold."""
     metric = "(:metric minimize (total-cost))"
     problem = texts.problem(init, "(r)", objects="h - man r - bot", more=metric)
     task = texts.one(tmp_path, DOMAIN, problem)

@@ -73,7 +73,7 @@ def usar(
 
     Args:
         edges: undirected connections, e.g. ``"a-b-c b-s"``; a chain is several.
-        human: his room.
+        human: their room.
         robots: room by robot's name.
         kits: room by medkit's name; ``"@rob"`` for one that agent ``rob`` holds.
         triage: the goal's room.

@@ -50,7 +50,7 @@ def case_4() -> Task:
 
 
 def case_5() -> Task:
-    """Silent assistance: carrying pays before the human has chosen his way."""
+    """Silent assistance: carrying pays before the human has chosen their way."""
     return task(
         agents="p s",
         human="p",

@@ -68,7 +68,7 @@ def strips_tasks(draw: st.DrawFn) -> Task:
 
 @st.composite
 def corridor_tasks(draw: st.DrawFn) -> Task:
-    """A human who walks between places; robots open shortcuts, block ways or carry him."""
+    """A human who walks between places; robots open shortcuts, block ways or carry them."""
     places = [f"p{i}" for i in range(draw(st.integers(3, 5)))]
     agents = ["h", "r", "q"][: draw(st.sampled_from([2, 2, 3]))]
     actions: dict[str, str] = {}
@@ -293,7 +293,7 @@ def _varied(draw: st.DrawFn, texts: st.SearchStrategy[str], facts: list[str]) ->
 
 @st.composite
 def _with_goals(draw: st.DrawFn, built: Task) -> Task:
-    """A human goal that a random walk of his reaches (now and then any literal at all)."""
+    """A human goal that a random walk of the human's reaches (now and then any literal at all)."""
     state, alone = built.init, Alone(built)
     for _ in range(draw(st.integers(1, 5))):
         ways = [way for way in alone.successors(state) if way[1] != state]

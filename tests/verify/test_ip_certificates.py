@@ -80,7 +80,7 @@ def test_pi_h_is_said_to_be_canonical_or_given() -> None:
 
 
 def test_no_answer_in_time_is_not_refuted() -> None:
-    """Not even where the horizon was to be taken from a plan of his that was not found in time."""
+    """Not even where the horizon was to be taken from a plan of the human's that was not found in time."""
     task = case_4()
     answer = serendipity.plan(task, mode="communication", time_limit=0)
     assert (answer.status, answer.human_plan, answer.horizon) == ("unknown", None, None)

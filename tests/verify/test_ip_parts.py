@@ -126,7 +126,7 @@ DETOUR = {
     ids=["T=2", "T=3", "T=4"],
 )
 def test_his_optimal_plan_has_to_fit(encoding: str, horizon: int, cost: float, opportunity: bool) -> None:
-    """He would do the three slow steps: with fewer epochs left, the quick one is no answer."""
+    """The human would do the three slow steps: with fewer epochs left, the quick one is no answer."""
     task = build(goal="p", actions=DETOUR)
     answer = solve(task, Options(horizon=horizon, max_window=1), encoding=encoding)
     assert (answer.cost, answer.opportunity) == (cost, opportunity)
@@ -136,7 +136,7 @@ def test_his_optimal_plan_has_to_fit(encoding: str, horizon: int, cost: float, o
 @pytest.mark.parametrize("encoding", ["automata", "paper"])
 @pytest.mark.parametrize("weight", ["0", "0.25", "0.5", "2"])
 def test_a_suffix_that_saves_talk_is_no_optimal_plan(encoding: str, weight: str) -> None:
-    """Once helped he does ``short``, though the two steps of ``pi_H`` need no talk."""
+    """Once helped the human does ``short``, though the two steps of ``pi_H`` need no talk."""
     actions = {
         "zero h": "-> z @ 3",
         "one h": "z -> m @ 2",

@@ -103,7 +103,7 @@ def test_his_optimal_cost_alone_equals_the_oracle(task: Task, data: st.DataObjec
 
 
 def test_what_is_too_hard_for_a_rule_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whether the suffix is his optimal plan is a question of its own: no program answers it."""
+    """Whether the suffix is the human's optimal plan is a question of its own: no program answers it."""
     built = helped()
     monkeypatch.setattr(alone, "_MOST_EXPANSIONS", 0)
     report = check(built.task, built.result)

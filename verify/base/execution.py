@@ -111,7 +111,7 @@ def states_along(task: Task, epochs: Iterable[Sequence[int]], *, strict: bool) -
 
 
 def states_of_pi_h(task: Task, plan: Iterable[int], deadline: Deadline) -> list[State]:
-    """``delta(I, pi_H[1..j])`` for each j from 0: the states that an executable plan of his leads through."""
+    """``delta(I, pi_H[1..j])`` for each j from 0: the states that an executable human plan leads through."""
     states = [task.init]
     for i in deadline.each(plan):
         states.append(after(states[-1], task.actions[i]))
@@ -119,7 +119,7 @@ def states_of_pi_h(task: Task, plan: Iterable[int], deadline: Deadline) -> list[
 
 
 def facts_of_his(task: Task, deadline: Deadline) -> State:
-    """The facts that the human's own domain mentions: his goal's and his own actions'."""
+    """The facts that the human's own domain mentions: their goal's and their own actions'."""
     facts = {*task.goal.positive, *task.goal.negative}
     for i in deadline.each(task.human_actions):
         action = task.actions[i]

@@ -1,4 +1,4 @@
-"""The human alone: (cost, length) of an optimal plan of his from a state, by A*."""
+"""The human alone: (cost, length) of an optimal plan of theirs from a state, by A*."""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -38,7 +38,7 @@ class IndividualOptimum:
         return ProjectedCosts(self._task, self._own, self.deadline)
 
     def optimum(self, state: State) -> tuple[Fraction, int] | None:
-        """Least (cost, number of actions) from ``state``; None if he can't reach ``G_H`` alone.
+        """Least (cost, number of actions) from ``state``; None if the human can't reach ``G_H`` alone.
 
         Raises:
             TooManyStatesError: the limit on expansions came first.

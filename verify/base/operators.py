@@ -35,7 +35,7 @@ class OwnActions:
 
     Attributes:
         ids: the actions' ids.
-        facts: facts that an own action needs or that his goal names; no other matters to him.
+        facts: facts that an own action needs or that their goal names; no other matters to them.
     """
 
     def __init__(self, task: Task, deadline: Deadline) -> None:

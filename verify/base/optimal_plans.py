@@ -15,9 +15,9 @@ Worth = tuple[Fraction, int]
 
 
 class OptimalPlans:
-    """His optimal plans, from what the rule checker knows of their cost.
+    """The human's optimal plans, from what the rule checker knows of their cost.
 
-    Every method raises :class:`verify.base.undecided.TooManyStatesError` where his own problem is too large,
+    Every method raises :class:`verify.base.undecided.TooManyStatesError` where that problem is too large,
     and :class:`serendipity.model.LimitReachedError` where the deadline of ``alone`` comes.
     """
 
@@ -31,7 +31,7 @@ class OptimalPlans:
         return self._alone.optimum(state)
 
     def canonical(self) -> HumanPlan | None:
-        """``pi_H`` as semantics 1 predicts it; None if he can't reach his goal."""
+        """``pi_H`` as semantics 1 predicts it; None if the human can't reach their goal."""
         return next(self.plans(), None)
 
     def plans(self) -> Iterator[HumanPlan]:

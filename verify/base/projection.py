@@ -1,7 +1,7 @@
 """A lower bound on the human's cost alone: exact distances in a projection.
 
-The projection keeps the variables that robots alone never change (his position,
-whether he holds something), as long as it stays small.  Dropping the other facts only
+The projection keeps the variables that robots alone never change (their position,
+whether they hold something), as long as it stays small.  Dropping the other facts only
 makes actions applicable more often, so the bound is admissible.
 """
 

@@ -17,7 +17,7 @@ from verify.base.execution import price
 Amount = TypeVar("Amount", int, tuple[int, int])
 
 FREE, WINDOW, EXACT, ALONE = "free", "window", "exact", "alone"
-"""Rules for the human: anything (semantics 3.4), a window (3.1), exactly ``pi_H``, his own actions only."""
+"""Rules for the human: anything (semantics 3.4), a window (3.1), exactly ``pi_H``, their own actions only."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,13 +122,19 @@ def least(a: Amount | None, b: Amount | None) -> Amount | None:
 
 
 _Kind = tuple[tuple[int, int], bool, bool]
-"""What an action's price depends on: its cost, whether the human takes part, whether he has to be told."""
+"""What an action's price depends on: its cost, whether the human takes part, whether they have to be told."""
 
 
 def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadline | None = None) -> Prices:
     """The integer costs of a call.
 
     Communication costs nothing outside communication mode, and ``K`` nothing without windows.
+
+    Args:
+        task: the task.
+        options: options in force.
+        human_plan: ``pi_H`` by ids.
+        deadline: polled; None for no limit.
 
     Raises:
         LimitReachedError: the deadline came first.

@@ -116,6 +116,13 @@ def calls(
 ) -> Sequence[Call]:
     """The calls that make up a task: one, or one for each optimal ``pi_H`` under ``ties``.
 
+    Args:
+        task: the task.
+        options: options in force.
+        given: ``pi_H`` by ids, or None to predict it.
+        effort: solver, encoding and deadline.
+        plans: the human's optimal plans.
+
     Raises:
         UsageError: there are more than ``max_ties``.
     """

@@ -114,7 +114,7 @@ class Call:
 
     @cached_property
     def idle_robots_plan(self) -> Solution | None:
-        """The cheapest plan in which he executes ``pi_H`` and robots reach ``G_R`` without him."""
+        """The cheapest plan in which the human executes ``pi_H`` and robots reach ``G_R`` by themselves."""
         if self.horizon == INFINITE:
             return self.decided(cheapest_following(self._question(EXACT)))
         question = self._question(EXACT).but(horizon=int(self.horizon))
@@ -146,7 +146,7 @@ class Call:
 
     @cached_property
     def is_optimal(self) -> bool:
-        """Whether ``pi_H`` costs no more than his optimal plan."""
+        """Whether ``pi_H`` costs no more than the human's optimal plan."""
         worth = self.plans.worth(self.task.init)
         return (
             worth is not None

@@ -15,7 +15,13 @@ def plan_steps(call: Call, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
 
 
 def found_result(call: Call, found: Solution, *, opportunity: bool) -> Result:
-    """A plan as a result whose bound is its objective."""
+    """A plan as a result whose bound is its objective.
+
+    Args:
+        call: what was asked.
+        found: steps, window, and what they cost.
+        opportunity: whether the plan is one.
+    """
     return _result(call, found.steps, found.window, found.objective, found.cost, opportunity=opportunity)
 
 

@@ -230,7 +230,7 @@ class _Certifier:
         return kind(call, result, steps, self.checker)
 
     def _individual(self, wanted: list[str]) -> Iterator[Claim]:
-        """Mode ``individual``: his least cost alone, by exhaustive search."""
+        """Mode ``individual``: the human's least cost alone, by exhaustive search."""
         started = perf_counter()
         try:
             verdict, reason = self._alone()

@@ -15,11 +15,11 @@ from verify.simulator import Person, play
 class HumanExaminer(Examiner):
     """Examines a result that was planned for an observant or a local human.
 
-    No integer program knows what he does; whatever robots could do is played instead.
+    No integer program knows what they do; whatever robots could do is played instead.
     """
 
     def optimal(self) -> Verdict:
-        """Nothing that happens with him costs less."""
+        """Nothing that happens with the human costs less."""
         cost = self._score()[1]
         found = _cheaper(self.call, cost)
         if found is not None:
@@ -27,7 +27,7 @@ class HumanExaminer(Examiner):
         return "proved", self._played(cost), None
 
     def no_opportunity(self) -> Verdict:
-        """Nothing that happens with him costs less than without robots."""
+        """Nothing that happens with the human costs less than without robots."""
         cost = self._score()[1] if self.call.robots_goal else self._alone
         assert cost is not None, "without goals of the robots, leaving him alone is an answer"
         found = _cheaper(self.call, cost)
@@ -61,7 +61,7 @@ class HumanExaminer(Examiner):
         return None
 
     def lower_bound(self) -> Verdict:
-        """Nothing that happens with him, and no answer, costs less than the bound."""
+        """Nothing that happens with the human, and no answer, costs less than the bound."""
         bound = self.result.lower_bound
         assert bound is not None
         least = self._units_at_least(bound)
@@ -73,7 +73,7 @@ class HumanExaminer(Examiner):
         return "proved", self._played(least), None
 
     def infeasible(self) -> Verdict:
-        """He has no plan alone, or nothing that happens reaches the robots' goals."""
+        """The human has no plan alone, or nothing that happens reaches the robots' goals."""
         call = self.call
         if call.human_plan is None:
             return super().infeasible()
@@ -84,7 +84,7 @@ class HumanExaminer(Examiner):
 
     @cached_property
     def _alone(self) -> int | None:
-        """What it costs without help: ``pi_H``, or what he does by himself if that is less."""
+        """What it costs without help: ``pi_H``, or what the human does alone if that is less."""
         costs = [cost for cost in (self.call.baseline, self._idle) if cost is not None]
         return min(costs, default=None)
 
@@ -126,7 +126,7 @@ def _decided(call: Call, most: int | None) -> Solution | None:
 
 
 def _idle_cost(call: Call) -> int | None:
-    """What he pays by himself; None if that does not reach all goals in time."""
+    """What the human pays alone; None if that does not reach all goals in time."""
     if call.human_plan is None:
         return None
     horizon = call.horizon

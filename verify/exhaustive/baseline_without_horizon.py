@@ -1,6 +1,6 @@
 """What doing nothing for the human costs without a horizon, where robots have goals (semantics 3.1).
 
-He executes ``pi_H`` exactly, an action an epoch; robots, without him, reach ``G_R`` at the
+They execute ``pi_H`` exactly, an action an epoch; robots, without the human, reach ``G_R`` at the
 same time or after its end.  A clock that stops at that end is part of the state.
 """
 
@@ -15,7 +15,7 @@ from verify.programs.minimise import Minimum
 
 
 def cheapest_following(question: Subproblem) -> Minimum:
-    """The least cost of a plan in which he executes ``pi_H`` epoch by epoch and is then idle.
+    """The least cost of a plan in which the human executes ``pi_H`` epoch by epoch and is then idle.
 
     Args:
         question: its horizon is not looked at.

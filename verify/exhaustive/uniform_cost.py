@@ -166,7 +166,13 @@ class JointSearch:
 
 
 def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadline) -> list[tuple[int, ...]]:
-    """Sets of actions that may share an epoch but in no order follow each other."""
+    """Sets of actions that may share an epoch but in no order follow each other.
+
+    Args:
+        actions: candidates with their ids.
+        task: the task.
+        deadline: polled.
+    """
     by_id = dict(actions)
     disables = {i: [j for j, b in deadline.each(actions) if j != i and _disables(a, b)] for i, a in actions}
     found: set[tuple[int, ...]] = set()

@@ -26,6 +26,13 @@ def compiled(
     """The human's own task, in which plans have to embed the observations, or must not.
 
     Matching each observation as early as possible decides whether a plan embeds them.
+
+    Args:
+        task: the task.
+        goal: the goal of the candidate.
+        observed: names of the observed actions, in order.
+        deadline: polled.
+        embed: whether plans have to embed them, or must not.
     """
     first, last = len(task.facts), len(task.facts) + len(observed)
     actions: list[GroundAction] = []
@@ -54,14 +61,27 @@ def compiled(
 def considered_plan(
     task: Task, goal: Condition, observed: Sequence[str], deadline: Deadline
 ) -> PlanNames | None:
-    """The canonical optimal plan for a goal that embeds the observations; None if there is none."""
+    """The canonical optimal plan for a goal that embeds the observations; None if there is none.
+
+    Args:
+        task: the task.
+        goal: the goal of the candidate.
+        observed: names of the observed actions, in order.
+        deadline: polled.
+    """
     own = compiled(task, goal, observed, deadline, embed=True)
     plan = OptimalPlans(own, IndividualOptimum(own, deadline)).canonical()
     return None if plan is None else tuple(own.actions[i].name for i in plan)
 
 
 def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[Fault]:
-    """Everything that is wrong with a recognition, in order."""
+    """Everything that is wrong with a recognition, in order.
+
+    Args:
+        task: the task.
+        recognised: what the answer says of goals and observations.
+        deadline: polled.
+    """
     for name in recognised.observed:
         if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
             yield f"observed: '{name}' is not an action that the human does alone"

@@ -132,7 +132,7 @@ def _by_rule(name: str, fault: Callable[[], str | None]) -> Claim:
 
 
 def _considered(task: Task, recognised: Recognised, deadline: Deadline) -> list[Believed]:
-    """The goals that are possible and that he can reach, with the plans that are expected of him."""
+    """The goals that are possible and that the human can reach, with the plans that are expected of them."""
     seen = recognised.observed if recognised.explained else ()
     planned = [
         replace(goal, plan=considered_plan(task, goal.goal, seen, deadline))

@@ -88,7 +88,7 @@ class GoalsProof:
         return Together(calls, [line.weight for line in self.lines])
 
     def _idle_fault(self, idle: Fraction) -> str | None:
-        """What he gains by himself, where observations make his plans dearer than need be."""
+        """What the human gains alone, where observations make their plans dearer than need be."""
         said, alone = self.result.saving_alone, mean(self.lines, [line.alone for line in self.lines])
         if said is None or not close(said, alone - idle):
             return wording.expected_saving_alone(alone - idle, said)

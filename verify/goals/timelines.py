@@ -53,7 +53,7 @@ class Timeline:
 
     @property
     def alone(self) -> Fraction:
-        """What his plan costs him."""
+        """What the human's plan costs them."""
         assert self.case.human_cost is not None, "a rule"
         return self.case.human_cost
 
@@ -67,7 +67,15 @@ class Timeline:
 def timelines(
     task: Task, result: Result, goals: Sequence[Condition], served: Sequence[StatedGoal], deadline: Deadline
 ) -> list[Timeline]:
-    """The timelines of an answer, with weights that add up to 1."""
+    """The timelines of an answer, with weights that add up to 1.
+
+    Args:
+        task: the task.
+        result: the answer for several goals.
+        goals: the goals themselves.
+        served: what the answer says of each of them, in the same order.
+        deadline: polled.
+    """
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
     found = []
@@ -120,7 +128,7 @@ def _as_key(step: PlanStep) -> tuple[int, str, tuple[str, ...], float]:
 
 
 def _deviations(lines: Sequence[Timeline]) -> Iterator[str]:
-    """Where a plan is said to be left alone, he executes it."""
+    """Where a plan is said to be left alone, the human executes it."""
     for line in lines:
         case = line.case
         if case.result.window is None and case.human_does() != dict(enumerate(case.pi_h, start=1)):

@@ -3,7 +3,7 @@
 Two ways to a proof.  What each goal by itself would allow adds up to a bound: where the
 answer reaches it, nothing is better.  Otherwise the robots' sequences are played, epoch by epoch;
 beside each sequence every goal keeps all that can have happened so far, and what a goal by itself
-allows, with distances in his automaton, cuts off what can't be better than the answer.
+allows, with distances in the human's automaton, cuts off what can't be better than the answer.
 """
 
 from collections.abc import Iterator, Sequence
@@ -40,7 +40,7 @@ class Better:
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """What can have happened so far if one goal is his.
+    """What can have happened so far if one goal is the human's.
 
     Attributes:
         labels: least (objective, cost) by window and state, while robots may still act.
@@ -83,7 +83,7 @@ class Together:
     """All considered goals of one answer.
 
     Args:
-        calls: one for each goal, with his plan for it and the same horizon.
+        calls: one for each goal, with the human's plan for it and the same horizon.
         weights: their probabilities; they add up to 1.
     """
 
@@ -103,11 +103,11 @@ class Together:
         self._his = [i for i in range(len(calls[0].task.actions)) if i not in robots]
 
     def floor(self) -> Rank:
-        """What no robots' plan ranks before: the answers to each goal by itself."""
+        """The value that no plan of the robots undercuts: the answers to each goal by itself."""
         return self._mean(self._floors)
 
     def idle(self) -> Rank:
-        """The best with idle robots; it differs from his plans only if they are not optimal.
+        """The best with idle robots; it differs from the human's plans only if they are not optimal.
 
         Raises:
             UndecidedError: it could not be proved.
@@ -214,7 +214,7 @@ class Together:
         return _Line(labels, ended)
 
     def _parts(self, call: Call, start: int, epoch: int) -> Iterator[tuple[int | None, int]]:
-        """What he may do in an epoch, and the window's start then (rules 1 and 2)."""
+        """What the human may do in an epoch, and the window's start then (rules 1 and 2)."""
         plan = call.human_plan or ()
         if not start:
             yield (plan[epoch - 1] if epoch <= len(plan) else None), 0
@@ -235,7 +235,7 @@ class Together:
         return after(state, *chosen)
 
     def _closed(self, call: Call, state: State, epoch: int, score: Score) -> Score | None:
-        """Rule 3: the window ends after the epoch, and he goes on with an optimal plan that fits."""
+        """Rule 3: the window ends after the epoch, and the human goes on with an optimal plan that fits."""
         worth = call.plans.worth(state)
         if worth is None or worth[1] > self._horizon - epoch:
             return None
@@ -271,7 +271,7 @@ class Together:
 
 
 def _left_alone(call: Call) -> Score:
-    """His plan and idle robots; that counts as one epoch of window, whatever the plan's length."""
+    """The human's plan and idle robots; that counts as one epoch of window, whatever the plan's length."""
     assert call.baseline is not None, "only goals with a plan are considered"
     return call.baseline + call.prices.epoch, call.baseline
 

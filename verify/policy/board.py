@@ -18,7 +18,7 @@ FAR: Costs = (Fraction(10**12), Fraction(0))
 """Stands for infinite in bounds, which may be too low but not too high."""
 
 _UNIT = 1 << 40
-"""Weights are his cost in this unit, plus his actions (alone) or the robot's cost (together)."""
+"""Weights are the human's cost in this unit, plus their actions (alone) or the robot's cost (together)."""
 
 _MOST_ALONE = 1_000_000
 _MOST_TOGETHER = 150_000
@@ -27,7 +27,7 @@ _MOST_LOOKED_AT = 20_000
 
 
 class Reply(NamedTuple):
-    """One of the human's optimal actions: what it costs him, the state after it."""
+    """One of the human's optimal actions: what it costs them, the state after it."""
 
     cost: Fraction
     state: int
@@ -40,12 +40,12 @@ class Board:
 
     Args:
         task: one human, one robot.
-        fixed: he takes the smallest of his optimal actions.
-        deadline: asked for time.
+        fixed: they take the smallest of their optimal actions.
+        deadline: polled.
 
     Attributes:
         deadline: when to give up.
-        replies_are_dear: the robot changes what he needs and can't change himself, so his
+        replies_are_dear: the robot changes what they need and can't change themselves, so their
             optimum is another search after each of its moves.
     """
 
@@ -94,6 +94,11 @@ class Board:
         """Whether both together, without turns, pay at least ``value``, as far as can be told.
 
         ``most`` limits the states looked at where there is no table of all of them.
+
+        Args:
+            state: a packed state with the supporter to move.
+            value: the pair (human's total, supporter's total), compared lexicographically.
+            most: how many states may be looked at where there is no table of all of them.
         """
         if value <= self.count(state):
             return True
@@ -121,7 +126,7 @@ class Board:
         return False, None
 
     def count(self, state: int) -> Costs:
-        """A bound that needs few states: what the human pays for what only he can bring about."""
+        """A bound that needs few states: what the human pays for what only they can bring about."""
         return self._costs(self._least(state))
 
     def _least(self, state: int) -> int:
@@ -129,7 +134,7 @@ class Board:
         return max(_UNIT * facts, self._by_himself(state))
 
     def _by_himself(self, state: int) -> int:
-        """What he pays at least if whatever the robot can change is as he wants it."""
+        """What the human pays at least if whatever the robot can change is as they want it."""
         if self._private is not None:
             try:
                 least = self._private(state & self._his_only)
@@ -188,12 +193,12 @@ class Board:
         return None
 
     def alone(self, state: int) -> Fraction | None:
-        """His optimal cost with an idle robot; None if he has no plan."""
+        """The human's optimal cost with an idle robot; None if they have no plan."""
         key = self._key(state)
         return None if key is None else Fraction(key // _UNIT, self._scale)
 
     def replies(self, state: int) -> tuple[Reply, ...]:
-        """What he may optimally do; waiting where he has no plan."""
+        """What the human may optimally do; waiting where they have no plan."""
         replies = self._replies.get(state)
         if replies is None:
             replies = self._replies[state] = tuple(self._optimal(state)) or (Reply(Fraction(0), state, None),)
@@ -216,7 +221,7 @@ class Board:
         return found[:1] if self._fixed else found
 
     def _key(self, state: int) -> int | None:
-        """His (cost, length) in one number, by the facts that concern him alone."""
+        """The human's (cost, length) in one number, by the facts that concern them alone."""
         return self._alone(state & self._his)
 
     def _costs(self, together: int) -> Costs:

@@ -11,7 +11,7 @@ class ReplyBranch(NamedTuple):
     """One of the human's optimal actions and where it leads."""
 
     action: str | None
-    """None where he waits."""
+    """None where the human waits."""
     then: int | None
     """Number of the next state, from 1; None where the supporter idles from then on."""
     ends: bool

@@ -25,8 +25,8 @@ class Walk:
     Args:
         board: the game.
         listed: the policy.
-        ties: how his choices count.
-        no_block: no move may take his last plan away.
+        ties: how the human's choices count.
+        no_block: no move may take their last plan away.
     """
 
     def __init__(self, board: Board, listed: dict[int, Listed], ties: str, *, no_block: bool) -> None:
@@ -42,7 +42,7 @@ class Walk:
 
         Raises:
             BrokenError: it is not closed, does not end, or a value is wrong.
-            UndecidedError: his own optimum could not be worked out.
+            UndecidedError: the human's own optimum could not be worked out.
         """
         board = self._board
         if board.start not in self._listed:

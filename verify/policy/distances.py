@@ -81,7 +81,7 @@ class GameDistances:
         edges: the actions.
         goal: where the distance is 0.
         most: states looked at before a question is given up.
-        deadline: asked for time.
+        deadline: polled.
     """
 
     def __init__(self, edges: Sequence[Edge], goal: PackedCondition, most: int, deadline: Deadline) -> None:

@@ -13,6 +13,12 @@ Choices = dict[int, list[list[int]]]
 def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool:
     """Whether some policy has a value in ``I`` (semantics 7: one whose runs end).
 
+    Args:
+        board: states and moves.
+        ties: how the human's choices count.
+        no_block: no move may take the human's last plan away.
+        deadline: polled.
+
     Raises:
         UndecidedError: there are too many states.
         LimitReachedError: the deadline came first.
@@ -24,6 +30,12 @@ def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool
 
 def lost_states(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> set[int]:
     """States that may come up, with the supporter to move, from which no policy has a value.
+
+    Args:
+        board: states and moves.
+        ties: how the human's choices count.
+        no_block: no move may take the human's last plan away.
+        deadline: polled.
 
     Raises:
         UndecidedError: there are too many states.
@@ -63,7 +75,7 @@ def _blocked(board: Board, state: int, middle: int) -> bool:
 
 
 def _forced(choices: Choices, deadline: Deadline, *, every: bool) -> set[int]:
-    """States from which the end is reached; against the human if ``every``, else with him."""
+    """States from which the end is reached; against the human if ``every``, else with them."""
     good = {-1}
     grows = True
     while grows:

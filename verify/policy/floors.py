@@ -26,7 +26,7 @@ class Floors:
         board: the game.
         policy: with its floors.
         ties: how the human's choices count.
-        no_block: no move may take his last plan away.
+        no_block: no move may take their last plan away.
         deadline: when to give up.
     """
 

@@ -10,9 +10,14 @@ from verify.policy.closed import BrokenError
 def check_run(task: Task, board: Board, result: Result) -> None:
     """Return if the plan is a run in which the human acts optimally, at the totals reported.
 
+    Args:
+        task: the task.
+        board: its states and moves.
+        result: an answer of mode ``assistance`` with a plan.
+
     Raises:
         BrokenError: naming the epoch at fault.
-        UndecidedError: his own optimum could not be worked out.
+        UndecidedError: their own optimum could not be worked out.
     """
     assert result.plan is not None
     human = result.human

@@ -1,7 +1,7 @@
 """The least objective of a question: encode, solve, replay in integers, cut what breaks a rule, repeat.
 
 An encoding allows any plan of the human's own as a suffix.  Def. 2.0a wants an optimal one
-that fits, so a solution is checked against his optimal plans; if it fails, the program
+that fits, so a solution is checked against their optimal plans; if it fails, the program
 learns what suffixes from that state cost (or that there is none) and is solved again.
 """
 
@@ -30,7 +30,13 @@ class ProgramEncoding(Protocol):
         """The plan and the window of a solution."""
 
     def bound_suffix(self, xi2: int, state: State, least: int | None) -> None:
-        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
+        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none.
+
+        Args:
+            xi2: first epoch of the suffix.
+            state: facts that hold at its begin.
+            least: units of the objective, or None.
+        """
 
 
 ENCODINGS: Final[dict[str, Callable[[Subproblem], ProgramEncoding]]] = {
@@ -227,7 +233,7 @@ def _mended(
     states: list[State],
     plans: OptimalPlans,
 ) -> Solution | None:
-    """The plan, its suffix replaced by an optimal one where it is none; None if none fits."""
+    """The plan with an optimal suffix: its own, or another one; None if no optimal suffix fits."""
     if not replans(question) or window is None or window.end > question.horizon:
         return Solution(steps, window, *question.measure(steps, window))
     suffix = best_suffix(question, states[window.end - 1], window.end, plans)
@@ -247,7 +253,14 @@ def _suffix_least(question: Subproblem, state: State, xi2: int, plans: OptimalPl
 
 
 def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> tuple[int, ...] | None:
-    """His optimal plan from ``state`` that is best for the objective and reaches all goals, if it fits."""
+    """The optimal plan alone that is best for the objective and reaches all goals, if it fits.
+
+    Args:
+        question: goals and prices.
+        state: facts that hold at the begin of ``xi2``.
+        xi2: first epoch of the suffix.
+        plans: the human's optimal plans.
+    """
     worth = plans.worth(state)
     if worth is None or worth[1] > question.horizon - xi2 + 1:
         return None

@@ -149,7 +149,7 @@ class PaperEncoding:
             self.model.add(cost, "<=", question.most_cost)
 
     def executes_pi_h(self) -> None:
-        """He does ``pi_H[t]`` in each epoch, and nothing after its end."""
+        """The human does ``pi_H[t]`` in each epoch, and nothing after its end."""
         for t in self.epochs:
             planned = self._planned(t)
             for a in self.his:
@@ -185,14 +185,14 @@ class PaperEncoding:
             model.objective.update({column: weight * t for column, t in length.items()})
 
     def equation_7b(self) -> None:
-        """Before xi1 he does ``pi_H[t]``; by (10) nothing else, joint actions included (7a)."""
+        """Before xi1 the human does ``pi_H[t]``; by (10) nothing else, joint actions included (7a)."""
         for t in self.epochs:
             planned = self._planned(t)
             if planned is not None:
                 self.model.add({self.x[planned, t]: 1, **self._later_begin(t, -1)}, ">=", 0)
 
     def second_equation_7b(self) -> None:
-        """Before xi1 he does actions of ``pi_H`` only, or waits."""
+        """Before xi1 the human does actions of ``pi_H`` only, or waits."""
         planned = in_plan(self.task, self.question.human_plan)
         for t in self.epochs:
             for a in self.his:
@@ -231,7 +231,7 @@ class PaperEncoding:
                     model.add({chosen[j]: 1, end: 1, self.y[f, t - 1]: -1}, "<=", 1)
 
     def _follow_indices(self, place: dict[tuple[int, int], int]) -> None:
-        """``place[k, t]``: he does ``pi_H[k]`` in epoch t of the suffix, indices rising."""
+        """``place[k, t]``: the human does ``pi_H[k]`` in epoch t of the suffix, indices rising."""
         model, plan = self.model, self.question.human_plan
         for t in self.epochs:
             for a in self.his:

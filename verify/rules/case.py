@@ -34,7 +34,7 @@ class Case:
 
     @cached_property
     def human_plan(self) -> tuple[int, ...] | PlanError | None:
-        """``pi_H`` by ids; an error if it is no plan of his; None where none is reported."""
+        """``pi_H`` by ids; an error if it is no plan of the human's; None where none is reported."""
         if self.result.human_plan is None:
             return None
         try:
@@ -57,7 +57,7 @@ class Case:
 
     @property
     def improvable(self) -> bool:
-        """Whether it is certain that ``pi_H`` costs more than an optimal plan of his."""
+        """Whether it is certain that ``pi_H`` costs more than an optimal plan of the human's."""
         optimum = self.alone.optimum(self.task.init)
         return self.human_cost is not None and optimum is not None and optimum[0] < self.human_cost
 
@@ -122,5 +122,5 @@ class Case:
         return self.task.actions[action].name
 
     def human_does(self) -> dict[int, int]:
-        """What the human does, by epoch; epochs in which he waits are absent."""
+        """What the human does, by epoch; epochs in which they wait are absent."""
         return {epoch: i for epoch, i in self.steps() if self.his(i)}

@@ -34,7 +34,7 @@ def mode_and_human(case: Case) -> Found | None:
 
 
 def human_plan_valid(case: Case) -> Found | None:
-    """``pi_H`` is a plan of the human alone; it is missing only if he has none."""
+    """``pi_H`` is a plan of the human alone; it is missing only if they have none."""
     if isinstance(case.human_plan, PlanError):
         return Found(f"pi_H: {case.human_plan.message}")
     if case.human_plan is not None:
@@ -96,7 +96,7 @@ def status_and_fields(case: Case) -> Found | None:
 
 
 def reason(case: Case) -> Found | None:
-    """Where there is no plan, the reason says why; where there is one, there is nothing to say."""
+    """An answer without a plan gives the reason; an answer with a plan gives none."""
     result = case.result
     if result.status in ("optimal", "feasible"):
         return None if result.reason is None else Found(f"status {result.status} with a reason")

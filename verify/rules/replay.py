@@ -44,6 +44,12 @@ class Replay:
 def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict: bool) -> Replay:
     """Execute the steps from ``I`` until the first fault.
 
+    Args:
+        task: the task.
+        steps: the plan, in any order.
+        deadline: polled.
+        strict: interference as in semantics 2.
+
     Raises:
         LimitReachedError: the deadline came first.
     """
@@ -64,6 +70,11 @@ def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict:
 
 def replay_human(task: Task, names: Iterable[str], deadline: Deadline) -> tuple[int, ...]:
     """``pi_H`` from its names.
+
+    Args:
+        task: the task.
+        names: names of its actions, in order.
+        deadline: polled.
 
     Raises:
         PlanError: it is not a plan of the human alone.

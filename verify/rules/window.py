@@ -19,7 +19,7 @@ def window_presence(case: Case) -> Found | None:
 
 
 def idle_answer(case: Case) -> Found | None:
-    """Without an opportunity the human executes ``pi_H``; robots idle, or pursue ``G_R`` without him.
+    """Without an opportunity the human executes ``pi_H``; robots idle, or pursue ``G_R`` without the human.
 
     Modes without windows answer with their optimum, whether it is an opportunity or not.
     """
@@ -89,7 +89,7 @@ def robot_in_suffix(case: Case) -> Found | None:
 
 
 def suffix_replan(case: Case) -> Found | None:
-    """Def. 2.0a: the human goes on with an optimal plan of his own, and waits only after its end."""
+    """Def. 2.0a: the human goes on with an optimal plan of their own, and waits only after its end."""
     window, options = case.result.window, case.result.options
     if window is None or options.suffix != "replan" or options.preservation != "kernel":
         return None

@@ -1,4 +1,4 @@
-"""The human by himself, over sets of facts: his costs and plans from any state or belief."""
+"""The human alone, over sets of facts: their costs and plans from any state or belief."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -9,10 +9,10 @@ from verify.base.optimal_plans import OptimalPlans
 
 
 class Person:
-    """What he would do and pay alone; kept between questions about one task.
+    """What the human would do and pay alone; kept between questions about one task.
 
     Every method but :meth:`cost_of` raises :class:`verify.base.undecided.TooManyStatesError` where
-    his own problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline.
+    their own problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline.
     """
 
     def __init__(self, task: Task, plans: OptimalPlans) -> None:
@@ -21,7 +21,7 @@ class Person:
         self.deadline = plans.deadline
 
     def cost(self, state: State) -> Fraction | None:
-        """``h``: his optimal cost alone; None for infinity."""
+        """``h``: the human's optimal cost alone; None for infinity."""
         worth = self._plans.worth(state)
         return None if worth is None else worth[0]
 

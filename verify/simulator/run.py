@@ -27,7 +27,7 @@ class PlayedEpoch:
 
 
 class Moment(NamedTuple):
-    """Between two epochs: the true state, what he believes, and ``rho``, what remains of his plan."""
+    """Between two epochs: the true state, the human's belief, and ``rho``, what remains of their plan."""
 
     state: State
     belief: State
@@ -86,15 +86,15 @@ def play(
     Args:
         task: the task.
         options: discount and interference.
-        human_plan: his plan at the beginning.
-        steps: the composite plan; what he does alone in it is not looked at.
+        human_plan: their plan at the beginning.
+        steps: the composite plan; what they do alone in it is not looked at.
         human_model: ``observant`` or ``local``.
         horizon: ``T``, or None for any.
         visible: what a local human sees; None for the default.
-        person: his costs, where they are known from an earlier question.
+        person: their costs, where they are known from an earlier question.
 
     Raises:
-        TooManyStatesError: his own problem is too large for this checker.
+        TooManyStatesError: their own problem is too large for this checker.
         LimitReachedError: the deadline of ``person`` came first.
     """
     orders: dict[int, list[int]] = {}
@@ -130,8 +130,8 @@ class Play:
     Args:
         task: the task.
         options: interference.
-        person: his costs and plans alone.
-        sees: what he sees of a state; None for everything.
+        person: their costs and plans alone.
+        sees: what they see of a state; None for everything.
     """
 
     def __init__(self, task: Task, options: Options, person: Person, sees: Visible | None) -> None:
@@ -141,7 +141,7 @@ class Play:
         self.sees = sees
 
     def start(self, human_plan: Sequence[int]) -> Moment:
-        """Before the first epoch, with ``pi_H`` in his mind."""
+        """Before the first epoch, with ``pi_H`` in the human's mind."""
         return Moment(self.task.init, self.task.init, tuple(human_plan))
 
     def done(self, state: State) -> bool:
@@ -153,7 +153,7 @@ class Play:
         return self.act(self.look(now), offers)
 
     def looked(self, now: Moment) -> State:
-        """His belief after a look: all of the state, or what is visible of it."""
+        """The human's belief after a look: all of the state, or what is visible of it."""
         if self.sees is None:
             return now.state
         doubtful = now.state ^ now.belief
@@ -196,7 +196,7 @@ class Play:
         return self.task.human in self._team(i)
 
     def _accepted(self, offers: Sequence[int], look: Look) -> int | None:
-        """Step 2: the joint action that he takes part in."""
+        """Step 2: the joint action that the human takes part in."""
         return next((i for i in self._joint_offers(offers, look.now) if self._worth_it(i, look)), None)
 
     def _joint_offers(self, offers: Sequence[int], now: Moment) -> Iterator[int]:
@@ -212,7 +212,7 @@ class Play:
         return rest is not None and self.task.actions[joint].cost + rest <= look.best
 
     def _own_step(self, look: Look) -> tuple[int | None, State | None]:
-        """Step 3: what he does by himself; where it fails, what he believes then."""
+        """Step 3: what the human does alone; where it fails, what they believe then."""
         now = look.now
         if look.best is None or not now.rho:
             return None, None

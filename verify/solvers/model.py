@@ -59,7 +59,13 @@ class Model:
         return self.column(0, 1)
 
     def column(self, lower: int, upper: int, *, integral: bool = True) -> int:
-        """A new column with bounds."""
+        """A new column with bounds.
+
+        Args:
+            lower: least value.
+            upper: largest value.
+            integral: whether only whole values count.
+        """
         self._deadline.tick()
         self.lower.append(lower)
         self.upper.append(upper)
@@ -67,7 +73,13 @@ class Model:
         return len(self.upper) - 1
 
     def add(self, terms: Terms, sense: str, right: int) -> None:
-        """A new row."""
+        """A new row.
+
+        Args:
+            terms: coefficients by column.
+            sense: ``<=``, ``>=`` or ``==``.
+            right: the constant side.
+        """
         self._deadline.check()  # most of the work was to find its terms
         self.index.extend(terms)
         self.coefficients.extend(terms.values())

@@ -1,7 +1,7 @@
 """Bounds where the prime's optimal costs are out of reach: without deletes, and by greed.
 
 Below: the joint optimum without deletes, by the dearest fact of the goal (h_max, Bonet
-and Geffner 2001).  Above: any plan of the prime's own bounds his optimal cost, and so the
+and Geffner 2001).  Above: any plan of the prime's own bounds their optimal cost, and so the
 value of doing nothing; one is sought greedily by the sum of facts' costs (h_add).
 """
 
@@ -36,7 +36,7 @@ def joint_lower_bound(game: Game, deadline: Deadline) -> int:
 
 
 def upper_bound_alone(game: Game) -> int:
-    """The value of some plan of the prime's own; ``INFINITE`` if he has none.
+    """The value of some plan of the prime's own; ``INFINITE`` if they have none.
 
     Raises:
         LimitReachedError: none was found in time.

@@ -1,7 +1,7 @@
-"""What the prime still pays if the supporter provides whatever he needs, in time.
+"""What the prime still pays if the supporter provides whatever they need, in time.
 
-His *private* fields are those that only he changes, *provided* ones those that only the
-supporter changes.  Projected onto the private fields, each of his actions is a
+Their *private* fields are those that only they change, *provided* ones those that only the
+supporter changes.  Projected onto the private fields, each of their actions is a
 transition; conditions on other fields are dropped.  A dropped condition on a provided
 field that does not hold now is charged to the supporter, at the price of the cheapest
 action that makes it true, where it is certain that it is charged once at most: where

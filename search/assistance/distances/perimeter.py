@@ -26,7 +26,7 @@ MINOR_BITS: Final = 24
 """Weights of arcs are ``major << 24 | minor``, compared in this order; the minor is above 0."""
 
 MAX_BITS: Final = 28
-"""Of a place, which has to fit an ``int32``."""
+"""Bits of a place's number, which has to fit an ``int32``."""
 
 _WIDE_BITS: Final = 24
 """Up to here a distance is wide."""

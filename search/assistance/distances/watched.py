@@ -1,4 +1,4 @@
-"""Ops looked up under whatever few others ask for, one thing an op."""
+"""An index of operators: each stands under the one of its conditions that the fewest others share."""
 
 from collections import Counter
 from collections.abc import Sequence

@@ -45,8 +45,8 @@ class Game:
     Args:
         prepared: a task of one human (the prime) and one robot (the supporter); joint actions are
             nobody's move.
-        deadline: asked for time.
-        own_deadline: asked for time while the prime's own optimum is worked out; default ``deadline``.
+        deadline: polled.
+        own_deadline: polled while the prime's own optimum is worked out; default ``deadline``.
 
     Raises:
         UsageError: there is not exactly one robot.
@@ -76,11 +76,11 @@ class Game:
 
     @cached_property
     def own(self) -> OwnCosts:
-        """The prime by himself."""
+        """The prime alone."""
         return OwnCosts(self.packed, self._scaled, self._own_deadline)
 
     def forget_own(self) -> None:
-        """Drop what was found about the prime by himself, which may be what fills the memory."""
+        """Drop what was found about the prime alone, which may be what fills the memory."""
         with suppress(AttributeError):  # nothing has been
             del self.own
 
@@ -106,7 +106,7 @@ class Game:
         return list(found.values())
 
     def prime(self, state: int) -> tuple[Move, ...]:
-        """The prime's optimal actions, smallest name first; empty if he has no plan alone.
+        """The prime's optimal actions, smallest name first; empty if they have no plan alone.
 
         The goal does not hold in ``state``.
         """
@@ -129,7 +129,7 @@ class Game:
     def alone(self, state: int) -> int:
         """The value if the supporter does nothing for ever; ``INFINITE`` if that does not end.
 
-        Whatever he chooses among his optimal actions, the prime pays his optimal cost.
+        Whatever the prime chooses among their optimal actions, they pay their optimal cost.
         """
         key = self.own.key(state)
         return INFINITE if key >= INFINITE_KEY else self.own.cost_in(key) << self.unit_bits

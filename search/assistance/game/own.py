@@ -1,6 +1,6 @@
-"""The prime by himself: his optimal (cost, length) from any state of the game.
+"""The prime alone: their optimal (cost, length) from any state of the game.
 
-Facts that he does not change himself are the *context* of his search; for each context
+Facts that they do not change themselves are the *context* of their search; for each context
 a table over the rest is filled in where it is asked for.
 """
 
@@ -22,7 +22,7 @@ MAX_STATES: Final = 3_000_000
 
 
 class OwnCosts:
-    """His optimal keys ``cost << LENGTH_BITS | length``, with the supporter idle.
+    """The prime's optimal keys ``cost << LENGTH_BITS | length``, with the supporter idle.
 
     Args:
         encoding: the packed task.
@@ -46,7 +46,7 @@ class OwnCosts:
         return key >> LENGTH_BITS
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """His optimal key; ``INFINITE_KEY`` if he has no plan; at or above ``limit`` any such value."""
+        """The prime's optimal key; ``INFINITE_KEY`` if they have no plan; at or above ``limit`` any such value."""
         context = state & self._mask & ~self._changed
         if context in self._context:
             table = self._context[context]

@@ -48,7 +48,7 @@ class CheapestRun:
     Args:
         game: the game.
         bound: consistent lower bound.
-        fixed: the prime takes his smallest action, else the best one for us.
+        fixed: the prime takes their smallest action, else the best one for us.
         no_block: no move may take the prime's last plan away.
     """
 

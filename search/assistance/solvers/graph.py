@@ -20,7 +20,7 @@ class Graph:
 
     Attributes:
         choices: per expanded choice the supporter's moves, the promising ones first.
-        replies: per expanded reply the prime's moves; one wait where he has no plan.
+        replies: per expanded reply the prime's moves; one wait where they have no plan.
         low: lower bounds of choices.
         reply_low: lower bounds of replies; absent where the bound was not worked out yet.
         idle: per expanded reply its value if the supporter does nothing any more.

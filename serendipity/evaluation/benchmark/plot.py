@@ -126,7 +126,7 @@ def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], la
 
 
 def _spread(ticks: Sequence[float]) -> list[float]:
-    """At most eight of them, the first and the last among these."""
+    """At most eight of the values; the first and the last are among them."""
     step = max(1, -(-(len(ticks) - 1) // 7))
     return [*ticks[:-1:step], ticks[-1]]
 

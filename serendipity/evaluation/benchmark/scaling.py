@@ -106,7 +106,7 @@ class Sample:
         axis: a key of ``AXES``.
         value: on that axis; the index of a label where it has labels.
         actions: ground actions.
-        length: actions of the human's plan, 0 where he has none.
+        length: actions of the human's plan, 0 where they have none.
         read_seconds: parsing, uniting, grounding.
         pack_seconds: finite-domain variables and packed actions, once a task.
         search_seconds: the first call.

@@ -102,7 +102,7 @@ def compare(
     sound = True
     for name, judge in judges.items():
         if name != "search" and "human_model" in call.options:
-            continue  # no program knows what he does: the verifier plays it
+            continue  # no program knows what the human does: the verifier plays it
         figures, words, answer = _asked(call, judge, known, limits)
         said[name] = words
         sound = sound and figures is not None
@@ -125,7 +125,14 @@ def shows_it_too(
     time_limit: float | None = None,
     memory_limit: float | None = None,
 ) -> Callable[[PlanCall], bool]:
-    """A test of other calls: whether judges differ on them as well, or the same law is broken."""
+    """A test of other calls: whether judges differ on them as well, or the same law is broken.
+
+    Args:
+        found: the disagreement.
+        judges: by name.
+        time_limit: seconds for each answer and certificate, or None.
+        memory_limit: what the process may have in memory, in MiB, or None.
+    """
     if found.law is None:
         return lambda call: (
             compare(call, judges, {}, time_limit=time_limit, memory_limit=memory_limit) is not None

@@ -40,7 +40,13 @@ def write_case(found: Disagreement, folder: Path) -> Path:
 
 
 def command_line(call: PlanCall, folder: Path, command: str = "plan") -> str:
-    """The command line that makes the call on the task written to ``folder``."""
+    """The command line that makes the call on the task written to ``folder``.
+
+    Args:
+        call: what is asked.
+        folder: where its task was written.
+        command: the command to show.
+    """
     words = ["serendipity", *command.split(), str(folder), "--human", call.task.agents[call.task.human]]
     words += call.command_words()
     if call.human_plan is not None:

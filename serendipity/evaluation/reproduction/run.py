@@ -19,7 +19,7 @@ from serendipity.model.numbers import Number
 
 MODES: Final = ("individual", "serendipity", "communication", "composite")
 DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
-"""Those of the paper's Table I."""
+"""The discounts of the paper's Table I."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from serendipity.model import Deadline, Result, Task
 from serendipity.model.errors import LIMITS
 
 _TIED: Final = ("serendipity",)
-"""Modes whose cost depends on which of his optimal plans the human follows."""
+"""Modes whose cost depends on which of the human's optimal plans the human follows."""
 
 
 @dataclass(frozen=True, slots=True)

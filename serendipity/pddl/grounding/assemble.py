@@ -26,7 +26,7 @@ _BYTES: Final = (500, 900)
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Files, which of their actions count, and who takes part in those.
+    """Files, with the actions of theirs that count and the agents that take part in these.
 
     Attributes:
         unit: the files.
@@ -49,7 +49,7 @@ class Blueprint:
         human: id of the human.
         sources: the files.
         goals: the unit that states the human's goal.
-        robot_goals: units that state goals beyond his.
+        robot_goals: units that state goals beyond the human's.
         left_out: why an action in which nobody takes part is left out.
         warnings: about the input.
     """

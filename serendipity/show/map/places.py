@@ -2,7 +2,7 @@
 
 An agent's own *moves* take away one fact and add another of the same predicate: ``at commx
 hall1``, ``at commx hall2``.  Facts that moves connect, of which at most one is true initially
-and whose common words speak of the agent or of nobody in particular, tell his position;
+and whose common words speak of the agent or of nobody in particular, tell its position;
 what differs between them is the place.
 """
 
@@ -73,7 +73,7 @@ def find_places(task: Task) -> Places:
 
 
 def _moves(task: Task) -> "dict[int, nx.Graph[int]]":
-    """By agent: the facts of equal predicates that actions of his alone exchange."""
+    """By agent: the facts of equal predicates that actions of its own exchange."""
     words = [parts(fact) for fact in task.facts]
     found: dict[int, nx.Graph[int]] = {agent: nx.Graph() for agent in range(len(task.agents))}
     for action in task.actions:
@@ -89,7 +89,7 @@ def _moves(task: Task) -> "dict[int, nx.Graph[int]]":
 
 
 def _positions(task: Task, moves: "dict[int, nx.Graph[int]]") -> dict[int, list[int]]:
-    """By agent: the facts that tell his position.
+    """By agent: the facts that tell its position.
 
     A group of facts is given to the agent whom it names, else to the one whose name is part
     of its words, else to the one who moves most in it.

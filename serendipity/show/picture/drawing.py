@@ -99,7 +99,15 @@ class Picture:
 
 
 def fitted(text: str, width: float, size: float, least: float, *, bold: bool = False) -> tuple[str, float]:
-    """A text and the font size at which it fits into a width; shortened below ``least``."""
+    """A text and the font size at which it fits into a width; shortened below ``least``.
+
+    Args:
+        text: the text.
+        width: in pixels.
+        size: font size to begin with, in pixels.
+        least: the smallest font size.
+        bold: whether the font is bold.
+    """
     letter = BOLD_LETTER if bold else LETTER
     wanted = min(size, width / max(1, len(text)) / letter)
     if wanted >= least:
@@ -109,7 +117,14 @@ def fitted(text: str, width: float, size: float, least: float, *, bold: bool = F
 
 
 def wrapped(text: str, width: float, size: float, lines: int = 2) -> tuple[str, ...]:
-    """A text in at most ``lines`` lines of a width, broken at blanks and after ``_`` and ``-``."""
+    """A text in at most ``lines`` lines of a width, broken at blanks and after ``_`` and ``-``.
+
+    Args:
+        text: the text.
+        width: in pixels.
+        size: font size, in pixels.
+        lines: at most so many.
+    """
     most = max(1, int(width / size / LETTER))
     found = [""]
     for word in re.split(r" |(?<=[_-])", text):

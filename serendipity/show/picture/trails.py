@@ -17,11 +17,11 @@ def trail(layout: Layout, stops: Sequence[str | None], lane: int) -> tuple[tuple
 
     Args:
         layout: of the map.
-        stops: his place after each epoch, from 0; None while he is nowhere.
+        stops: its place after each epoch, from 0; None while it is nowhere.
         lane: from 1; how many lanes to the right of the middle.
 
     Returns:
-        for each epoch the points that its step adds; none where he stays.
+        for each epoch the points that its step adds; none where it stays.
     """
     found: list[tuple[Point, ...]] = [()]
     for here, there in pairwise(stops):

@@ -62,7 +62,7 @@ class Frame:
         epoch: from 0.
         at: place by agent id, for agents with a position.
         objects: where each object is.
-        former_at: where the human would be with his former plan, or None without a map.
+        former_at: where the human would be with their former plan, or None without a map.
         made, undone: names of the facts that became true and false in this epoch.
         spent: team costs so far by agent id; joint actions are shared equally.
         former_spent: cost of the human's former plan so far.
@@ -123,7 +123,7 @@ class Scene:
 
     @property
     def deviates(self) -> bool:
-        """Whether the human does anything but his former plan."""
+        """Whether the human does anything but their former plan."""
         own = [(act.epoch, act.action) for act in self.acts if self.human in act.agents]
         return own != [(act.epoch, act.action) for act in self.former_acts]
 

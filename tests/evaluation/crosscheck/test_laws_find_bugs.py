@@ -81,7 +81,7 @@ def an_earlier_state(patch: Patch) -> None:
 
 
 def variants_are_actions(patch: Patch) -> None:
-    """Who planned one variant of an action and does another has to be told."""
+    """A human who planned one variant of an action and does another would have to be told."""
     original = Weights.__init__
 
     def init(self: Any, packed: Any, scales: Any, options: Any, plan: Any) -> None:

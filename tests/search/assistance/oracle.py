@@ -15,7 +15,7 @@ FREE: Costs = (Fraction(0), Fraction(0))
 
 
 class Outcome(NamedTuple):
-    """What one of the prime's optimal actions leads to, from before his move."""
+    """What one of the prime's optimal actions leads to, from before their move."""
 
     cost: Fraction
     state: State
@@ -44,7 +44,7 @@ def after(action: GroundAction, state: State) -> State:
 
 
 def alone(task: Task, start: State) -> tuple[Fraction, int] | None:
-    """His optimal (cost, length) by himself, or None."""
+    """The prime's optimal (cost, length) alone, or None."""
     queue: list[tuple[Fraction, int, list[int]]] = [(Fraction(0), 0, sorted(start))]
     closed: set[State] = set()
     while queue:
@@ -63,7 +63,7 @@ def alone(task: Task, start: State) -> tuple[Fraction, int] | None:
 
 
 def optimal_actions(task: Task, state: State) -> list[GroundAction]:
-    """Those that start one of his optimal plans, in the order of names."""
+    """Those that start one of the prime's optimal plans, in the order of names."""
     optimum = alone(task, state)
     found = []
     for i in task.human_actions:

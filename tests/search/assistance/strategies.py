@@ -30,7 +30,7 @@ def strips_games(draw: st.DrawFn) -> Task:
 
 @st.composite
 def walking_games(draw: st.DrawFn) -> Task:
-    """The prime walks a small graph with equally good ways; the supporter carries him or blocks places."""
+    """The prime walks a small graph with equally good ways; the supporter carries them or blocks places."""
     places = [f"p{i}" for i in range(draw(st.integers(4, 6)))]
     goal = places[-1]
     edges = draw(

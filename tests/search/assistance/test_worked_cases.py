@@ -64,7 +64,7 @@ def test_nothing_ends_is_infeasible(ties: str) -> None:
 
 
 def test_supporter_alone_may_reach_the_goal() -> None:
-    """The prime waits, at no cost, while he has no plan."""
+    """The prime waits, at no cost, while they have no plan."""
     helpless = task(goal="g", actions={"open r": "-> x @ 2", "finish r": "x -> g @ 3"})
     result = serendipity.plan(helpless, mode="assistance")
     assert pair(result) == ("0", "5")

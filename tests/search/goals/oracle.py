@@ -44,7 +44,7 @@ def best_expected(task: Task, options: Options, candidates: Sequence[Candidate],
 
 
 class _Timeline:
-    """Every way in which the epochs can go beside one robots' plan, if the candidate is his goal."""
+    """Every way in which the epochs can go beside one robots' plan, if the candidate is the human's goal."""
 
     def __init__(self, task: Task, options: Options, candidate: Candidate, robots: Sets) -> None:
         self.task, self.options, self.robots = task, options, robots

@@ -31,7 +31,7 @@ def reachable_goals(draw: st.DrawFn, task: Task) -> Condition:
 def rivals(draw: st.DrawFn) -> tuple[Task, list[Candidate]]:
     """A task without goals of the robots' own, and two goals that the human can reach alone.
 
-    The first is the task's own where he can, since robots are most often of use there.
+    The first is the task's own where the human can reach it, since robots are most often of use there.
     """
     task = replace(draw(tasks()), robot_goal=Condition())
     weight = draw(st.sampled_from(WEIGHTS))

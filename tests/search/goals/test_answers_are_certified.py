@@ -133,7 +133,7 @@ def _only_for_one(answer: dict[str, Any]) -> None:
 
 
 def _shared_help(answer: dict[str, Any]) -> None:
-    """What robots do for all goals is said to be done with him."""
+    """What robots do for all goals is said to be done with the human."""
     answer["plan"].append({"epoch": 2, "agents": ["h"], "action": "prepare h", "cost": 1.0})
 
 
@@ -202,7 +202,7 @@ def test_doctored_answers_are_refuted(way: str) -> None:
 
 
 def test_a_plan_that_is_broken() -> None:
-    """Lifting in epoch 1 makes the second action of his plan for z inapplicable."""
+    """Lifting in epoch 1 makes the second action of the human's plan for z inapplicable."""
     task = workshop("ready !q -> z @ 4")
     answer = deepcopy(helped(workshop("!q -> z @ 5"), 1, 1).to_dict())
     entry = answer["statistics"]["goals"][1]

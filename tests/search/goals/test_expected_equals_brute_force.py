@@ -85,9 +85,9 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
 def _assert_needed(
     task: Task, options: Options, candidate: Candidate, served: ServedGoal, answer: Expected
 ) -> None:
-    """A window that gains nothing for its own goal: his plan beside what robots do is no better.
+    """A window that gains nothing for its own goal: the human's plan beside what robots do is no better.
 
-    Robots do it for the sake of another goal.  Beside it his plan is impossible, or costs more,
+    Robots do it for the sake of another goal.  Beside it the human's plan is impossible, or costs more,
     since the robots' work comes on top of it.
     """
     beside = tuple(sorted((*answer.robots, *plan_steps(candidate.plan))))
@@ -106,7 +106,7 @@ def _assert_needed(
 
 
 def test_a_goal_served_at_no_gain() -> None:
-    """Lifting saves 8 if he wants p; if he wants z he can't ``keep`` beside it, and has to ``mend``."""
+    """Lifting saves 8 if the human wants p; for z they can't ``keep`` beside it but have to ``mend``."""
     task = build(
         goal="p",
         actions={

@@ -53,7 +53,7 @@ def test_the_less_sure_the_less_help(p: object, z: object, cost: float) -> None:
 
 
 def test_no_considered_plan_is_broken() -> None:
-    """Lifting would make the second action of his plan for z inapplicable, however unlikely z is."""
+    """Lifting would make the second action of the human's plan for z inapplicable, however unlikely z is."""
     answer = helped(workshop("ready !q -> z @ 4"), 1_000_000, 1)
     assert (answer.status, answer.opportunity, answer.cost, answer.plan) == ("optimal", False, 5, ())
     assert [goal["window"] for goal in answer.statistics["goals"]] == [None, None]
@@ -62,7 +62,7 @@ def test_no_considered_plan_is_broken() -> None:
 def test_impossible_goals_are_not_considered() -> None:
     task = workshop("ready !q -> z @ 4")
     assert helped(task, 1, 0).cost == 2
-    unexplained = helped(task, 1, 1, observed=["do2 h"])  # he can't without the robot
+    unexplained = helped(task, 1, 1, observed=["do2 h"])  # the human can't without the robot
     assert unexplained.cost == 5
     assert not unexplained.statistics["recognition"]["explained"]
 
@@ -79,7 +79,7 @@ def test_what_was_seen_settles_the_goal() -> None:
 
 
 def test_an_observed_plan_is_the_plan() -> None:
-    """Case 3: the robot knows which of two plans he follows, as if it had been given."""
+    """Case 3: the robot knows which of two plans the human follows, as if it had been given."""
     task = case_3()
     goal = [{"name": "it", "goal": [task.facts[f] for f in task.goal.positive]}]
     seen = serendipity.plan(task, goals=goal, observed=CASE_3_PLAN, discount="0.9", window_weight=0)
@@ -119,7 +119,7 @@ def test_text_and_json(run: Callable[[str], Run]) -> None:  # noqa: F811
 
 @pytest.mark.parametrize(("discount", "cost"), [("0", 7), ("0.9", 0.5)])
 def test_idle_robots_are_the_answer_without_them(discount: str, cost: float) -> None:
-    """What was seen is a detour: he gains 3 without a robot, and help has to beat that, not his plans."""
+    """What was seen is a detour: alone the human gains 3, and help has to beat that, not their plans."""
     task = build(
         goal="p",
         actions={

@@ -66,7 +66,7 @@ def played(draw: st.DrawFn) -> Played:
 
 @st.composite
 def _steps(draw: st.DrawFn, task: Task, human_plan: HumanPlan, epochs: int) -> tuple[Step, ...]:
-    """A walk in which the human does what he can of his plan, and robots what they like."""
+    """A walk in which the human does what they can of their plan, and robots what they like."""
     steps = []
     state, left = task.init, list(human_plan)
     alone = Alone(task)

@@ -28,7 +28,7 @@ def test_goal_that_holds_already(model: str) -> None:
 
 @pytest.mark.parametrize("model", MODELS)
 def test_given_plan_that_he_would_drop(model: str) -> None:
-    """He takes the short way as soon as he looks up, without any help."""
+    """The human takes the short way as soon as they look up, without any help."""
     built = task(
         goal="p", init="a", actions={"do1 h": "a -> b !a @ 2", "do2 h": "b -> p", "short h": "a -> p"}
     )
@@ -60,7 +60,7 @@ def test_case_3_both_ways_are_as_long_so_he_keeps_to_his() -> None:
 
 
 def test_ties_under_a_local_human_are_those_of_the_paper() -> None:
-    """He does not see that the kit is gone, so via r he is met; via s he is not."""
+    """The human does not see that the kit is gone, so via r they are met; via s they are not."""
     costs = {
         ties: serendipity.plan(case_4(), discount=0.9, human_model="local", ties=ties).cost
         for ties in ("fixed", "optimistic", "robust", "expected")
@@ -125,7 +125,7 @@ def test_answers_at_the_time_limit_have_verdicts_too() -> None:
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("chat", ["-> told", "met ->"])
 def test_what_keeps_him_busy_for_nothing_is_a_help(model: str, chat: str) -> None:
-    """It contributes to no goal, so it was left out; meanwhile the other robot does his work."""
+    """It contributes to no goal, so it was left out; meanwhile the other robot does the human's work."""
     built = task(
         agents="h r q",
         init="met",

@@ -1,4 +1,4 @@
-"""What a local human sees by default: what is where he is (semantics 6)."""
+"""What a local human sees by default: what is where they are (semantics 6)."""
 
 import serendipity
 from serendipity.model import Task, surroundings

@@ -35,7 +35,7 @@ def test_verdict_of_the_paper_s_answer(
 
 
 OPTIMA = [
-    # case, discount, robots may block him, the best that happens
+    # case, discount, robots may block the human, the best that happens
     (case_1, 0.9, False, 8.4),
     (case_2, 0.5, False, 9.0),
     (case_2, 0.5, True, 7.0),
@@ -73,7 +73,7 @@ def test_case_4_he_turns_to_the_other_kit() -> None:
 
 
 def test_room5_nobody_told_him() -> None:
-    """He walks into room5 in the very epoch in which the robot drops the kit in hall4."""
+    """The human walks into room5 in the very epoch in which the robot drops the kit in hall4."""
     task = serendipity.example("room5")
     result = serendipity.plan(task, discount=0.9)
     trace = serendipity.simulate(task, result)

@@ -1,4 +1,4 @@
-"""The human alone: (cost, length) of his optimal plans from any state (semantics 1)."""
+"""The human alone: (cost, length) of their optimal plans from any state (semantics 1)."""
 
 import heapq
 from collections.abc import Iterator
@@ -19,13 +19,13 @@ class Alone:
         self._worth: dict[State, Worth | None] = {}
 
     def worth(self, state: State) -> Worth | None:
-        """Least (cost, length) of a plan of his from ``state``; None if there is none."""
+        """Least (cost, length) of a plan of the human's from ``state``; None if there is none."""
         if state not in self._worth:
             self._solve(state)
         return self._worth[state]
 
     def successors(self, state: State) -> Iterator[tuple[int, State]]:
-        """His own applicable actions in ascending order, with what they lead to."""
+        """The human's own applicable actions in ascending order, with what they lead to."""
         for i in self.task.human_actions:
             if usable(self.task.actions[i], state):
                 yield i, after(state, [self.task.actions[i]])
@@ -43,7 +43,7 @@ class Alone:
         return found
 
     def _solve(self, start: State) -> None:
-        """Explore everything he can reach, then one Dijkstra backward from the goal states."""
+        """Explore everything the human can reach, then one Dijkstra backward from the goal states."""
         seen, stack = {start}, [start]
         edges: dict[State, list[tuple[State, Fraction]]] = {}
         while stack:

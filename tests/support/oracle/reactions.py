@@ -16,7 +16,7 @@ Visible = Callable[[int, int, State], bool]
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """True state, what he believes, what remains of his plan."""
+    """True state, what the human believes, what remains of their plan."""
 
     state: State
     belief: State
@@ -94,7 +94,7 @@ class _World:
     def _his_part(
         self, state: State, belief: State, plan: HumanPlan, best: Fraction | None
     ) -> Iterator[tuple[tuple[int, ...], HumanPlan, State]]:
-        """What he does: a joint action that he would accept, or what he means to do."""
+        """What the human does: a joint action that they would accept, or what they mean to do."""
         for j in self.joint:
             action = self.task.actions[j]
             if usable(action, state) and usable(action, belief):
@@ -113,7 +113,7 @@ class _World:
             yield (), plan, frozenset((belief - truth) | (state & truth))
 
     def _sets(self, state: State, his: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
-        """His action with each set of robots' actions that may share its epoch."""
+        """The human's action with each set of robots' actions that may share its epoch."""
         for chosen in action_sets(
             self.task, state, [*his, *self.robots], strict=self.options.interference == "strict"
         ):

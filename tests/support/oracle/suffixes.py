@@ -30,7 +30,7 @@ def _done(task: Task, state: State) -> bool:
 
 
 def _replan(task: Task, alone: Alone, price: Price) -> Suffix:
-    """Def. 2.0a: any optimal plan of his own; among several, the best for the objective."""
+    """Def. 2.0a: any optimal plan of the human's own; among several, the best for the objective."""
 
     @cache
     def best_of(state: State) -> Label | None:

@@ -28,7 +28,7 @@ class Good:
 
 
 def two_steps() -> Task:
-    """``pi_H`` has two steps; a robot's help saves one of them, and two of his plans are optimal."""
+    """``pi_H`` has two steps; a robot's help saves one of them, and two of the human's plans are optimal."""
     return build(
         init="a",
         goal="c",

@@ -155,7 +155,7 @@ def _limits() -> Iterator[PlanCall]:
 
 
 def _provisions() -> Iterator[PlanCall]:
-    """What robots pass on to each other, and what the human himself sets going."""
+    """What robots pass on to each other, and what the human sets going."""
     relay = {
         "do h": "-> g @ 9",
         "use h": "k2 -> g",
@@ -204,7 +204,7 @@ def _provisions() -> Iterator[PlanCall]:
 
 
 def _walks() -> Iterator[PlanCall]:
-    """Who is busy can't walk: what is dear now leaves time for what is cheap later."""
+    """Robots that are busy can't walk: what is dear now leaves time for what is cheap later."""
     actions = {
         "one h": "h0 -> h1 !h0",
         "two h": "h1 -> h2 m !h1",
@@ -222,7 +222,7 @@ def _walks() -> Iterator[PlanCall]:
     for horizon in ("5", "6"):
         task = build(agents="h r s", init="h0 r0 s0", goal="g", actions=actions)
         yield PlanCall(task, {"horizon": horizon})
-    # A step of his plan, of no use, that wants the robot to be where it is.
+    # A step of the human's plan, of no use, that wants the robot to be where it is.
     looks = {
         "one h": "h0 -> h1 !h0",
         "look h": "r0 -> z",

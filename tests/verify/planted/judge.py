@@ -56,7 +56,7 @@ def corpus(count: int) -> Iterator[PlanCall]:
 
 
 def _given_plans() -> Iterator[PlanCall]:
-    """Plans that are not his best, with a robot that may help."""
+    """Plans that are not the human's best, with a robot that may help."""
     for horizon, mode in ((None, "serendipity"), ("4", "serendipity"), ("4", "communication")):
         task = build(
             init="a",

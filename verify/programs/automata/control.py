@@ -1,4 +1,4 @@
-"""What the human may do in which epoch: his control automaton, one for each rule.
+"""What the human may do in which epoch: their control automaton, one for each rule.
 
 A control state is a short text-and-numbers tuple; the first entry says in which part of
 the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (semantics 3.1), or ``free``.
@@ -23,8 +23,8 @@ class Leg:
 
     Attributes:
         after: control state of this epoch, from which the next one goes on.
-        actions: ids that he may do, or ``all`` or ``own``.
-        wait: whether he may do nothing.
+        actions: ids that the human may do, or ``all`` or ``own``.
+        wait: whether they may do nothing.
         weight: units that the epoch adds to the objective (``K`` inside the window).
         needs: facts that must be true before the epoch (Def. 3.1 read literally).
     """
@@ -100,7 +100,7 @@ class HumanControl:
         return Leg(here, ())
 
     def _suffix_starts(self, xi1: int) -> Iterator[Leg]:
-        """Eq. (8): from xi2 on he is alone."""
+        """Eq. (8): from xi2 on the human is alone."""
         if self.literal:
             for j in range(xi1 - 1, len(self.plan) + 1):
                 for leg in self._suffix_goes_on((SUFFIX, j, 0)):

@@ -66,9 +66,9 @@ class AutomataEncoding:
         bound_suffix(self.program, xi2, state, least)
 
     def needs_whole_state(self, part: Relevant) -> bool:
-        """Whether a suffix may turn out not to be his optimal plan, or that plan not to fit.
+        """Whether a suffix may turn out not to be the human's optimal plan, or that plan not to fit.
 
-        With equal positive costs of his own actions a cheaper plan is a shorter one, so
+        With equal positive costs of their own actions a cheaper plan is a shorter one, so
         that what the program finds cheapest is optimal and fits (semantics 3.1, rule 3).
         """
         question = self.question

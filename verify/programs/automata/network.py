@@ -81,7 +81,7 @@ class RobotNetwork(Network):
 
 
 class HumanNetwork(Network):
-    """The human's automaton times his control automaton."""
+    """The human's automaton times their control automaton."""
 
     def __init__(
         self,
@@ -154,7 +154,14 @@ def actions_of(arcs: Iterable[Arc], deadline: Deadline) -> set[int]:
 def distances(
     automaton: Automaton, weights: list[int], goals: set[int], deadline: Deadline
 ) -> tuple[list[int], list[int]]:
-    """Least weight and fewest actions from each automaton state to a goal state; a lower bound."""
+    """Least weight and fewest actions from each automaton state to a goal state; a lower bound.
+
+    Args:
+        automaton: states and moves.
+        weights: units by action id.
+        goals: indices of the states to reach.
+        deadline: polled.
+    """
     backward: list[list[tuple[int, int]]] = [[] for _ in automaton.states]
     for state, moves in enumerate(deadline.each(automaton.moves)):
         for action, target in moves:

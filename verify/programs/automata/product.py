@@ -1,8 +1,8 @@
 """Agent automata: the product of all facts that only one agent's actions change.
 
-A fact is *private* to an agent if he takes part in every action that changes it (a joint
-action that hands him a kit included).  Since he does one action per epoch, the values of
-his private facts follow an automaton whose arcs are his actions; what an action needs of
+A fact is *private* to an agent if it takes part in every action that changes it (a joint
+action that hands it a kit included).  Since it does one action per epoch, the values of
+its private facts follow an automaton whose arcs are its actions; what an action needs of
 other facts is left to the rows of the program.
 """
 
@@ -46,7 +46,13 @@ class Automaton:
 
 
 def private_facts(task: Task, part: Relevant, deadline: Deadline) -> dict[int, int]:
-    """The agent to whom each private fact belongs; the human goes first where two could."""
+    """The agent to whom each private fact belongs; the human goes first where two could.
+
+    Args:
+        task: the task.
+        part: the facts and actions that matter.
+        deadline: polled.
+    """
     owners: dict[int, set[int]] = {}
     for i in deadline.each(part.actions):
         action = task.actions[i]

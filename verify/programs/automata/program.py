@@ -112,7 +112,7 @@ class Program:
                 self.model.add(terms, sense, 0)
 
     def _joint_actions(self) -> None:
-        """Every participant does his part of a joint action, or none does (eq. 10)."""
+        """Every participant does its part of a joint action, or none does (eq. 10)."""
         for i in self.deadline.each(self.setting.part.actions):
             agents = self.task.actions[i].participants
             for t in range(self.setting.horizon) if len(agents) > 1 else ():
@@ -313,7 +313,7 @@ class Program:
                 self._exclude_needs(epoch, ids, against)
 
     def _exclude(self, epoch: int, deleters: list[int], adders: list[int]) -> None:
-        """At most one deleter; none beside an adder that is another action."""
+        """An epoch has at most one deleter, and none beside an adder that is another action."""
         agents = {agent for i in (*deleters, *adders) for agent in self.task.actions[i].participants}
         common = set(agents)
         for i in (*deleters, *adders):
@@ -402,7 +402,13 @@ class Program:
 
 
 def plus(sums: Terms, more: Terms, factor: int = 1) -> _Sum:
-    """A sum of columns, and ``factor`` times another."""
+    """A sum of columns, and ``factor`` times another.
+
+    Args:
+        sums: coefficients by column.
+        more: those to add.
+        factor: times this.
+    """
     terms = dict(sums)
     for x, c in more.items():
         terms[x] = terms.get(x, 0) + factor * c

@@ -171,7 +171,7 @@ def _human_backward(setting: Setting, forward: Forward, provided: _Providers) ->
             key = (action, needs)
             if key not in surcharges:
                 surcharges[key] = provided.surcharge(action, epoch, needs)
-            total = reached[source] + weight + after[target]  # his own path
+            total = reached[source] + weight + after[target]  # the human's own path
             if total + surcharges[key] <= setting.most:
                 kept.append(arc)
                 totals.append(total)

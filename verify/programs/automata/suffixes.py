@@ -8,6 +8,12 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
     """A suffix from ``state`` at ``xi2`` weighs at least ``least``; with None there is none.
 
     The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
+
+    Args:
+        program: the program that learns the bound.
+        xi2: first epoch of the suffix.
+        state: facts that hold at its begin.
+        least: units of the objective, or None.
     """
     literals, constant = _suffix_starts(program, xi2, state)
     for f in program.deadline.each(
@@ -25,7 +31,7 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
 
 
 def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[dict[int, int], int]:
-    """Minus 1 unless the suffix starts at ``xi2`` with his private facts as in ``state``."""
+    """Minus 1 unless the suffix starts at ``xi2`` with the human's private facts as in ``state``."""
     network = program.setting.human
     layer, columns = network.layers[xi2 - 1], program.columns[program.task.human][xi2 - 1]
     starts: dict[int, int] = {}
