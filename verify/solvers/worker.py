@@ -25,7 +25,19 @@ _STATUS: Final = {
 
 
 class Tables(NamedTuple):
-    """A program; the terms of its rows are stored one after the other."""
+    """A program; the terms of its rows are stored one after the other.
+
+    Attributes:
+        cost: coefficient in the objective, by column.
+        lower: least value, by column.
+        upper: largest value, by column.
+        integral: 1 if only whole values count, by column.
+        row_lower: least value, by row.
+        row_upper: largest value, by row.
+        row_start: index of the first term, by row; one more entry says where the last row ends.
+        row_index: column, by term.
+        row_value: coefficient, by term.
+    """
 
     cost: "array[float]"
     lower: "array[float]"

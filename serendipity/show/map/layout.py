@@ -162,14 +162,14 @@ def _named_cells(graph: "nx.Graph[str]") -> dict[str, tuple[int, int]]:
 
 
 def _level(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Turned so that the longest axis lies flat."""
+    """Points, float64 of shape (n, 2), turned so that their longest axis lies flat."""
     centred = points - points.mean(axis=0)
     _, _, axes = np.linalg.svd(centred, full_matrices=False)
     return np.asarray(centred @ axes.T)
 
 
 def _spread(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Scaled and pushed apart until no two boxes overlap."""
+    """Points, float64 of shape (n, 2) in cells, scaled and pushed apart until no two boxes overlap."""
     distances = np.linalg.norm(points[:, None] - points[None], axis=2)
     np.fill_diagonal(distances, np.inf)
     points = points * (_SPREAD / max(float(np.median(distances.min(axis=1))), 1e-9))
