@@ -163,7 +163,7 @@ class PreparedTask:
 
         Args:
             state: ids of the facts that are true in it.
-            deadline: asked for time where variables have to be found anew.
+            deadline: polled where variables have to be found anew.
 
         Raises:
             LimitReachedError: the deadline came first.

@@ -101,7 +101,7 @@ class HumanOptimum(Protocol):
     """What the human does alone, optimally, with every robot idle."""
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """The human's optimal key from a packed state; at or above ``limit`` (a key) any value means "not below"."""
+        """The optimal key alone from a packed state; from ``limit`` (a key) on any value says "not below"."""
 
     def plans(self, state: int) -> "PlanGraph | None":
         """All the human's optimal plans from a packed state; None if there is none."""

@@ -23,7 +23,7 @@ def reachable(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -
 
     Args:
         task: the task.
-        actions: ids of the actions to use.
+        actions: those to use.
         deadline: polled.
     """
     reached = {(fact, fact in task.init) for fact in range(len(task.facts))}

@@ -93,10 +93,8 @@ class Board:
     def at_least(self, state: int, value: Costs, *, most: int = _MOST_LOOKED_AT) -> bool:
         """Whether both together, without turns, pay at least ``value``, as far as can be told.
 
-        ``most`` limits the states looked at where there is no table of all of them.
-
         Args:
-            state: a packed state with the supporter to move.
+            state: a packed state.
             value: the pair (human's total, supporter's total), compared lexicographically.
             most: how many states may be looked at where there is no table of all of them.
         """

@@ -59,7 +59,7 @@ class Model:
         return self.column(0, 1)
 
     def column(self, lower: int, upper: int, *, integral: bool = True) -> int:
-        """A new column with bounds.
+        """The index of a new column with bounds.
 
         Args:
             lower: least value.

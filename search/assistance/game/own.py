@@ -46,7 +46,7 @@ class OwnCosts:
         return key >> LENGTH_BITS
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """The prime's optimal key; ``INFINITE_KEY`` if they have no plan; at or above ``limit`` any such value."""
+        """The prime's optimal key; ``INFINITE_KEY`` without a plan; at or above ``limit`` any such value."""
         context = state & self._mask & ~self._changed
         if context in self._context:
             table = self._context[context]
