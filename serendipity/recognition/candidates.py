@@ -8,7 +8,8 @@ from typing import Any
 
 from serendipity.model import Condition, InputError, Task, UsageError, exact
 from serendipity.model.task import canonical_name
-from serendipity.recognition.files import Entry, read_goals, read_observed
+from serendipity.pddl.parsing.lists import Entry
+from serendipity.recognition.files import read_goals, read_observed
 
 GoalsGiven = str | PathLike[str] | Iterable[Mapping[str, Any]]
 """A file of goals, or its JSON form: ``[{"name": ..., "goal": [literals], "prior": ...}]``."""

@@ -1,20 +1,11 @@
-"""The file of ``--human-plan``: what the human is going to do, one action a line.
+"""The file of ``--human-plan``: what the human is going to do (see :mod:`serendipity.pddl.parsing.lists`)."""
 
-``;`` and ``#`` start a comment, round brackets and a leading epoch (``3:``, ``3 -``) may be
-there or not; or the file is a JSON list of action names.
-"""
-
-import json
-import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
-from serendipity.cli.files.reading import read_json, read_text
-from serendipity.model import InputError, PlanError, Task
-
-_EPOCH: Final = re.compile(r"^-?\s*\d+\s*[-:.]\s*")
-_COMMENT: Final = re.compile(r"[;#].*")
+from serendipity.cli.files.reading import read_text
+from serendipity.model import PlanError, Task
+from serendipity.pddl.parsing.lists import actions_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,34 +36,6 @@ def read_human_plan(path: Path) -> HumanPlanFile:
     Raises:
         InputError: ``file:line`` and what was expected.
     """
-    text = read_text(path)
-    if text.lstrip().startswith("["):
-        found = _from_json(path, text)
-    else:
-        found = [(_action(line, path, i), i) for i, line in enumerate(text.splitlines(), start=1)]
-    kept = [(name, line) for name, line in found if name.lower() not in ("", "noop")]
+    found = actions_in(read_text(path), path, "human plan: ")
+    kept = [(bare, line) for name, line in found if (bare := name.strip()).lower() not in ("", "noop")]
     return HumanPlanFile(path, tuple(name for name, _ in kept), tuple(line for _, line in kept))
-
-
-def _action(line: str, path: Path, number: int) -> str:
-    """The action of a line; empty where there is none."""
-    bare = _EPOCH.sub("", _COMMENT.sub("", line).strip(), count=1)
-    if bare.startswith("(") and bare.endswith(")"):
-        bare = bare[1:-1].strip()
-    if "(" in bare or ")" in bare:
-        message = f"human plan: expected one action, as 'move commx room13 hall8', got '{bare}'"
-        raise InputError(message, path, number)
-    return bare
-
-
-def _from_json(path: Path, text: str) -> list[tuple[str, int]]:
-    """The names of a JSON list, each with the line on which it stands."""
-    names = read_json(path)
-    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        raise InputError("human plan: expected a JSON list of action names", path)
-    found, at = [], 0
-    for name in names:
-        at = max(at, text.find(json.dumps(name), at))
-        found.append((name.strip(), text.count("\n", 0, at) + 1))
-        at += 1
-    return found

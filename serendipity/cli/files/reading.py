@@ -1,14 +1,14 @@
 """Reading the files that a command line names: one clear line for what is wrong with them."""
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 
 import serendipity
 from serendipity.model import Deadline, InputError, Result, Task, UsageError
+from serendipity.pddl.parsing.lists import json_value
 
 Strict = Annotated[
     bool, typer.Option("--strict", help="Exit with 1 where the result breaks a rule; else that is a warning.")
@@ -35,18 +35,7 @@ def read_json(path: Path) -> Any:
     Raises:
         InputError: it can't be read or is not JSON; NaN and infinity are not JSON either.
     """
-
-    def refuse(constant: str) -> NoReturn:
-        raise InputError(f"expected a finite number, got {constant}", path)
-
-    try:
-        return json.loads(read_text(path), parse_constant=refuse)
-    except json.JSONDecodeError as error:
-        raise InputError(f"expected JSON: {error.msg} at column {error.colno}", path, error.lineno) from None
-    except RecursionError:
-        raise InputError("expected JSON: it is nested too deeply", path) from None
-    except ValueError:  # Python converts so many digits only
-        raise InputError("expected numbers of at most 4300 digits", path) from None
+    return json_value(read_text(path), path)
 
 
 def read_result(files: Sequence[Path], command: str) -> tuple[list[Path], Path, Result]:

@@ -50,6 +50,7 @@ def test_goals(text: str, words: list[str], run: Callable[[str], Run]) -> None: 
         ("(move commx", ["seen.txt:1", "expected one action"]),
         ('[\n"fly commx"]', ["seen.txt:2", "there is no such action"]),
         ("[1]", ["seen.txt:1", "name of an action"]),
+        (f"[{'1' * 5000}]", ["seen.txt", "4300 digits"]),
     ],
 )
 def test_observations(text: str, words: list[str], run: Callable[[str], Run]) -> None:  # noqa: F811
