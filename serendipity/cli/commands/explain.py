@@ -51,23 +51,13 @@ def explain(
     verbose: output.Verbose = 0,
 ) -> int:
     """Explain an answer: what changes, why then, from which discount on; or what stands in the way."""
+    arguments = locals()
     form = output.prepare(format, output_file, verbose)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.explanation", "serendipity.facade.certify")
     named = list(files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
-    options = plan_options.given(
-        mode=mode,
-        discount=discount,
-        horizon=horizon,
-        window_weight=window_weight,
-        max_window=max_window,
-        suffix=suffix,
-        preservation=preservation,
-        interference=interference,
-        max_cost=max_cost,
-        communication_weight=communication_weight,
-    )
+    options = plan_options.among(arguments)
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     result = None if answer is None else _read(task, answer, deadline)

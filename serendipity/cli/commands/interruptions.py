@@ -52,19 +52,14 @@ def interruptions(
     verbose: output.Verbose = 0,
 ) -> int:
     """In which windows the human, or the team, could pay less, and what would change then."""
+    arguments = locals()
     form = output.prepare(format, output_file, verbose)
     output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
     deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.interruptibility")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
-    options = plan_options.given(
-        discount=discount,
-        horizon=horizon,
-        suffix=suffix,
-        preservation=preservation,
-        interference=interference,
-    )
+    options = plan_options.among(arguments)
     if human_plan is not None:
         options["human_plan"] = read_human_plan(human_plan).checked(task)
     with progress.counting("searches", quiet=quiet) as on_progress, limits.during("planning"):

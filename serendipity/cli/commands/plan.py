@@ -59,29 +59,12 @@ def plan(
     verbose: output.Verbose = 0,
 ) -> int:
     """Find the best plan in which robots help the human, and prove that none is better."""
+    arguments = locals()
     form = output.prepare(format, output_file, verbose)
     output.check_output(save_plan, "--save-plan")
     deadline = limits.begin(time_limit, memory_limit, *_modules(mode, goals, certify=certify))
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
-    options = plan_options.given(
-        mode=mode,
-        discount=discount,
-        horizon=horizon,
-        window_weight=window_weight,
-        max_window=max_window,
-        suffix=suffix,
-        preservation=preservation,
-        interference=interference,
-        max_cost=max_cost,
-        communication_weight=communication_weight,
-        keep_prefix=keep_prefix,
-        human_model=human_model,
-        ties=ties,
-        max_ties=max_ties,
-        no_block=no_block,
-        time_limit=time_limit,
-        memory_limit=memory_limit,
-    )
+    options = plan_options.among(arguments, limits=True)
     options["deadline"] = deadline.sooner(_CHECK_SHARE)
     if human_plan is not None:
         from serendipity.cli.files.human_plan import read_human_plan

@@ -4,6 +4,7 @@ Their legal values and defaults are those of ``serendipity.model.Options``, whic
 validates them: here they are text, so that ``0.1`` stays exactly a tenth.
 """
 
+from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any, Final
@@ -14,6 +15,7 @@ from serendipity.cli.choices import choices
 from serendipity.model.options import CHOICES, Options
 
 _DEFAULTS: Final = {field.name: getattr(Options(), field.name) for field in fields(Options)}
+_LIMITS: Final = ("time_limit", "memory_limit")
 
 
 def _option(name: str, help: str, metavar: str | None = None) -> Any:  # noqa: A002 - typer's word
@@ -68,3 +70,14 @@ NoBlock = Annotated[
 def given(**options: str | bool | Path | None) -> dict[str, Any]:
     """The options that the user gave; what is left out keeps its default."""
     return {name: value for name, value in options.items() if value is not None}
+
+
+def among(arguments: Mapping[str, Any], *, limits: bool = False) -> dict[str, Any]:
+    """Those arguments of a command that are options of a planning call, and that the user gave.
+
+    Args:
+        arguments: of the command, by name: its ``locals()``.
+        limits: with the time and memory limit, where the answer is to name them.
+    """
+    names = (name for name in _DEFAULTS if limits or name not in _LIMITS)
+    return given(**{name: arguments[name] for name in names if name in arguments})
