@@ -20,7 +20,6 @@ import tempfile
 import time
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass, fields, replace
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +27,7 @@ import serendipity
 from search import prepare
 from serendipity import Result, Task
 from serendipity.facade.prepared import HELD
+from serendipity.model.numbers import as_written
 
 DEADLINES = (5.0, 0.5, 0.05)
 """Seconds; the first one selects."""
@@ -152,7 +152,7 @@ def _call(task: Task, options: dict[str, Any], row: Row) -> Row:
 def _gap(result: Result) -> float | None:
     if result.objective is None or result.lower_bound is None:
         return None
-    objective, bound = Fraction(str(result.objective)), Fraction(str(result.lower_bound))
+    objective, bound = as_written(result.objective), as_written(result.lower_bound)
     return float((objective - bound) / objective) if objective else 0.0
 
 

@@ -106,18 +106,14 @@ def _solve(name: str, task: Task, ties: str, time_limit: float, tally: Tally) ->
     start = time.process_time()
     result = serendipity.plan(task, mode="assistance", ties=ties, time_limit=time_limit)
     took = time.process_time() - start
-    bounds = result.statistics["bounds"]
-    lower, upper = (", ".join(bounds[side] or ["-"]) for side in ("lower", "upper"))
+    bounds = result.bounds
+    assert bounds is not None, "every answer of the mode has bounds"
+    lower, upper = (", ".join(map(str, side or ["-"])) for side in (bounds.lower, bounds.upper))
     print(f"{name:<28} {ties:<11} {result.status:<10} {lower:>14} {upper:>14} {took:8.3f}", flush=True)
     key = (name.split("/")[0], ties)
     tally.seconds.setdefault(key, []).append(took)
     tally.proved[key] = tally.proved.get(key, 0) + (result.status in ("optimal", "infeasible"))
-    return _pair(bounds["lower"]), None if bounds["upper"] is None else _pair(bounds["upper"])
-
-
-def _pair(texts: list[str]) -> Costs:
-    first, second = map(Fraction, texts)
-    return first, second
+    return bounds.lower, bounds.upper
 
 
 def _bound(task: Task, time_limit: float) -> Bounds:

@@ -20,8 +20,8 @@ import networkx as nx
 PACKAGES = ("search", "verify", "serendipity")
 
 PATTERNS = {
-    "Fraction(str(": r"Fraction\(str\(",
-    "statistics[ outside the model": r"statistics\[",
+    "Fraction(str( outside the model": r"Fraction\(str\(",
+    "statistics[ or .get( outside the model": r"statistics(\[|\.get\()",
     ".derived(": r"\.derived\(",
     "__dict__": r"\.__dict__\b",
     "id(": r"(?<![\w.])id\(",

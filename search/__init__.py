@@ -4,14 +4,12 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 :class:`PreparedTask`, which its caller makes, holds and moves.
 """
 
-from search.engine.outcome import Outcome
 from search.human.individual_planner import PlanGraph
 from search.planner import optimal_human_plans, solve
 from search.prepared_task import PreparedTask, prepare
 from search.tie_bound import least_over_ties
 
 __all__ = [
-    "Outcome",
     "PlanGraph",
     "PreparedTask",
     "least_over_ties",

@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
-from search.engine.outcome import path_steps, plan_steps
+from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.planner import left_alone

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
-from search.engine.outcome import Outcome, path_sets, path_steps, plan_steps
+from search.engine.paths import path_sets, path_steps, plan_steps
 from search.human.individual_planner import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
@@ -14,11 +14,13 @@ from search.prepared_task import PreparedTask
 from search.spaces.factory import free_bounds, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
 from search.spaces.unrestricted import Unrestricted
+from serendipity.model.answer import Answer, saved
 from serendipity.model.deadline import Deadline
-from serendipity.model.errors import LIMITS, UsageError, limit_reason
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.horizon import horizon_of
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.plans import Step, Window
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task import HumanPlan
 
 
 def solve(
@@ -27,7 +29,7 @@ def solve(
     *,
     human_plan: HumanPlan | None = None,
     deadline: Deadline | None = None,
-) -> Iterator[Outcome]:
+) -> Iterator[Answer]:
     """Answers with falling objective and rising lower bound; the last one is the best known.
 
     Args:
@@ -45,13 +47,13 @@ def solve(
         predicted = context.optimal_plans() if human_plan is None else None
         plan = human_plan if predicted is None else predicted.canonical()
         if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
-            answers = iter((Outcome("infeasible", reason="no-human-plan"),))
+            answers = iter((Answer("infeasible", reason="no-human-plan"),))
         elif plan is not None and options.mode == "individual":
             answers = iter((_individual(context, plan),))
         else:
             answers = _Call(context, plan, given=human_plan is not None).answers()
     except LIMITS as limit:
-        answers = iter((Outcome("unknown", reason=limit_reason(limit)),))
+        answers = iter((Answer("unknown", reason=limit_reason(limit)),))
     yield from answers
 
 
@@ -100,14 +102,14 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
     return LeftAlone(plan, int(call.horizon), call.keys.cost(key) if key < INFINITE_KEY else None)
 
 
-def _individual(context: SearchContext, plan: HumanPlan) -> Outcome:
+def _individual(context: SearchContext, plan: HumanPlan) -> Answer:
     """The human alone, optimally, whatever plan of theirs is given."""
     graph = context.optimal_plans()
     assert graph is not None, "a plan that reaches the goal was given or found"
     best = graph.canonical()
     cost, given = context.task.cost_of(best), context.task.cost_of(plan)
     answer = plan if cost == given else best
-    return Outcome(
+    return Answer(
         "optimal",
         human_plan=plan,
         horizon=max(len(plan), len(answer)),
@@ -116,30 +118,11 @@ def _individual(context: SearchContext, plan: HumanPlan) -> Outcome:
         objective=cost,
         lower_bound=cost,
         baseline=given,
+        saving=Fraction(0),
         saving_alone=given - cost,
         expanded=graph.expanded,
         generated=graph.generated,
     )
-
-
-def _horizon(options: Options, task: Task, plan: HumanPlan | None) -> int | str:
-    """``T`` (semantics 2, 3.5)."""
-    if options.horizon is not None:
-        shortest = 0 if plan is None else len(plan)
-        if isinstance(options.horizon, int) and options.horizon < shortest:
-            raise UsageError(
-                f"horizon: expected at least {shortest}, as long as the human's plan, got {options.horizon}"
-            )
-        return options.horizon
-    if plan is None:
-        if options.mode == "composite":
-            return INFINITE
-        raise UsageError("horizon: must be given, since the human has no plan alone")
-    if not plan and not task.robot_goal.holds(task.init):
-        raise UsageError(
-            "horizon: must be given, since the human's goal holds already and robots have theirs"
-        )
-    return len(plan)
 
 
 class _Call:
@@ -156,7 +139,7 @@ class _Call:
         self.deadline = context.deadline
         self.plan = plan
         self.given = given
-        self.horizon = _horizon(self.options, self.task, plan)
+        self.horizon = horizon_of(self.task, self.options, plan)
         self.epochs = None if self.horizon == INFINITE else int(self.horizon)
         self.context = context.for_plan(plan or ())
         self.keys = self.context.keys
@@ -171,7 +154,7 @@ class _Call:
         """Whether a given plan costs more than an optimal one."""
         self.limit: str | None = None
 
-    def answers(self) -> Iterator[Outcome]:
+    def answers(self) -> Iterator[Answer]:
         """Each better answer, then the last one with what is proved of it."""
         try:
             self.leave_alone()
@@ -286,24 +269,27 @@ class _Call:
         """What is answered: with windows the baseline, where there is no opportunity."""
         return self.baseline if self.options.windowed and not self._helps() else self.best
 
-    def _outcome(self, status: str) -> Outcome:
+    def _outcome(self, status: str) -> Answer:
         helps = self._helps()
         answer = self._answer()
         has_plan = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
+        cost = self.keys.cost(answer.key) if has_plan else None
+        baseline = self.keys.cost(self.baseline.key) if self.baseline.key < INFINITE_KEY else None
         saving_alone = None
-        if self.baseline.key < INFINITE_KEY and self.settled:
-            saving_alone = self.keys.cost(self.baseline.key) - self.keys.cost(self.idle.key)
-        return Outcome(
+        if baseline is not None and self.settled and has_plan:
+            saving_alone = baseline - self.keys.cost(self.idle.key)
+        return Answer(
             status,
             human_plan=self.plan,
             horizon=self.horizon,
             reason=self._reason(status),
             steps=self._steps(answer) if has_plan else None,
             window=Window(answer.node.start, answer.end) if answer.node and answer.end and has_plan else None,
-            cost=self.keys.cost(answer.key) if has_plan else None,
+            cost=cost,
             objective=self.keys.objective(answer.key) if has_plan else None,
             lower_bound=self._lower_bound(status, answer),
-            baseline=self.keys.cost(self.baseline.key) if self.baseline.key < INFINITE_KEY else None,
+            baseline=baseline,
+            saving=saved(baseline, cost, opportunity=helps),
             saving_alone=saving_alone,
             opportunity=helps,
             expanded=self.progress.expanded,

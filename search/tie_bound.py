@@ -23,6 +23,7 @@ from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.windowed import Unscheduled, Windowed
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS
+from serendipity.model.horizon import horizon_of
 from serendipity.model.options import Options
 from serendipity.model.task import HumanPlan
 
@@ -39,7 +40,7 @@ def least_over_ties(
         deadline: deadline and cancellation.
     """
     plan = graph.canonical()
-    horizon = options.horizon if isinstance(options.horizon, int) else len(plan)
+    horizon = int(horizon_of(prepared.task, options, plan))
     replans = options.suffix == "replan" and options.preservation == "kernel"
     try:
         if options.mode == "serendipity" and options.human_model == "omniscient" and replans and plan:

@@ -1,7 +1,7 @@
 """From a task and options to the answer of mode ``assistance`` (semantics 7)."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 from typing import Final, TypeVar
 
@@ -15,12 +15,13 @@ from search.assistance.solvers.cheapest_run import CheapestRun
 from search.assistance.solvers.lao_star import LaoStar
 from search.assistance.writing import Writer
 from search.prepared_task import PreparedTask
+from serendipity.model.answer import Answer, PolicyBounds
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.policy import Policy
-from serendipity.model.task import HumanPlan
+from serendipity.model.task import HumanPlan, Task
 
 _T = TypeVar("_T")
 
@@ -28,48 +29,20 @@ _BOUND_SHARE: Final = 0.04
 """What a first bound may add to the time limit: a share of it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Assistance:
-    """An answer, proved or on the way to it.
-
-    Attributes:
-        status: as in :class:`serendipity.model.Result`.
-        lower: no policy is worth less.
-        upper: what the policy is worth, or at most worth; None without one.
-        human_plan: their canonical optimal plan alone; None if there is none, or it is unknown.
-        policy: what the supporter does; None without one.
-        plan: both agents' actions, S before P in each epoch; None where P may choose.
-        reason: why there is no policy.
-        expanded: states expanded.
-    """
-
-    status: str
-    lower: Costs
-    upper: Costs | None = None
-    human_plan: HumanPlan | None = None
-    policy: Policy | None = None
-    plan: tuple[Step, ...] | None = None
-    reason: str | None = None
-    expanded: int = 0
-
-
-def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iterator[Assistance]:
+def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iterator[Answer]:
     """Answers of falling value; the last one is the best known.
 
     Args:
-        prepared: a task of one human and one robot.
+        prepared: a task of one human and exactly one robot.
         options: ``ties`` and ``no_block`` count.
         deadline: deadline and cancellation.
-
-    Raises:
-        UsageError: there is not exactly one robot.
     """
     left = deadline.left()
     own_deadline = PhaseDeadline(deadline, None if left is None else left / 2)
     try:
         game = Game(prepared, deadline, own_deadline)
     except LIMITS as limit:
-        yield Assistance("unknown", ZERO, reason=limit_reason(limit))
+        yield _said(prepared.task, "unknown", PolicyBounds(ZERO, None), reason=limit_reason(limit))
         return
     late = _limit_of(partial(game.alone, game.init))
     if late is not None:
@@ -88,7 +61,7 @@ def _limit_of(work: Callable[[], object]) -> str | None:
     return None
 
 
-def _searched(game: Game, options: Options) -> Iterator[Assistance]:
+def _searched(game: Game, options: Options) -> Iterator[Answer]:
     """Answers of the search, which needs to know what the prime does alone."""
     writer = Writer(game, options.ties)
     search: CheapestRun | LaoStar | None = None
@@ -104,7 +77,7 @@ def _searched(game: Game, options: Options) -> Iterator[Assistance]:
     yield _unfinished(game, writer, search, late)
 
 
-def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:
+def _without_his_optimum(game: Game, limit: str) -> Iterator[Answer]:
     """Bounds where the prime's optimal cost could not be worked out in half of the time, or in memory."""
     if limit == "memory-limit":
         game.forget_own()
@@ -114,31 +87,33 @@ def _without_his_optimum(game: Game, limit: str) -> Iterator[Assistance]:
     except LIMITS:
         upper = INFINITE
     if upper >= INFINITE:
-        yield Assistance("unknown", lower, reason=limit)
+        yield _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
     else:
-        yield Assistance("feasible", lower, upper=game.pair(upper), policy=Policy((), None))
+        yield _said(game.task, "feasible", PolicyBounds(lower, game.pair(upper)), policy=Policy((), None))
 
 
-def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Assistance:
+def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Answer:
     """What is known when the time is up: doing nothing is always an answer, if the prime has a plan."""
     known = Solution(None, None) if search is None else search.solution(floors=False)
     if search is not None and known.upper is not None and known.lower == known.upper:
         return _answer(writer, search, "optimal")
     lower = max(_bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE)), known.lower or ZERO)
     if search is not None and known.upper is not None:
+        bounds = PolicyBounds(lower, known.upper)
+        status = "optimal" if lower == known.upper else "feasible"
         answer = _answer(writer, search, "feasible")
-        return replace(answer, lower=lower, status="optimal" if lower == answer.upper else "feasible")
+        return answer._replace(status=status, bounds=bounds, lower_bound=_least_sum(bounds))
     alone = game.alone(game.init)  # known since the first phase
     if alone >= INFINITE:
-        return Assistance("unknown", lower, reason=limit)
+        return _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
     idle = Solution(lower, game.pair(alone))
-    return Assistance(
+    return _said(
+        game.task,
         "feasible",
-        lower,
-        upper=idle.upper,
+        PolicyBounds(lower, idle.upper),
         human_plan=_in_time(writer.human_plan),
         policy=Policy((), None),
-        plan=_in_time(partial(writer.plan, idle)),
+        steps=_in_time(partial(writer.plan, idle)),
     )
 
 
@@ -158,19 +133,61 @@ def _search(game: Game, options: Options) -> CheapestRun | LaoStar:
     return LaoStar(game, bound, Worst() if options.ties == "robust" else Mean(game), no_block=no_block)
 
 
-def _answer(writer: Writer, search: CheapestRun | LaoStar, status: str) -> Assistance:
+def _answer(writer: Writer, search: CheapestRun | LaoStar, status: str) -> Answer:
     solution = search.solution(floors=status == "optimal")
     has_policy = status in ("optimal", "feasible")
-    return Assistance(
+    return _said(
+        writer.task,
         status,
-        lower=solution.lower or ZERO,
-        upper=solution.upper,
+        PolicyBounds(solution.lower or ZERO, solution.upper),
         human_plan=_in_time(writer.human_plan),
         policy=writer.policy(solution) if has_policy else None,
-        plan=_in_time(partial(writer.plan, solution)) if has_policy else None,
+        steps=_in_time(partial(writer.plan, solution)) if has_policy else None,
         reason="no-plan" if status == "infeasible" else None,
         expanded=search.expanded,
     )
+
+
+def _said(
+    task: Task,
+    status: str,
+    bounds: PolicyBounds,
+    *,
+    human_plan: HumanPlan | None = None,
+    policy: Policy | None = None,
+    steps: tuple[Step, ...] | None = None,
+    reason: str | None = None,
+    expanded: int = 0,
+) -> Answer:
+    """An answer with the figures that follow from its bounds and from the human's plan alone."""
+    baseline = None if human_plan is None else task.cost_of(human_plan)
+    upper = bounds.upper
+    total = None if upper is None else sum(upper, Fraction(0))
+    saving = None if baseline is None or upper is None else baseline - upper[0]
+    return Answer(
+        status,
+        human_plan=human_plan,
+        reason=reason,
+        steps=steps,
+        cost=total,
+        objective=total,
+        lower_bound=None if status == "infeasible" else _least_sum(bounds),
+        baseline=baseline,
+        saving=saving,
+        saving_alone=None if baseline is None else Fraction(0),
+        opportunity=saving is not None and saving > 0,
+        expanded=expanded,
+        generated=None,
+        realised={},
+        bounds=bounds,
+        policy=policy,
+    )
+
+
+def _least_sum(bounds: PolicyBounds) -> Fraction:
+    """What both costs add up to at least, the human's coming first."""
+    lower, upper = bounds.lower, bounds.upper
+    return sum(lower, Fraction(0)) if upper is not None and lower[0] == upper[0] else lower[0]
 
 
 def _in_time(write: Callable[[], _T]) -> _T | None:

@@ -18,6 +18,7 @@ class Writer:
     """
 
     def __init__(self, game: Game, ties: str) -> None:
+        self.task = game.task
         self._game = game
         self._ties = ties
         packed = game.packed

@@ -19,8 +19,8 @@ from itertools import count
 from math import lcm
 
 from search.context import SearchContext
-from search.engine.outcome import Outcome, path_steps, plan_steps
-from search.goals.outcome import Candidate, Expected, ServedGoal
+from search.engine.paths import path_steps, plan_steps
+from search.goals.candidate import Candidate
 from search.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packings import human_facts
@@ -28,8 +28,10 @@ from search.packed.successor_generator import NOTHING, JointAction, Successors, 
 from search.planner import solve
 from search.prepared_task import PreparedTask
 from search.spaces.factory import suffix_rule
+from serendipity.model.answer import Answer, ServedGoal, saved
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS
+from serendipity.model.horizon import common_horizon
 from serendipity.model.options import Options
 from serendipity.model.plans import Step, Window
 
@@ -45,14 +47,20 @@ def solve_expected(
     options: Options,
     candidates: Sequence[Candidate],
     deadline: Deadline | None = None,
-) -> Expected:
+) -> Answer:
     """The robots' plan of least expected objective, or doing nothing if none is cheaper than that.
+
+    Costs are expectations, ``steps`` is what robots do by themselves whatever the goal is, and ``goals``
+    what happens then for each candidate; nodes expanded for single candidates count as well.
 
     Args:
         prepared: the task; its own goal plays no part, and robots have none.
         options: mode ``serendipity``; ``horizon`` None means the length of the longest plan.
         candidates: at least one; weights add up to 1.
         deadline: deadline and cancellation.
+
+    Raises:
+        UsageError: the horizon is shorter than the longest plan.
     """
     search = _Search(prepared, options, candidates, deadline or Deadline(options.time_limit))
     try:
@@ -92,8 +100,7 @@ class _Search:
     ) -> None:
         self._prepared = prepared
         self._candidates = candidates
-        longest = max(len(candidate.plan) for candidate in candidates)
-        self._horizon = int(options.horizon) if options.horizon is not None else longest
+        self._horizon = common_horizon(options, [candidate.plan for candidate in candidates])
         self._options = options.but(horizon=self._horizon, time_limit=None)
         self._deadline = deadline
         self._scale = lcm(*(candidate.weight.denominator for candidate in candidates))
@@ -136,15 +143,15 @@ class _Search:
         goals = [candidate.goal for candidate in self._candidates]
         return self._prepared.with_goals(goals, frozenset(asked), self._deadline)
 
-    def _alone_known(self, candidate: Candidate) -> Outcome:
+    def _alone_known(self, candidate: Candidate) -> Answer:
         """The answer of section 3, were this the goal for certain."""
         own = self._prepared.with_goal(candidate.goal)
         *_, last = solve(own, self._options, human_plan=candidate.plan, deadline=self._deadline)
-        self._expanded += last.expanded
-        self._generated += last.generated
+        self._expanded += last.expanded or 0
+        self._generated += last.generated or 0
         return last
 
-    def _floor(self, candidate: Candidate, outcome: Outcome) -> _Rank:
+    def _floor(self, candidate: Candidate, outcome: Answer) -> _Rank:
         """No timeline of the candidate ranks below this: committed robots can do no better."""
         self._deadline.check()
         window = self._options.window_weight
@@ -159,7 +166,7 @@ class _Search:
     def _scaled(self, cost: Fraction) -> int:
         return int(cost * self._keys.scale)
 
-    def _own_actions(self, outcome: Outcome) -> dict[int, JointAction]:
+    def _own_actions(self, outcome: Answer) -> dict[int, JointAction]:
         """What robots do by themselves in an answer, by epoch."""
         found: dict[int, JointAction] = {}
         for step in outcome.steps or ():
@@ -285,7 +292,7 @@ class _Search:
 
     # -- the answer
 
-    def answer(self, status: str) -> Expected:
+    def answer(self, status: str) -> Answer:
         """The incumbent if it is cheaper than idle robots, else: do nothing."""
         plans = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
         baseline = sum((weight * cost for weight, cost in plans), Fraction(0))
@@ -294,30 +301,32 @@ class _Search:
         saving_alone = Fraction(0) if self._idle is None else baseline - self._unscaled(self._idle.rank[1])
         if helps:
             assert best is not None
-            served = tuple(self._served(end) for end in best.ends)
+            served = tuple(map(self._served, self._candidates, best.ends))
             cost, objective = self._unscaled(best.rank[1]), self._unscaled(best.rank[0])
             bound = objective if status == "optimal" else self._unscaled(self._bound[0])
         else:
             served = tuple(
-                ServedGoal(plan_steps(c.plan), None, cost)
+                ServedGoal(c.name, c.weight, c.plan, plan_steps(c.plan), None, cost)
                 for c, (_, cost) in zip(self._candidates, plans, strict=True)
             )
             cost = objective = bound = baseline
             if status != "optimal":  # net of the one epoch that every window has
                 bound = min(cost, max(Fraction(0), self._lower() - self._options.window_weight))
-        return Expected(
+        return Answer(
             status,
             horizon=self._horizon,
-            robots=best.robots if helps and best is not None else (),
-            served=served,
+            steps=best.robots if helps and best is not None else (),
+            goals=served,
             cost=cost,
             baseline=baseline,
+            saving=saved(baseline, cost, opportunity=helps),
             saving_alone=saving_alone,
             objective=objective,
             lower_bound=bound,
             opportunity=helps,
             expanded=self._expanded,
             generated=self._generated,
+            realised={},
         )
 
     def _lower(self) -> Fraction:
@@ -326,11 +335,11 @@ class _Search:
     def _unscaled(self, value: int) -> Fraction:
         return Fraction(value, self._scale * self._keys.scale)
 
-    def _served(self, end: Ended) -> ServedGoal:
+    def _served(self, candidate: Candidate, end: Ended) -> ServedGoal:
         window = Window(end.node.start, end.end) if end.end else None
-        return ServedGoal(
-            path_steps(end.node) + plan_steps(end.tail, end.end), window, self._keys.cost(end.key)
-        )
+        steps = path_steps(end.node) + plan_steps(end.tail, end.end)
+        cost = self._keys.cost(end.key)
+        return ServedGoal(candidate.name, candidate.weight, candidate.plan, steps, window, cost)
 
 
 def _timeline(context: SearchContext, candidate: Candidate, horizon: int) -> GoalTimeline:

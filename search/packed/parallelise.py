@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from serendipity.model.actions import conflicting
+from serendipity.model.actions import apply, conflicting
 from serendipity.model.plans import Step
 from serendipity.model.task import Task
 
@@ -14,7 +14,7 @@ def schedule(task: Task, sets: Sequence[tuple[int, ...]]) -> tuple[Step, ...]:
     nothing in it, so the states that follow stay the same.
     """
     epochs: list[list[int]] = []
-    before = after = task.init
+    before = state = task.init
     for chosen in sets:
         actions = [task.actions[i] for i in chosen]
         joins = bool(epochs) and all(
@@ -26,8 +26,6 @@ def schedule(task: Task, sets: Sequence[tuple[int, ...]]) -> tuple[Step, ...]:
             epochs[-1].extend(chosen)
         else:
             epochs.append(list(chosen))
-            before = after
-        deleted = {f for action in actions for f in action.delete}
-        added = {f for action in actions for f in action.add}
-        after = after.difference(deleted).union(added)
+            before = state
+        state = apply(state, *actions)
     return tuple(sorted(Step(t, i) for t, ids in enumerate(epochs, start=1) for i in ids))

@@ -4,15 +4,17 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from search.engine.best_first import Incumbent, Progress, best_first
-from search.engine.outcome import Outcome, path_steps, plan_steps
+from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.planner import optimal_human_plans
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
 from search.simulation.space import Reactive
 from search.spaces.fixed_human_plan import FixedHumanPlan
+from serendipity.model.answer import Answer, saved
 from serendipity.model.deadline import Deadline
-from serendipity.model.errors import LIMITS, UsageError, limit_reason
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.horizon import horizon_of
 from serendipity.model.options import Options
 from serendipity.model.plans import Step
 from serendipity.model.task import HumanPlan, Task
@@ -26,7 +28,7 @@ def solve_for_human(
     human_plan: HumanPlan | None = None,
     visible: Visible | None = None,
     deadline: Deadline | None = None,
-) -> Iterator[Outcome]:
+) -> Iterator[Answer]:
     """Answers with falling cost and rising lower bound; the last one is the best known.
 
     The minimum is over the robots' action sequences of at most ``T`` epochs.  The human
@@ -47,13 +49,13 @@ def solve_for_human(
     try:
         predicted = optimal_human_plans(prepared, deadline) if human_plan is None else None
     except LIMITS as limit:
-        yield Outcome("unknown", reason=limit_reason(limit))
+        yield Answer("unknown", reason=limit_reason(limit))
         return
     plan = human_plan if predicted is None else predicted.canonical()
     if plan is None:
-        yield Outcome("infeasible", reason="no-human-plan")
+        yield Answer("infeasible", reason="no-human-plan")
         return
-    epochs = _epochs(task, options, plan)
+    epochs = int(horizon_of(task, options, plan))
     try:
         if not task.robot_goal:
             yield _left_alone(task, plan, epochs, given=human_plan is not None)
@@ -63,18 +65,18 @@ def solve_for_human(
         )
     except LIMITS as limit:
         if task.robot_goal:
-            yield Outcome("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
+            yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
         return
     yield from _Call(task, options, human, plan, epochs, deadline).answers()
 
 
-def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Outcome:
+def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Answer:
     """The first answer: robots do nothing, and the human does what they were going to do.
 
     What they gain alone is known only of an optimal plan.
     """
     cost = task.cost_of(plan)
-    return Outcome(
+    return Answer(
         "feasible",
         human_plan=plan,
         horizon=epochs,
@@ -83,23 +85,9 @@ def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Out
         objective=cost,
         lower_bound=Fraction(0),
         baseline=cost,
+        saving=Fraction(0),
         saving_alone=None if given else Fraction(0),
     )
-
-
-def _epochs(task: Task, options: Options, plan: HumanPlan) -> int:
-    """``T`` (semantics 2, 3.5)."""
-    if not isinstance(options.horizon, int):
-        if not plan and not task.robot_goal.holds(task.init):
-            raise UsageError(
-                "horizon: must be given, since the human's goal holds already and robots have theirs"
-            )
-        return len(plan)
-    if options.horizon < len(plan):
-        raise UsageError(
-            f"horizon: expected at least {len(plan)}, the length of the human's plan, got {options.horizon}"
-        )
-    return options.horizon
 
 
 class _Call:
@@ -126,7 +114,7 @@ class _Call:
         """Whether it is known what the human does alone."""
         self.limit: str | None = None
 
-    def answers(self) -> Iterator[Outcome]:
+    def answers(self) -> Iterator[Answer]:
         """Each better answer, then the last one with what is proved of it."""
         try:
             self._follow()
@@ -194,13 +182,13 @@ class _Call:
         rivals = [key for key in (self.baseline.key, self.idle.key) if key < INFINITE_KEY]
         return all(keys.cost(found) < keys.cost(key) for key in rivals)
 
-    def _outcome(self, status: str) -> Outcome:
+    def _outcome(self, status: str) -> Answer:
         helps, keys = self._helps(), self.human.keys
         answer = self.best if helps or self.task.robot_goal else self.baseline
         known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
         baseline = None if self.baseline.key == INFINITE_KEY else keys.cost(self.baseline.key)
         cost = keys.cost(answer.key) if known else None
-        return Outcome(
+        return Answer(
             status,
             human_plan=self.plan,
             horizon=self.epochs,
@@ -210,7 +198,8 @@ class _Call:
             objective=cost,
             lower_bound=cost if status == "optimal" else self._lower_bound(status),
             baseline=baseline,
-            saving_alone=self._saving_alone(baseline),
+            saving=saved(baseline, cost, opportunity=helps),
+            saving_alone=self._saving_alone(baseline) if known else None,
             opportunity=helps,
             expanded=self.progress.expanded,
             generated=self.progress.generated,

@@ -1,5 +1,6 @@
 """Why this help, why now, why at this price - or why none: each statement backed by a planning call."""
 
-from serendipity.explanation.explain import Explanation, explain
+from serendipity.explanation.explain import explain
+from serendipity.explanation.explanation import Explanation
 
 __all__ = ["Explanation", "explain"]

@@ -1,93 +1,27 @@
 """Puts an explanation together."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Final, TypeVar
 
-from serendipity.explanation.ask import PROVED, Ask, Parts, parts_of
-from serendipity.explanation.break_even import Threshold, discount_threshold, window_weight_threshold
-from serendipity.explanation.misses import Miss, misses, removal_of
-from serendipity.explanation.moments import Moment, moments
+from serendipity.explanation.ask import PROVED, Ask, parts_of
+from serendipity.explanation.break_even import discount_threshold, window_weight_threshold
+from serendipity.explanation.explanation import Explanation
+from serendipity.explanation.misses import misses, removal_of
+from serendipity.explanation.moments import moments
 from serendipity.explanation.wording import sentences
-from serendipity.facade.interruptibility import InterruptionReport, Removal, interruptions
-from serendipity.facade.planning import options_from
+from serendipity.facade.call import options_from
+from serendipity.facade.interruptibility import InterruptionReport, interruptions
 from serendipity.model import Deadline, LimitReachedError, Result, Task, UsageError
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.limits import limits_from
 
-SCHEMA: Final = "serendipity.explanation/1"
 _MODES: Final = ("serendipity", "communication", "composite")
 _REPORTED: Final = ("discount", "horizon", "suffix", "preservation", "interference")
 
 T = TypeVar("T")
 
 OnProgress = Callable[[int, int], None] | None
-
-
-@dataclass(frozen=True, slots=True)
-class Explanation:
-    """Why an answer is what it is.
-
-    Attributes:
-        answer: what is explained.
-        removal: what disappears from the human's plan and what replaces it; None without help.
-        parts: what the answer's plan costs; None without a plan.
-        moments: each start of the window; empty where windows play no part.
-        discount: where help begins to pay; None where that is not computed.
-        window_weight: the greatest ``K`` at which longer interruptions help; None where not computed.
-        announcement: the answer in communication mode, or None.
-        misses: what would help if a rule were relaxed; empty where a robot helps anyway.
-        sentences: all of it in words, topic by topic.
-        limit: which limit came before everything was found out (as ``Result.reason`` has it), or None.
-        left_out: what is missing for it: ``moment``, ``discount``, ``window_weight``,
-            ``announcement``, ``miss``.
-    """
-
-    answer: Result
-    removal: Removal | None
-    parts: Parts | None
-    moments: tuple[Moment, ...]
-    discount: Threshold | None
-    window_weight: Threshold | None
-    announcement: Result | None
-    misses: tuple[Miss, ...]
-    sentences: tuple[tuple[str, str], ...] = ()
-    limit: str | None = None
-    left_out: tuple[str, ...] = ()
-
-    @property
-    def complete(self) -> bool:
-        """Whether nothing is missing for want of time or memory."""
-        return self.limit is None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object (schema ``serendipity.explanation/1``)."""
-        answer, gone, told = self.answer, self.removal, self.announcement
-        return {
-            "schema": SCHEMA,
-            "complete": self.complete,
-            "limit": self.limit,
-            "left_out": list(self.left_out),
-            "mode": answer.mode,
-            "opportunity": answer.opportunity,
-            "human_cost": answer.human_cost,
-            "cost": answer.cost,
-            "saving": answer.saving,
-            "reason": answer.reason,
-            "removed": None if gone is None else list(gone.removed),
-            "removed_first": None if gone is None else gone.first,
-            "removed_last": None if gone is None else gone.last,
-            "replacement": None if gone is None else list(gone.replacement),
-            "human_part": None if self.parts is None else float(self.parts.human),
-            "robot_part": None if self.parts is None else float(self.parts.discounted(answer.options)),
-            "moments": [moment.to_dict() for moment in self.moments],
-            "break_even_discount": None if self.discount is None else self.discount.to_dict(),
-            "break_even_window_weight": None if self.window_weight is None else self.window_weight.to_dict(),
-            "announcement": None if told is None else {"cost": told.cost, "opportunity": told.opportunity},
-            "misses": [miss.to_dict() for miss in self.misses],
-            "sentences": [{"topic": topic, "text": text} for topic, text in self.sentences],
-            "options": answer.options.to_dict(),
-        }
 
 
 def explain(

@@ -48,12 +48,11 @@ class Miss:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
-        window = None if self.window is None else {"start": self.window.start, "end": self.window.end}
         return {
             "rule": self.rule,
             "cost": self.cost,
             "saving": self.saving,
-            "window": window,
+            "window": None if self.window is None else self.window.to_dict(),
             "removed": list(self.removal.removed),
             "replacement": list(self.removal.replacement),
         }

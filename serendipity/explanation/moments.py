@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result, Window
+from serendipity.model.numbers import as_written, rounded
 
 WHY: Final = {
     "chosen": "this is the answer",
@@ -43,11 +44,11 @@ class Moment:
         """The JSON object."""
         return {
             "start": self.start,
-            "window": _window(self.window),
-            "cost": None if self.cost is None else float(self.cost),
+            "window": self.window.to_dict(),
+            "cost": rounded(self.cost),
             "why": self.why,
-            "instead": None if self.instead is None else _window(self.instead),
-            "saving": None if self.saving is None else float(self.saving),
+            "instead": None if self.instead is None else self.instead.to_dict(),
+            "saving": rounded(self.saving),
         }
 
 
@@ -76,7 +77,7 @@ def _moment(
     if answer.window is not None and answer.window.start == start:
         return Moment(start, answer.window, cost, "chosen")
     if _positive(best.team_saving):
-        as_good = answer.cost is not None and cost == Fraction(str(answer.cost))
+        as_good = answer.cost is not None and cost == as_written(answer.cost)
         return Moment(start, best.window, cost, "as-good" if as_good else "saves-less")
     later = next((entry for entry in fitting if _positive(entry.team_saving)), None)
     if later is not None:
@@ -89,7 +90,3 @@ def _moment(
 
 def _positive(value: Fraction | None) -> bool:
     return value is not None and value > 0
-
-
-def _window(window: Window) -> dict[str, int]:
-    return {"start": window.start, "end": window.end}

@@ -1,21 +1,17 @@
 """Explanations in words: for each topic some sentences, each of a fact found by planning."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import groupby
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from serendipity.explanation.break_even import Threshold
+from serendipity.explanation.explanation import Explanation
 from serendipity.explanation.misses import RULES, Miss
 from serendipity.explanation.moments import WHY, Moment
 from serendipity.model import Result, Window
 from serendipity.model.errors import limit_words
-from serendipity.model.numbers import plain
-
-if TYPE_CHECKING:
-    from serendipity.explanation.explain import Explanation
+from serendipity.model.numbers import as_written, plain
 
 _MISSING: Final = {
     "moment": "why the window starts when it does",
@@ -162,7 +158,7 @@ def _announcement(found: Explanation) -> Iterator[str]:
     told, answer = found.announcement, found.answer
     if told is None or told.cost is None or answer.cost is None:
         return
-    gain = Fraction(str(answer.cost)) - Fraction(str(told.cost))
+    gain = as_written(answer.cost) - as_written(told.cost)
     if gain > 0:
         yield (
             f"One sentence in advance would gain {plain(gain)}: {plain(told.cost)} instead of "

@@ -7,12 +7,15 @@ from typing import Any, Final
 
 from search.interruptions import Interruptions, WindowOutcome
 from search.interruptions import interruptions as search_windows
-from serendipity.facade.planning import options_from
+from serendipity.facade.call import options_from
 from serendipity.facade.prepared import HELD
+from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
 from serendipity.model.collection import no_collection
 from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.execution import actions_of
 from serendipity.model.limits import limits_from
+from serendipity.model.numbers import rounded
 
 SCHEMA: Final = "serendipity.interruptions/1"
 
@@ -71,11 +74,11 @@ class Interruption:
                 "actions": list(self.removal.removed),
             }
         return {
-            "window": {"start": self.window.start, "end": self.window.end},
-            "human_cost": _float(self.human_cost),
-            "team_cost": _float(self.team_cost),
-            "human_saving": _float(self.human_saving),
-            "team_saving": _float(self.team_saving),
+            "window": self.window.to_dict(),
+            "human_cost": rounded(self.human_cost),
+            "team_cost": rounded(self.team_cost),
+            "human_saving": rounded(self.human_saving),
+            "team_saving": rounded(self.team_saving),
             "removed": removed,
             "replacement": None if self.removal is None else list(self.removal.replacement),
             "plan": None if self.plan is None else [step.to_dict() for step in self.plan],
@@ -123,8 +126,8 @@ class InterruptionReport:
             "limit": self.limit,
             "human": self.human,
             "human_plan": None if self.human_plan is None else list(self.human_plan),
-            "human_cost": _float(self.human_cost),
-            "team_cost": _float(self.team_cost),
+            "human_cost": rounded(self.human_cost),
+            "team_cost": rounded(self.team_cost),
             "horizon": self.horizon,
             "interruptible": self.interruptible,
             "reason": "no-human-plan" if self.human_plan is None else None,
@@ -216,7 +219,7 @@ def _interruption(
         human_saving=_less(alone, outcome.human_cost),
         team_saving=_less(found.baseline, outcome.team_cost),
         removal=None if steps is None else _removal(task, found.human_plan, steps),
-        plan=None if steps is None else tuple(_named(task, options, step) for step in steps),
+        plan=None if steps is None else named_steps(task, options.discount, steps),
     )
 
 
@@ -252,20 +255,9 @@ def removal(former: tuple[str, ...], executed: tuple[str, ...]) -> Removal:
 
 
 def _removal(task: Task, human_plan: tuple[int, ...], steps: tuple[Step, ...]) -> Removal:
-    actions = task.actions
-    executed = (actions[s.action] for s in sorted(steps) if task.human in actions[s.action].participants)
-    return removal(tuple(actions[i].name for i in human_plan), tuple(action.name for action in executed))
-
-
-def _named(task: Task, options: Options, step: Step) -> PlanStep:
-    action = task.actions[step.action]
-    agents = tuple(task.agents[i] for i in action.participants)
-    return PlanStep(step.epoch, agents, action.name, float(task.team_cost(action, options.discount)))
+    executed = (a.name for a in actions_of(task, sorted(steps)) if task.human in a.participants)
+    return removal(tuple(task.actions[i].name for i in human_plan), tuple(executed))
 
 
 def _less(before: Fraction | None, after: Fraction | None) -> Fraction | None:
     return None if before is None or after is None else before - after
-
-
-def _float(value: Fraction | None) -> float | None:
-    return None if value is None else float(value)

@@ -5,9 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
-from serendipity.facade.planning import Given, planned, planned_anytime
+from serendipity.facade.call import Given
+from serendipity.facade.planning import planned, planned_anytime
 from serendipity.facade.prepared import HELD
-from serendipity.model.actions import Condition, GroundAction, conflicting
+from serendipity.model.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.result import Result
 from serendipity.model.task import HumanPlan, Task, canonical_name
@@ -99,9 +100,7 @@ class Session:
             for other in chosen[:i]:
                 if conflicting(action, other, strict=False):
                     raise UsageError(f"'{other.name}' and '{action.name}' can't share an epoch")
-        deleted = {fact for action in chosen for fact in action.delete}
-        added = {fact for action in chosen for fact in action.add}
-        self._prepared = self._prepared.at(self.task.init.difference(deleted).union(added))
+        self._prepared = self._prepared.at(apply(self.task.init, *chosen))
         self._follow([action for action in chosen if self.task.human in action.participants])
 
     def change(self, facts: Mapping[str, bool]) -> None:

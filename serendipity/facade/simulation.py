@@ -8,12 +8,15 @@ from search import PreparedTask
 from search.simulation import Epoch, Simulated
 from search.simulation import simulate as play
 from serendipity.facade.prepared import HELD
+from serendipity.facade.results import named_steps
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, InputError, UsageError
+from serendipity.model.execution import actions_named, participants
 from serendipity.model.limits import limits_from
+from serendipity.model.numbers import rounded
 from serendipity.model.options import Options
-from serendipity.model.plans import Step
-from serendipity.model.result import PlanStep, Result
+from serendipity.model.plans import PlanStep, Step
+from serendipity.model.result import Result
 from serendipity.model.task import HumanPlan, Task
 from serendipity.model.trace import WHY, Trace, TraceEpoch, TraceSkip
 from serendipity.model.visibility import Visible
@@ -128,13 +131,11 @@ def _human_plan(task: Task, result: Result) -> HumanPlan:
 
 def _action(task: Task, step: PlanStep) -> int:
     """The action that a step of a result names; of several with one name any will do."""
-    agents = sorted(step.agents)
-    for i in task.named.get(step.action, ()):
-        if sorted(task.agents[agent] for agent in task.actions[i].participants) == agents:
-            return i
-    raise InputError(
-        f"result: is for another task: this one has no action '{step.action}' of {', '.join(agents)}"
-    )
+    found = actions_named(task, step.action, step.agents)
+    if not found:
+        who = ", ".join(sorted(step.agents))
+        raise InputError(f"result: is for another task: this one has no action '{step.action}' of {who}")
+    return found[0]
 
 
 class _Story:
@@ -199,28 +200,28 @@ class _Story:
             yield TraceEpoch(
                 epoch=epoch.epoch,
                 saw=tuple(f"{'' if true else 'not '}{self.task.facts[fact]}" for fact, true in epoch.saw),
-                expected_cost=_float(epoch.kept),
-                best_cost=_float(epoch.best),
+                expected_cost=rounded(epoch.kept),
+                best_cost=rounded(epoch.best),
                 decision=decision,
                 why=_why(decision, epoch),
                 plan=tuple(self._name(i) for i in epoch.plan),
                 did=None if did is None else self._name(did),
                 failed=epoch.failed,
-                steps=tuple(self._step(epoch.epoch, i) for i in sorted(epoch.executed)),
+                steps=self._steps(epoch),
                 skipped=tuple(
                     TraceSkip(self._agents(s.action), self._name(s.action), s.why) for s in epoch.skipped
                 ),
             )
 
+    def _steps(self, epoch: Epoch) -> tuple[PlanStep, ...]:
+        steps = (Step(epoch.epoch, i) for i in sorted(epoch.executed))
+        return named_steps(self.task, self.discount, steps)
+
     def _name(self, action: int) -> str:
         return self.task.actions[action].name
 
     def _agents(self, action: int) -> tuple[str, ...]:
-        return tuple(self.task.agents[i] for i in self.task.actions[action].participants)
-
-    def _step(self, epoch: int, action: int) -> PlanStep:
-        cost = self.task.team_cost(self.task.actions[action], self.discount)
-        return PlanStep(epoch, self._agents(action), self._name(action), float(cost))
+        return participants(self.task, self.task.actions[action])
 
 
 def _why(decision: str, epoch: Epoch) -> str:
@@ -235,7 +236,3 @@ def _why(decision: str, epoch: Epoch) -> str:
 
 def _number(value: Fraction | None) -> str:
     return "" if value is None else f"{float(value):.10g}"
-
-
-def _float(value: Fraction | None) -> float | None:
-    return None if value is None else float(value)

@@ -1,30 +1,65 @@
-"""One answer from the answers for each of the human's optimal plans (semantics 1).
-
-Figures are compared and added up as the search found them, exactly; only the result has floats.
-"""
+"""One answer from the answers for each of the human's optimal plans (semantics 1)."""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from fractions import Fraction
-from typing import Final, NamedTuple
+from functools import partial
+from typing import Final
 
-from search import Outcome
-from serendipity.model.result import Result
+from search import least_over_ties, optimal_human_plans
+from serendipity.facade import one_plan
+from serendipity.facade.call import Call
+from serendipity.model.answer import Answer
+from serendipity.model.errors import LIMITS, UsageError, limit_reason
 
 _A_FEW: Final = 4
 """Answers after which a bound on all of them costs less than it may save."""
 
 
-class Answered(NamedTuple):
-    """The answer to one of the human's plans, as the search and as callers see it."""
+def answers(call: Call) -> Iterator[Answer]:
+    """The answer over all optimal plans of the human's; with ``ties="fixed"`` those to one of them."""
+    if call.options.ties == "fixed":
+        yield from one_plan.answers(call)
+    else:
+        yield _over_ties(call)
 
-    outcome: Outcome
-    result: Result
+
+def _over_ties(call: Call) -> Answer:
+    """The task solved once for each optimal ``pi_H``, as long as that makes a difference.
+
+    Raises:
+        UsageError: there are more than ``max_ties``.
+    """
+    task, options = call.task, call.options
+    try:
+        graph = optimal_human_plans(call.prepared, call.deadline)
+    except LIMITS as limit:
+        return Answer("unknown", reason=limit_reason(limit), gap=())
+    if graph is None:
+        *_, answer = one_plan.answers(call)
+        return answer
+    count = graph.count()
+    if count > options.max_ties:
+        raise UsageError(
+            f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
+            "raise max_ties, or use ties 'fixed'"
+        )
+    bounded = not task.robot_goal
+    found = list(
+        until_settled(
+            map(partial(one_plan.last_answer, call), graph.plans()),
+            options.ties,
+            bounded=bounded,
+            least=lambda: least_over_ties(call.prepared, options, graph, call.deadline),
+        )
+    )
+    everyone = len(found) == count
+    answer = combined(found, options.ties, bounded=bounded, everyone=everyone, limit=call.deadline.reached())
+    return answer._replace(optimal_plans=count)
 
 
 def until_settled(
-    answers: Iterable[Answered], ties: str, *, bounded: bool, least: Callable[[], Fraction | None]
-) -> Iterator[Answered]:
+    answers: Iterable[Answer], ties: str, *, bounded: bool, least: Callable[[], Fraction | None]
+) -> Iterator[Answer]:
     """The answers one by one, until the rest can't make a difference, or a limit has come.
 
     Args:
@@ -37,29 +72,28 @@ def until_settled(
     floor: Fraction | None = None
     for number, answer in enumerate(answers, start=1):
         yield answer
-        found = answer.outcome
-        dearest = found.cost is not None and found.cost == found.baseline
+        dearest = answer.cost is not None and answer.cost == answer.baseline
         # What the rest may cost at most has to be among the answers where the greatest cost counts.
-        if _is_late(answer) and (ties != "robust" or found.cost is None or (bounded and dearest)):
+        if _is_late(answer) and (ties != "robust" or answer.cost is None or (bounded and dearest)):
             return
-        if not bounded or found.status != "optimal":
+        if not bounded or answer.status != "optimal":
             continue
         if number == _A_FEW and ties != "robust":
             floor = least()
-        cheapest = found.cost == floor
+        cheapest = answer.cost == floor
         if {"robust": dearest, "optimistic": cheapest, "expected": dearest and cheapest}[ties]:
             return
 
 
 def combined(
-    answers: list[Answered],
+    answers: list[Answer],
     ties: str,
     *,
     bounded: bool = True,
     everyone: bool = True,
     limit: str | None = None,
-) -> Result:
-    """The answer under ``ties``; ``statistics["ties"]`` has those that it was made of.
+) -> Answer:
+    """The answer under ``ties``, and those that it was made of.
 
     Where one of them has no plan, neither has the whole, unless that is for want of time and
     the least cost is wanted.
@@ -71,89 +105,75 @@ def combined(
         everyone: whether there is an answer for each optimal plan.
         limit: the reason of an answer that is unknown since a limit came before everyone's.
     """
-    listed = [
-        {
-            "human_plan": list(result.human_plan or ()),
-            "cost": result.cost,
-            "opportunity": result.opportunity,
-            "realised": result.realised,
-        }
-        for _, result in answers
-    ]
     chosen = _chosen(answers, ties, bounded=bounded, everyone=everyone, limit=limit)
-    return replace(chosen, statistics={**chosen.statistics, "ties": listed})
+    return chosen._replace(ties=tuple(answers))
 
 
-def _chosen(
-    answers: list[Answered], ties: str, *, bounded: bool, everyone: bool, limit: str | None
-) -> Result:
-    without = [answer.result for answer in answers if answer.outcome.cost is None]
-    impossible = next((result for result in without if result.status == "infeasible"), None)
+def _chosen(answers: list[Answer], ties: str, *, bounded: bool, everyone: bool, limit: str | None) -> Answer:
+    without = [answer for answer in answers if answer.cost is None]
+    impossible = next((answer for answer in without if answer.status == "infeasible"), None)
     if impossible is not None:
         return impossible
-    planned = [answer for answer in answers if answer.outcome.cost is not None]
+    planned = [answer for answer in answers if answer.cost is not None]
     if without and (ties != "optimistic" or not planned):
         return without[0]
     # What is not proved may yet cost less, or more: a smaller window may be worth it.
     late = any(map(_is_late, answers))
     if late and not bounded and (without or not everyone):  # one that is missing may have no plan
-        return _unknown(answers[-1].result, limit)
-    bounds = [answer.outcome.lower_bound or Fraction(0) for answer in answers]
+        return _unknown(answers[-1], limit)
+    bounds = [answer.lower_bound or Fraction(0) for answer in answers]
     if ties != "expected":
         chosen = _extreme(planned, ties)
         lower_bound = min(bounds) if everyone else Fraction(0)
     elif everyone or not late:
-        chosen = _mean([answer.outcome for answer in answers], answers[0].result)
+        chosen = _mean(answers)
         lower_bound = sum(bounds, Fraction(0)) / len(bounds)
     else:  # what the others cost is not known, so there is no mean
-        return _unknown(answers[-1].result, limit)
-    return replace(chosen, status="feasible", lower_bound=float(lower_bound)) if late else chosen
+        return _unknown(answers[-1], limit)
+    return chosen._replace(status="feasible", lower_bound=lower_bound) if late else chosen
 
 
-def _extreme(answers: list[Answered], ties: str) -> Result:
+def _extreme(answers: list[Answer], ties: str) -> Answer:
     """The answer of least (optimistic) or greatest (robust) cost; the first of equals."""
     extreme = min if ties == "optimistic" else max
-    return extreme(answers, key=lambda answer: answer.outcome.cost or Fraction(0)).result
+    return extreme(answers, key=lambda answer: answer.cost or Fraction(0))
 
 
-def _mean(outcomes: list[Outcome], first: Result) -> Result:
+def _mean(answers: list[Answer]) -> Answer:
     """The expected answer: means of the figures, no single plan."""
-    if len(outcomes) == 1:
+    first = answers[0]
+    if len(answers) == 1:
         return first
 
-    def mean(name: str) -> float | None:
-        figures = [getattr(outcome, name) for outcome in outcomes]
-        return None if None in figures else float(sum(figures, Fraction(0)) / len(figures))
+    def mean(figures: list[Fraction | None]) -> Fraction | None:
+        known = [figure for figure in figures if figure is not None]
+        return sum(known, Fraction(0)) / len(known) if len(known) == len(figures) else None
 
-    return replace(
-        first,
-        opportunity=any(outcome.opportunity for outcome in outcomes),
-        cost=mean("cost"),
-        saving=mean("saving"),  # of which there is none where doing nothing is no answer
-        saving_alone=mean("saving_alone"),
-        objective=mean("objective"),
-        lower_bound=mean("lower_bound"),
+    return first._replace(
+        opportunity=any(answer.opportunity for answer in answers),
+        cost=mean([answer.cost for answer in answers]),
+        saving=mean([answer.saving for answer in answers]),  # none where doing nothing is no answer
+        saving_alone=mean([answer.saving_alone for answer in answers]),
+        objective=mean([answer.objective for answer in answers]),
+        lower_bound=mean([answer.lower_bound for answer in answers]),
         window=None,
-        plan=None,
-        agent_costs={},
+        steps=None,
         realised={},
     )
 
 
-def _unknown(answer: Result, limit: str | None) -> Result:
+def _unknown(answer: Answer, limit: str | None) -> Answer:
     """An answer of which nothing is known but which plan of the human it is about."""
-    return Result(
-        answer.mode,
+    return Answer(
         "unknown",
-        answer.human,
-        answer.options,
         human_plan=answer.human_plan,
-        human_cost=answer.human_cost,
         reason=limit,
-        statistics=answer.statistics,
+        expanded=answer.expanded,
+        generated=answer.generated,
+        gap=answer.gap,
     )
 
 
-def _is_late(answer: Answered) -> bool:
+def _is_late(answer: Answer) -> bool:
     """Whether a limit came before it was proved."""
-    return answer.outcome.status in ("feasible", "unknown")
+    return answer.status in ("feasible", "unknown")

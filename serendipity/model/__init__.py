@@ -12,9 +12,9 @@ from serendipity.model.deadline import Deadline
 from serendipity.model.errors import InputError, LimitReachedError, PlanError, SerendipityError, UsageError
 from serendipity.model.numbers import exact
 from serendipity.model.options import INFINITE, Options
-from serendipity.model.plans import Step, Window
+from serendipity.model.plans import PlanStep, Step, Window
 from serendipity.model.policy import Decision, Floor, Policy, StateDelta
-from serendipity.model.result import PlanStep, Result
+from serendipity.model.result import Result
 from serendipity.model.task import HumanPlan, Task
 from serendipity.model.trace import Trace, TraceEpoch, TraceSkip
 from serendipity.model.visibility import Surroundings, Visible, surroundings

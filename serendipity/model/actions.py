@@ -97,6 +97,12 @@ class GroundAction:
         return all(f in state for f in self.pre) and not any(f in state for f in self.neg)
 
 
+def apply(state: frozenset[int], *actions: GroundAction) -> frozenset[int]:
+    """The state after some actions at once: what they delete is gone, what they add is there (eq. 4)."""
+    deleted = state.difference(*[action.delete for action in actions])
+    return deleted.union(*[action.add for action in actions])
+
+
 def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
     """Whether two different actions can't share an epoch (semantics 2, eq. 5, 6, 10).
 

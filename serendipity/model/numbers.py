@@ -1,5 +1,6 @@
 """Exact numbers: costs, discounts and weights are rationals, so ties are exact."""
 
+from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
 from typing import Final
@@ -51,6 +52,28 @@ def fraction(text: str, most: int = MOST_DIGITS) -> Fraction:
     if len(text) > most or (exponent and abs(int(exponent)) > MOST_DIGITS):
         raise ValueError
     return Fraction(text)
+
+
+def as_written(value: float) -> Fraction:
+    """The rational that a figure in a result stands for: the shortest decimal that is this float.
+
+    Figures are rounded when they are written down, so it is the exact one where that has few digits.
+    """
+    return Fraction(str(value))
+
+
+def rounded(value: Fraction | None) -> float | None:
+    """A figure as results have it; None where there is none."""
+    return None if value is None else float(value)
+
+
+def total(values: Iterable[Fraction]) -> Fraction:
+    """The sum of rationals; with few different denominators, as costs have, it adds integers."""
+    numerators: dict[int, int] = {}
+    for value in values:
+        numerator, denominator = value.as_integer_ratio()
+        numerators[denominator] = numerators.get(denominator, 0) + numerator
+    return sum((Fraction(numerator, of) for of, numerator in numerators.items()), Fraction(0))
 
 
 def plain(value: Fraction | float | None) -> str:

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.model.errors import UsageError
-from serendipity.model.numbers import exact
+from serendipity.model.numbers import as_written, exact
 
 INFINITE: Final = "inf"
 """Horizon without an end (composite mode only)."""
@@ -163,7 +163,7 @@ class Options:
 def _plain(value: object) -> object:
     if not isinstance(value, Fraction):
         return value
-    return float(value) if Fraction(str(float(value))) == value else str(value)
+    return float(value) if as_written(float(value)) == value else str(value)
 
 
 def _written(name: str, value: object) -> bool:

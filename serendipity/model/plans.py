@@ -1,6 +1,7 @@
 """Windows and the steps of composite plans."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from serendipity.model.errors import UsageError
 
@@ -23,6 +24,10 @@ class Window:
     def __len__(self) -> int:
         return self.end - self.start
 
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object."""
+        return {"start": self.start, "end": self.end}
+
 
 @dataclass(frozen=True, slots=True, order=True)
 class Step:
@@ -30,3 +35,29 @@ class Step:
 
     epoch: int
     action: int
+
+
+@dataclass(frozen=True, slots=True)
+class PlanStep:
+    """One action of a reported plan; a joint action is one step with all its agents.
+
+    Attributes:
+        epoch: from 1.
+        agents: names of the participants.
+        action: its PDDL text without brackets.
+        cost: what it costs the team, discounted, in the domain's unit.
+    """
+
+    epoch: int
+    agents: tuple[str, ...]
+    action: str
+    cost: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object of a step; plain values only."""
+        return {
+            "epoch": self.epoch,
+            "agents": list(self.agents),
+            "action": self.action,
+            "cost": self.cost,
+        }

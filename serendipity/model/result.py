@@ -1,42 +1,20 @@
 """The answer to a planning call, and its JSON form (schema ``serendipity.result/1``)."""
 
-import math
 from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
+from serendipity.model.answer import PolicyBounds
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.options import MAX_EPOCH, Options
-from serendipity.model.plans import Window
+from serendipity.model.fields import finite, names
+from serendipity.model.options import Options
+from serendipity.model.plans import PlanStep, Window
 from serendipity.model.policy import Policy
+from serendipity.model.recognition import Recognition
+from serendipity.model.result_parts import GapEntry, GoalAnswer, TiedAnswer, bounds_to_dict, read_parts
+from serendipity.model.step_reader import StepReader
 
 SCHEMA: Final = "serendipity.result/1"
 STATUSES: Final = ("optimal", "feasible", "infeasible", "unknown")
-
-
-@dataclass(frozen=True, slots=True)
-class PlanStep:
-    """One action of a reported plan; a joint action is one step with all its agents.
-
-    Attributes:
-        epoch: from 1.
-        agents: names of the participants.
-        action: its PDDL text without brackets.
-        cost: what it costs the team, discounted, in the domain's unit.
-    """
-
-    epoch: int
-    agents: tuple[str, ...]
-    action: str
-    cost: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object of a step; plain values only."""
-        return {
-            "epoch": self.epoch,
-            "agents": list(self.agents),
-            "action": self.action,
-            "cost": self.cost,
-        }
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +23,12 @@ class Result:
 
     ``status``: ``optimal`` (proved), ``feasible`` (a plan; the limit came first),
     ``infeasible`` (proved; ``reason`` says why) or ``unknown`` (the limit came first).
+
+    ``statistics`` has figures of the call.  What only some answers have is typed, None elsewhere, and
+    stands in ``statistics`` in JSON only: ``ties`` (the answers for single optimal plans of the human)
+    and ``optimal_plans`` (how many there are), ``goals`` and ``recognition`` (where their goal is not
+    known), ``bounds`` (mode ``assistance``), ``gap`` (how the answer got better).  A part of a file that
+    is of another form stays in ``statistics``, and ``malformed`` says what is wrong with it.
     """
 
     mode: str
@@ -67,10 +51,25 @@ class Result:
     realised: dict[str, bool] = field(default_factory=dict)
     statistics: dict[str, Any] = field(default_factory=dict)
     policy: Policy | None = None
+    ties: tuple[TiedAnswer, ...] | None = None
+    optimal_plans: int | None = None
+    goals: tuple[GoalAnswer, ...] | None = None
+    recognition: Recognition | None = None
+    bounds: PolicyBounds | None = None
+    gap: tuple[GapEntry, ...] | None = field(default=None, compare=False)  # it depends on the clock
+    malformed: dict[str, str] = field(default_factory=dict)
+
+    def figure(self, name: str) -> int | float | None:
+        """A number of the statistics; None where there is none of that name."""
+        value = self.statistics.get(name)
+        return None if finite(value) is None else value
+
+    def says(self, part: str) -> bool:
+        """Whether it has a part, ``ties`` or ``goals`` for example, perhaps of another form."""
+        return getattr(self, part) is not None or part in self.malformed
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        window = None if self.window is None else {"start": self.window.start, "end": self.window.end}
         plan = None if self.plan is None else [step.to_dict() for step in self.plan]
         return {
             "schema": SCHEMA,
@@ -85,16 +84,33 @@ class Result:
             "objective": self.objective,
             "lower_bound": self.lower_bound,
             "horizon": self.horizon,
-            "window": window,
+            "window": None if self.window is None else self.window.to_dict(),
             "reason": self.reason,
             "saving_alone": self.saving_alone,
             "plan": plan,
             "agent_costs": dict(self.agent_costs),
             "realised": dict(self.realised),
             "options": self.options.to_dict(),
-            "statistics": dict(self.statistics),
+            "statistics": {**self.statistics, **self._parts()},
             "policy": None if self.policy is None else self.policy.to_dict(),
         }
+
+    def _parts(self) -> dict[str, Any]:
+        """What stands in ``statistics`` in JSON beside the figures."""
+        parts: dict[str, Any] = {}
+        if self.gap is not None:
+            parts["gap"] = [entry.to_dict() for entry in self.gap]
+        if self.ties is not None:
+            parts["ties"] = [answer.to_dict() for answer in self.ties]
+        if self.optimal_plans is not None:
+            parts["optimal_plans"] = self.optimal_plans
+        if self.bounds is not None:
+            parts["bounds"] = bounds_to_dict(self.bounds)
+        if self.recognition is not None:
+            parts["recognition"] = self.recognition.to_dict()
+        if self.goals is not None:
+            parts["goals"] = [goal.to_dict() for goal in self.goals]
+        return parts
 
     @classmethod
     def from_dict(cls, data: Any, file: object = None) -> "Result":
@@ -123,25 +139,26 @@ class Result:
         return replace(_Reader(data, None).result(), options=self.options)
 
 
-class _Reader:
+class _Reader(StepReader):
     """Reads a result object field by field, with one clear line for what is wrong."""
 
     def __init__(self, data: Any, file: object) -> None:
-        self.file = file
+        super().__init__(file)
         if not isinstance(data, dict):
-            raise self._error(f"expected a JSON object, got {type(data).__name__}")
+            raise self.error(f"expected a JSON object, got {type(data).__name__}")
         if data.get("schema") != SCHEMA:
-            raise self._error(f"schema: expected '{SCHEMA}', got {data.get('schema')!r:.50}")
+            raise self.error(f"schema: expected '{SCHEMA}', got {data.get('schema')!r:.50}")
         self.data = data
 
     def result(self) -> Result:
         options = self._options()
         status = self._text("status")
         if status not in STATUSES:
-            raise self._error(f"status: expected one of {', '.join(STATUSES)}, got {status!r:.50}")
+            raise self.error(f"status: expected one of {', '.join(STATUSES)}, got {status!r:.50}")
         mode = self._text("mode")
         if mode != options.mode:
-            raise self._error(f"mode: is {mode!r:.50}, but '{options.mode}' in the options")
+            raise self.error(f"mode: is {mode!r:.50}, but '{options.mode}' in the options")
+        parts, statistics, malformed = read_parts(self._mapping("statistics"))
         return Result(
             mode=mode,
             status=status,
@@ -155,28 +172,27 @@ class _Reader:
             objective=self._number("objective"),
             lower_bound=self._number("lower_bound"),
             horizon=self._horizon(),
-            window=self._window(),
+            window=self.window(self._field("window")),
             reason=self._optional_text("reason"),
             saving_alone=self._number("saving_alone"),
-            plan=self._plan(),
+            plan=self.plan(self._field("plan")),
             agent_costs=self._costs("agent_costs"),
             realised=self._verdicts("realised"),
-            statistics=self._mapping("statistics"),
+            statistics=statistics,
             policy=self._policy(),
+            malformed=malformed,
+            **parts,
         )
-
-    def _error(self, message: str) -> InputError:
-        return InputError(f"result: {message}", self.file)
 
     def _field(self, key: str) -> Any:
         if key not in self.data:
-            raise self._error(f"the field '{key}' is missing")
+            raise self.error(f"the field '{key}' is missing")
         return self.data[key]
 
     def _text(self, key: str) -> str:
         value = self._field(key)
         if not isinstance(value, str):
-            raise self._error(f"{key}: expected a text, got {value!r:.50}")
+            raise self.error(f"{key}: expected a text, got {value!r:.50}")
         return value
 
     def _optional_text(self, key: str) -> str | None:
@@ -185,95 +201,49 @@ class _Reader:
     def _flag(self, key: str) -> bool:
         value = self._field(key)
         if not isinstance(value, bool):
-            raise self._error(f"{key}: expected true or false, got {value!r:.50}")
+            raise self.error(f"{key}: expected true or false, got {value!r:.50}")
         return value
 
     def _number(self, key: str, *, signed: bool = False) -> float | None:
         value = self._field(key)
-        return None if value is None else self._finite(value, key, signed=signed)
-
-    def _finite(self, value: Any, where: str, *, signed: bool = False) -> float:
-        try:
-            number = float(value) if isinstance(value, int | float) else math.nan
-        except OverflowError:
-            number = math.inf
-        if isinstance(value, bool) or not math.isfinite(number):
-            raise self._error(f"{where}: expected a finite number, got {value!r:.50}")
-        if number < 0 and not signed:
-            raise self._error(f"{where}: expected a number of at least 0, got {value!r:.50}")
-        return number
-
-    def _epoch(self, value: Any, where: str) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= MAX_EPOCH:
-            raise self._error(f"{where}: expected an epoch from 1 to {MAX_EPOCH}, got {value!r:.50}")
-        return value
+        return None if value is None else self.finite(value, key, signed=signed)
 
     def _mapping(self, key: str) -> dict[str, Any]:
         value = self._field(key)
         if not isinstance(value, dict):
-            raise self._error(f"{key}: expected an object, got {value!r:.50}")
+            raise self.error(f"{key}: expected an object, got {value!r:.50}")
         return value
 
     def _verdicts(self, key: str) -> dict[str, bool]:
         verdicts = self._mapping(key)
         if not all(isinstance(verdict, bool) for verdict in verdicts.values()):
-            raise self._error(f"{key}: expected true or false for each human model")
+            raise self.error(f"{key}: expected true or false for each human model")
         return verdicts
 
     def _costs(self, key: str) -> dict[str, float]:
-        return {name: self._finite(cost, f"{key}.{name}") for name, cost in self._mapping(key).items()}
+        return {name: self.finite(cost, f"{key}.{name}") for name, cost in self._mapping(key).items()}
 
     def _names(self, key: str) -> tuple[str, ...] | None:
         value = self._field(key)
         if value is None:
             return None
-        if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
-            raise self._error(f"{key}: expected a list of action names")
-        return tuple(value)
+        read = names(value)
+        if read is None or not isinstance(value, list):
+            raise self.error(f"{key}: expected a list of action names")
+        return read
 
     def _options(self) -> Options:
         try:
             return Options.from_dict(self._mapping("options"))
         except UsageError as error:
-            raise self._error(str(error)) from None
+            raise self.error(str(error)) from None
 
     def _horizon(self) -> int | str | None:
         value = self._field("horizon")
         if value is None or value == "inf":
             return value  # type: ignore[no-any-return]
-        return 0 if value == 0 and not isinstance(value, bool) else self._epoch(value, "horizon")
-
-    def _window(self) -> Window | None:
-        value = self._field("window")
-        if value is None:
-            return None
-        if not isinstance(value, dict) or set(value) != {"start", "end"}:
-            raise self._error(f"window: expected an object with 'start' and 'end', got {value!r:.50}")
-        start = self._epoch(value["start"], "window.start")
-        end = self._epoch(value["end"], "window.end")
-        if start >= end:
-            raise self._error(f"window: expected start < end, got [{start}, {end})")
-        return Window(start, end)
+        return 0 if value == 0 and not isinstance(value, bool) else self.epoch(value, "horizon")
 
     def _policy(self) -> Policy | None:
         value = self.data.get("policy")  # only answers of mode assistance need to have one
         return None if value is None else Policy.from_dict(value, self.file)
-
-    def _plan(self) -> tuple[PlanStep, ...] | None:
-        value = self._field("plan")
-        if value is None:
-            return None
-        if not isinstance(value, list):
-            raise self._error(f"plan: expected a list of steps, got {value!r:.50}")
-        return tuple(self._step(step, f"plan[{i}]") for i, step in enumerate(value))
-
-    def _step(self, step: Any, where: str) -> PlanStep:
-        if not isinstance(step, dict) or set(step) != {"epoch", "agents", "action", "cost"}:
-            raise self._error(f"{where}: expected an object with epoch, agents, action and cost only")
-        agents, action = step["agents"], step["action"]
-        if not isinstance(agents, list) or not all(isinstance(name, str) for name in agents):
-            raise self._error(f"{where}.agents: expected a list of names, got {agents!r:.50}")
-        if not isinstance(action, str):
-            raise self._error(f"{where}.action: expected a text, got {action!r:.50}")
-        cost = self._finite(step["cost"], f"{where}.cost")
-        return PlanStep(self._epoch(step["epoch"], f"{where}.epoch"), tuple(agents), action, cost)

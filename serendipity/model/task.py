@@ -1,15 +1,15 @@
 """The task: agents, facts, ground actions, initial state, goals."""
 
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import InitVar, dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 
-from serendipity.model.actions import NOOP, Condition, Disjunction, GroundAction
+from serendipity.model.actions import NOOP, Condition, Disjunction, GroundAction, apply
 from serendipity.model.deadline import Deadline
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.names import ActionNames
+from serendipity.model.numbers import total
 from serendipity.model.variables import Variable, find_variables
 
 HumanPlan = tuple[int, ...]
@@ -106,7 +106,7 @@ class Task:
         action = self.actions[action_id]
         if action.participants == (self.human,):
             if action.applicable(state):
-                return state.difference(action.delete).union(action.add)
+                return apply(state, action)
             reason = f"is not applicable: {self._first_unmet(action, state)}"
         else:
             reason = f"is not an action that {self.agents[self.human]} can do alone"
@@ -168,9 +168,7 @@ class Task:
 
     def cost_of(self, plan: HumanPlan) -> Fraction:
         """Sum of the undiscounted costs of a human plan."""
-        # A few different ones: sums of rationals are slow.
-        times = Counter(self.actions[i].cost.as_integer_ratio() for i in plan)
-        return sum((Fraction(over * n, under) for (over, under), n in times.items()), Fraction(0))
+        return total(self.actions[i].cost for i in plan)
 
     def at(self, state: frozenset[int], deadline: Deadline | None = None) -> "Task":
         """The same task from another state; variables stay where they still fit it.

@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Sequence
-from fractions import Fraction
 
 from search.goals import Likelihood, explanations
 from serendipity.model import Deadline, Task, UsageError, exact
 from serendipity.model.collection import no_collection
 from serendipity.model.limits import limits_from
-from serendipity.model.numbers import Number
+from serendipity.model.numbers import Number, as_written
+from serendipity.model.recognition import GoalPosterior, Recognition
 from serendipity.recognition.candidates import (
     CandidateGoal,
     GoalsGiven,
@@ -16,7 +16,6 @@ from serendipity.recognition.candidates import (
     candidate_goals,
     observed_actions,
 )
-from serendipity.recognition.recognition import GoalPosterior, Recognition
 
 
 def recognise(
@@ -94,7 +93,7 @@ def posterior(
     # Relative to the best one, so that likelihoods that are equal leave the ratio of the priors exact.
     factors = [math.exp(min(log - most, 0)) if explained else 1.0 for log in logs]
     shares = [
-        candidate.prior * Fraction(str(factor)) for candidate, factor in zip(candidates, factors, strict=True)
+        candidate.prior * as_written(factor) for candidate, factor in zip(candidates, factors, strict=True)
     ]
     total = sum(shares)
     return Recognition(

@@ -1,4 +1,4 @@
-"""What a result tells about how it got better: ``statistics["gap"]``."""
+"""What a result tells about how it got better: ``Result.gap``."""
 
 import json
 from dataclasses import replace
@@ -27,12 +27,12 @@ FREE: list[dict[str, Any]] = [
 )
 def test_it_ends_with_the_answer(options: dict[str, Any]) -> None:
     result = plan(case_2(), **options)
-    gap = result.statistics["gap"]
-    assert (gap[-1]["objective"], gap[-1]["lower_bound"]) == (result.objective, result.lower_bound)
-    assert [entry["seconds"] for entry in gap] == sorted(entry["seconds"] for entry in gap)
-    assert gap[-1]["seconds"] <= result.statistics["elapsed_seconds"]
+    gap = result.gap or ()
+    assert gap[-1][1:] == (result.objective, result.lower_bound)
+    assert [entry.seconds for entry in gap] == sorted(entry.seconds for entry in gap)
+    assert gap[-1].seconds <= result.statistics["elapsed_seconds"]
     assert all(before != after for before, after in pairwise(gap))
-    assert Result.from_dict(json.loads(json.dumps(result.to_dict()))).statistics["gap"] == gap
+    assert Result.from_dict(json.loads(json.dumps(result.to_dict()))).gap == gap
 
 
 @pytest.mark.parametrize("options", FREE, ids=str)
@@ -40,12 +40,13 @@ def test_each_answer_has_what_was_known_by_then(options: dict[str, Any]) -> None
     answers = list(plan_anytime(case_2(), **options))
     assert len(answers) > 1
     for answer in answers:
-        gap = answer.statistics["gap"]
-        assert (gap[-1]["objective"], gap[-1]["lower_bound"]) == (answer.objective, answer.lower_bound)
-    gap = answers[-1].statistics["gap"]
+        gap = answer.gap or ()
+        assert gap[-1][1:] == (answer.objective, answer.lower_bound)
+    gap = answers[-1].gap or ()
     for before, after in pairwise(gap):
-        assert after["objective"] <= before["objective"]
-        assert after["lower_bound"] >= before["lower_bound"]
+        assert None not in (*before, *after)
+        assert after.objective <= before.objective
+        assert after.lower_bound >= before.lower_bound
 
 
 @given(calls(modes=("serendipity", "communication", "composite"), ties=False))

@@ -5,8 +5,9 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 
-from search import Outcome, PreparedTask, prepare, solve
+from search import PreparedTask, prepare, solve
 from serendipity.model import Condition, Deadline, Options, Task
+from serendipity.model.answer import Answer
 from serendipity.model.errors import LimitReachedError
 from tests.support.cases import case_1, case_4
 from tests.support.strategies import tasks
@@ -15,7 +16,7 @@ OPTIONS = Options(mode="composite", horizon="inf", discount=Fraction(1, 2))
 MODELS = ("omniscient", "observant", "local")
 
 
-def answer(prepared: PreparedTask, options: Options = OPTIONS) -> Outcome:
+def answer(prepared: PreparedTask, options: Options = OPTIONS) -> Answer:
     *_, last = solve(prepared, options)
     return last
 

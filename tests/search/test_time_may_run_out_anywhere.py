@@ -126,14 +126,15 @@ def test_planning_for_goals_may_be_stopped_at_any_look(several: bool) -> None:
 
     *early, last = answers(call)
     assert early[0].status == "unknown"
-    assert "goals" not in early[0].statistics
+    assert early[0].goals is None
     assert last.status == "optimal"
     for answer in early:
         if answer.cost is not None:
             assert last.cost is not None and answer.lower_bound is not None and last.objective is not None
             assert last.cost <= answer.cost
             assert answer.lower_bound <= last.objective
-            assert answer.statistics["recognition"]["explained"]
+            assert answer.recognition is not None
+            assert answer.recognition.explained
 
 
 def test_a_posterior_is_whole_or_not_there() -> None:

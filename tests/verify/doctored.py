@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from serendipity.model import Condition, Options, PlanStep, Policy, Result, Task, Window
+from serendipity.model.result_parts import TiedAnswer
 from tests.support.builders import task as build
 from tests.support.cases import CASE_3_PLAN, case_2, case_3, case_4, case_7, case_8, case_9, case_10
 from tests.verify.results import moved, result, step, with_steps
@@ -78,8 +79,8 @@ def _no_reason() -> Given:
 
 def _not_among_the_ties() -> Given:
     built = _options(helped, ties="robust")
-    listed = [{"human_plan": list(CASE_4_PI_H), "cost": 8.0, "opportunity": False}]
-    return Given(built.task, replace(built.result, statistics={"ties": listed}))
+    listed = (TiedAnswer(CASE_4_PI_H, cost=8.0, opportunity=False),)
+    return Given(built.task, replace(built.result, ties=listed))
 
 
 SLOW = {1: "both r", 2: "slow h", 3: "end h"}

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model import Options, Task
+from serendipity.model.result_parts import TiedAnswer
 from tests.support.oracle import Alone as OracleAlone
 from tests.support.oracle.epochs import after
 from tests.support.strategies import tasks
@@ -43,11 +44,8 @@ def test_every_rule_refutes_something() -> None:
 
 def test_expected_cost_has_to_be_the_mean() -> None:
     built = idle()
-    plan = list(built.result.human_plan or ())
-    answers = [
-        {"human_plan": plan, "cost": 6.2, "opportunity": True},
-        {"human_plan": plan, "cost": 8.0, "opportunity": False},
-    ]
+    plan = built.result.human_plan or ()
+    answers = (TiedAnswer(plan, cost=6.2, opportunity=True), TiedAnswer(plan, cost=8.0, opportunity=False))
     mean = replace(
         built.result,
         options=Options(discount="0.9", ties="expected"),  # type: ignore[arg-type]
@@ -56,13 +54,13 @@ def test_expected_cost_has_to_be_the_mean() -> None:
         cost=7.1,
         saving=0.9,
         agent_costs={},
-        statistics={"ties": answers},
+        ties=answers,
     )
     assert check(built.task, mean).ok
     for doctored, rule in (
         (replace(mean, cost=7.0), "ties-mean"),
         (replace(mean, opportunity=False), "ties-mean"),
-        (replace(mean, statistics={}), "ties"),
+        (replace(mean, ties=None), "ties"),
     ):
         report = check(built.task, doctored)
         assert report.first is not None

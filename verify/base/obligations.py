@@ -51,8 +51,7 @@ def kind_of(result: Result) -> str:
     """Which row of :data:`NEEDED` an answer belongs to."""
     if result.mode == "assistance":
         return "a policy"
-    served = result.statistics.get("goals")
-    if isinstance(served, list) and len(served) > 1:
+    if result.goals is not None and len(result.goals) > 1:
         return "a plan for each goal"
     if is_mean(result):
         return "a mean over ties"

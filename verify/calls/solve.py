@@ -4,10 +4,10 @@ from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
-from typing import Any
 
 from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageError
 from serendipity.model.collection import no_collection
+from serendipity.model.result_parts import TiedAnswer
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
@@ -81,10 +81,7 @@ def _solve(task: Task, options: Options, given: HumanPlan | None, effort: Effort
 def over_ties(answers: list[Answer], ties: str) -> Result:
     """One result from the answers for all optimal ``pi_H`` (semantics 1)."""
     results = [to_result(each) for each in answers]
-    listed: list[dict[str, Any]] = [
-        {"human_plan": list(r.human_plan or ()), "cost": r.cost, "opportunity": r.opportunity}
-        for r in results
-    ]
+    listed = tuple(TiedAnswer(r.human_plan or (), r.cost, r.opportunity) for r in results)
     missing = next((r for r in results if r.cost is None), None)
     if missing is not None:
         chosen = missing
@@ -94,7 +91,7 @@ def over_ties(answers: list[Answer], ties: str) -> Result:
         costs = [each.cost or Fraction(0) for each in answers]
         wanted = min(costs) if ties == "optimistic" else max(costs)
         chosen = results[costs.index(wanted)]
-    return replace(chosen, statistics={**chosen.statistics, "ties": listed})
+    return replace(chosen, ties=listed)
 
 
 def _mean(answers: list[Answer], results: list[Result]) -> Result:

@@ -25,7 +25,7 @@ def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Clai
 
 
 def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
-    if "goals" in result.statistics:
+    if result.says("goals"):
         return _for_goals(task, result, deadline)
     if result.mode == "assistance":
         from verify.policy import check_policy

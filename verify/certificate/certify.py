@@ -82,7 +82,7 @@ def _certify(task: Task, result: Result, encoding: str, solver: str, deadline: D
         return Certificate(claims, perf_counter() - started)
     effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
     version = solver_version(solver)
-    several = "goals" in result.statistics
+    several = result.says("goals")
     claims = _for_goals(task, result, effort) if several else _Certifier(task, result, effort).claims()
     return Certificate(complete(result, claims), perf_counter() - started, version, encoding, effort.size)
 

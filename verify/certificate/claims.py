@@ -5,6 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import INFINITE, Claim, Result, Step
+from serendipity.model.numbers import as_written
 from verify.base import wording
 from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
@@ -200,10 +201,10 @@ class Examiner:
     def _units_at_least(self, amount: float) -> int:
         """The fewest units that are at least ``amount``; a float stands for the exact value it rounds."""
         scale = self.call.prices.scale
-        nearest = round(Fraction(str(amount)) * scale)
+        nearest = round(as_written(amount) * scale)
         if float(Fraction(nearest, scale)) == amount:
             return nearest
-        return -((-Fraction(str(amount)) * scale).__floor__())
+        return -((-as_written(amount) * scale).__floor__())
 
     def _amount(self, units: int) -> str:
         return f"{float(self.call.prices.cost(units)):.12g}"

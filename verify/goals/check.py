@@ -6,12 +6,14 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, Deadline, Result, Task
+from serendipity.model.fields import MalformedError
+from serendipity.model.result_parts import GoalAnswer
 from verify.base import wording
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, needed
 from verify.base.undecided import UNDECIDED, why
 from verify.goals.beliefs import considered_plan, faults
-from verify.goals.reading import Believed, MalformedError, Recognised, StatedGoal, read
+from verify.goals.reading import Believed, Recognised, read
 from verify.goals.timelines import (
     Timeline,
     bound_fault,
@@ -45,7 +47,7 @@ def examine(task: Task, result: Result, deadline: Deadline) -> Examined:
 
     Args:
         task: the task that was asked; its own goal plays no part.
-        result: an answer with ``statistics["goals"]``.
+        result: an answer for goals, perhaps of another form than they have.
         deadline: what is not examined by then stays undecided.
     """
     started = perf_counter()
@@ -147,7 +149,7 @@ def _selection_fault(
     result: Result,
     recognised: Recognised,
     chosen: Sequence[Believed],
-    served: Sequence[StatedGoal],
+    served: Sequence[GoalAnswer],
 ) -> str | None:
     """Whether the goals considered, their plans and probabilities follow from the posterior."""
     if [entry.name for entry in served] != [goal.name for goal in chosen]:
@@ -203,10 +205,10 @@ def _nothing_fault(task: Task, result: Result) -> str | None:
     return None if found is None else found.message
 
 
-def _certain(task: Task, result: Result, goal: Believed, entry: StatedGoal) -> Examined:
+def _certain(task: Task, result: Result, goal: Believed, entry: GoalAnswer) -> Examined:
     """One goal is left: the answer is one of section 3."""
     same = (entry.human_plan, entry.cost, entry.window, entry.plan)
     if same != (result.human_plan, result.cost, result.window, result.plan):
         return Examined((Claim("replay", "refuted", f"goal '{goal.name}': the entry is not the answer"),))
-    left = {k: v for k, v in result.statistics.items() if k not in ("goals", "recognition")}
-    return Examined(single=(task.with_goal(goal.goal), replace(result, statistics=left)))
+    known = replace(result, goals=None, recognition=None)
+    return Examined(single=(task.with_goal(goal.goal), known))

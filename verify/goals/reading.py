@@ -1,19 +1,15 @@
-"""What an answer for several goals says, read from its ``statistics`` with every field checked."""
+"""What an answer for several goals says of the posterior, in terms of the task."""
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Final, TypeVar
+from typing import Final
 
-from serendipity.model import Condition, InputError, PlanStep, Result, Task, Window
+from serendipity.model import Condition, Result, Task
+from serendipity.model.fields import MalformedError
+from serendipity.model.recognition import SCHEMA, GoalPosterior
+from serendipity.model.result_parts import GoalAnswer
 
-_SCHEMA: Final = "serendipity.recognition/1"
 _MOST_DIGITS: Final = 10**6
-_T = TypeVar("_T")
-
-
-class MalformedError(Exception):
-    """Something that an answer has to say is missing, or of another form."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,38 +36,21 @@ class Recognised:
     goals: tuple[Believed, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class StatedGoal:
-    """What happens if one goal is the human's."""
-
-    name: str
-    probability: float
-    human_plan: tuple[str, ...] | None
-    cost: float | None
-    window: Window | None
-    plan: tuple[PlanStep, ...] | None
-
-
-def read(task: Task, result: Result) -> tuple[Recognised, tuple[StatedGoal, ...]]:
+def read(task: Task, result: Result) -> tuple[Recognised, tuple[GoalAnswer, ...]]:
     """The recognition and what happens for each goal that is considered.
 
     Raises:
-        MalformedError: naming the field.
+        MalformedError: naming what is missing, of another form, or of another task.
     """
-    known = _Fields(_object(result.statistics.get("recognition"), "statistics.recognition"), "recognition")
-    if (known.raw("schema"), known.raw("human")) != (_SCHEMA, result.human):
-        raise MalformedError(f"statistics.recognition: expected schema '{_SCHEMA}' and the result's human")
-    recognised = Recognised(
-        known.texts("observed"),
-        known.number("beta"),
-        known.get("explained", lambda value: value if isinstance(value, bool) else None),
-        tuple(_believed(task, entry) for entry in known.objects("goals")),
-    )
-    listed = result.statistics.get("goals")
-    if not isinstance(listed, list):
-        raise MalformedError("statistics.goals is not a list")
-    served = tuple(_served(_Fields(_object(e, "statistics.goals"), "goals"), result) for e in listed)
-    return recognised, served
+    known = result.recognition
+    if known is None:
+        raise MalformedError(result.malformed.get("recognition", "statistics.recognition is not an object"))
+    if known.human != result.human:
+        raise MalformedError(f"statistics.recognition: expected schema '{SCHEMA}' and the result's human")
+    goals = tuple(_believed(task, entry) for entry in known.goals)
+    if result.goals is None:
+        raise MalformedError(result.malformed.get("goals", "statistics.goals is not a list"))
+    return Recognised(known.observed, known.beta, known.explained, goals), result.goals
 
 
 def weight(probability: float) -> Fraction:
@@ -81,69 +60,16 @@ def weight(probability: float) -> Fraction:
     return simple if float(simple) == probability else exact
 
 
-class _Fields:
-    """An object's fields, each of one type."""
-
-    def __init__(self, data: Mapping[str, Any], where: str) -> None:
-        self._data = data
-        self._where = where
-
-    def get(self, key: str, read: Callable[[Any], _T | None]) -> _T:
-        value = read(self._data.get(key))
-        if value is None:
-            raise MalformedError(f"{self._where}: '{key}' is missing or of another type")
-        return value
-
-    def text(self, key: str) -> str:
-        return self.get(key, lambda value: value if isinstance(value, str) else None)
-
-    def texts(self, key: str) -> tuple[str, ...]:
-        def read(value: Any) -> tuple[str, ...] | None:
-            right = isinstance(value, list) and all(isinstance(item, str) for item in value)
-            return tuple(value) if right else None
-
-        return self.get(key, read)
-
-    def number(self, key: str) -> float:
-        def read(value: Any) -> float | None:
-            right = isinstance(value, int | float) and not isinstance(value, bool)
-            return float(value) if right and 0 <= value < float("inf") else None
-
-        return self.get(key, read)
-
-    def objects(self, key: str) -> list["_Fields"]:
-        def read(value: Any) -> list[_Fields] | None:
-            if not isinstance(value, list):
-                return None
-            return [_Fields(_object(item, key), f"{self._where}.{key}") for item in value]
-
-        return self.get(key, read)
-
-    def optional(self, key: str, read: Callable[[str], _T]) -> _T | None:
-        return None if self.raw(key) is None else read(key)
-
-    def raw(self, key: str) -> Any:
-        if key not in self._data:
-            raise MalformedError(f"{self._where}: '{key}' is missing")
-        return self._data[key]
-
-
-def _object(value: Any, where: str) -> Mapping[str, Any]:
-    if not isinstance(value, dict):
-        raise MalformedError(f"{where} is not an object")
-    return value
-
-
-def _believed(task: Task, entry: _Fields) -> Believed:
+def _believed(task: Task, entry: GoalPosterior) -> Believed:
     return Believed(
-        entry.text("name"),
-        _condition(task, entry.texts("goal")),
-        entry.number("prior"),
-        entry.optional("likelihood", entry.number),
-        entry.number("posterior"),
-        entry.optional("cost_with_observed", entry.number),
-        entry.optional("cost_without_observed", entry.number),
-        entry.optional("plan", entry.texts),
+        entry.name,
+        _condition(task, entry.goal),
+        float(entry.prior),
+        entry.likelihood,
+        entry.posterior,
+        None if entry.with_observed is None else float(entry.with_observed),
+        None if entry.without_observed is None else float(entry.without_observed),
+        entry.plan,
     )
 
 
@@ -155,20 +81,3 @@ def _condition(task: Task, literals: tuple[str, ...]) -> Condition:
     true = sorted({ids[text] for text in literals if not text.startswith("!")})
     false = sorted({ids[text[1:]] for text in literals if text.startswith("!")})
     return Condition(tuple(true), tuple(false))
-
-
-def _served(entry: _Fields, result: Result) -> StatedGoal:
-    """One entry; steps and window are read as those of a result are."""
-    data = result.to_dict() | {"plan": entry.raw("plan"), "window": entry.raw("window")}
-    try:
-        parsed = Result.from_dict(data)
-    except InputError as error:
-        raise MalformedError(f"goals: {error}") from None
-    return StatedGoal(
-        entry.text("name"),
-        entry.number("probability"),
-        entry.optional("human_plan", entry.texts),
-        entry.optional("cost", entry.number),
-        parsed.window,
-        parsed.plan,
-    )

@@ -7,8 +7,9 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Condition, Deadline, PlanStep, Result, Task
+from serendipity.model.result_parts import GoalAnswer
 from verify.base.individual import IndividualOptimum
-from verify.goals.reading import StatedGoal, weight
+from verify.goals.reading import weight
 from verify.rules.case import Case
 from verify.rules.registry import RULES
 
@@ -65,7 +66,7 @@ class Timeline:
 
 
 def timelines(
-    task: Task, result: Result, goals: Sequence[Condition], served: Sequence[StatedGoal], deadline: Deadline
+    task: Task, result: Result, goals: Sequence[Condition], served: Sequence[GoalAnswer], deadline: Deadline
 ) -> list[Timeline]:
     """The timelines of an answer, with weights that add up to 1.
 
@@ -89,7 +90,8 @@ def timelines(
             plan=entry.plan,
             cost=entry.cost,
             objective=entry.cost,
-            statistics={},
+            ties=None,
+            malformed={},
         )
         found.append(Timeline(entry.name, share / total, Case(own, answer, IndividualOptimum(own, deadline))))
     return found

@@ -11,7 +11,7 @@ from verify.base.undecided import UNDECIDED, during, why
 from verify.policy.board import NOTHING, Board, Costs
 from verify.policy.closed import BrokenError, Walk
 from verify.policy.ending import ends
-from verify.policy.figures import StatedBounds, figure_faults, header_faults
+from verify.policy.figures import figure_faults, header_faults, least_sum, stated_bounds
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
@@ -121,9 +121,9 @@ class _Checker:
     def _bounded(self, board: Board) -> Claim:
         """A bound that comes without a proof: whether both together, without turns, pay as much."""
         try:
-            bounds = StatedBounds(self._result)
-            if self._result.lower_bound != float(bounds.least_sum):
-                return Claim("lower_bound", "refuted", wording.bound_expected(bounds.least_sum))
+            bounds = stated_bounds(self._result)
+            if self._result.lower_bound != float(least_sum(bounds)):
+                return Claim("lower_bound", "refuted", wording.bound_expected(least_sum(bounds)))
             if (
                 bounds.lower == NOTHING
                 or board.goal.holds(board.start)

@@ -1,11 +1,12 @@
 """Whether the figures around a policy follow from it, and its bounds are written down (semantics 7)."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any, Final
+from typing import Final
 
-from serendipity.model import PlanError, Result, Task, UsageError
-from serendipity.model.numbers import MOST_IN_RESULTS, exact
+from serendipity.model import PlanError, Result, Task
+from serendipity.model.answer import PolicyBounds
+from serendipity.model.fields import MalformedError
 from verify.policy.board import Board, Costs
 from verify.rules.replay import replay_human
 
@@ -16,28 +17,22 @@ _OF_ANSWERS: Final = ("human_plan", "human_cost", "saving", "saving_alone", "cos
 """Fields that only an answer with a policy has, beside the policy."""
 
 
-class StatedBounds:
-    """``statistics.bounds``: both sides of the value, as pairs of exact costs.
+def stated_bounds(result: Result) -> PolicyBounds:
+    """Both sides of the value, as the answer has them.
 
     Raises:
-        ValueError: they are missing or of another form.
+        MalformedError: they are missing or of another form.
     """
+    if result.bounds is None:
+        missing = "statistics.bounds: expected an object with 'lower' and 'upper'"
+        raise MalformedError(result.malformed.get("bounds", missing))
+    return result.bounds
 
-    def __init__(self, result: Result) -> None:
-        bounds = result.statistics.get("bounds")
-        if not isinstance(bounds, Mapping) or set(bounds) != {"lower", "upper"}:
-            raise ValueError("statistics.bounds: expected an object with 'lower' and 'upper'")
-        lower = _pair(bounds["lower"])
-        if lower is None:
-            raise ValueError("statistics.bounds.lower: expected a pair of costs")
-        self.lower: Costs = lower
-        self.upper = _pair(bounds["upper"])
 
-    @property
-    def least_sum(self) -> Fraction:
-        """What both costs add up to at least, the human's being compared first."""
-        tied = self.upper is not None and self.lower[0] == self.upper[0]
-        return sum(self.lower, Fraction(0)) if tied else self.lower[0]
+def least_sum(bounds: PolicyBounds) -> Fraction:
+    """What both costs add up to at least, the human's being compared first."""
+    tied = bounds.upper is not None and bounds.lower[0] == bounds.upper[0]
+    return sum(bounds.lower, Fraction(0)) if tied else bounds.lower[0]
 
 
 def header_faults(result: Result) -> Iterator[Fault]:
@@ -45,8 +40,8 @@ def header_faults(result: Result) -> Iterator[Fault]:
     if result.mode != result.options.mode:
         yield "replay", f"the mode is {result.mode}, but {result.options.mode} in the options"
     try:
-        bounds = StatedBounds(result)
-    except ValueError as error:
+        bounds = stated_bounds(result)
+    except MalformedError as error:
         yield "replay", str(error)
         return
     if result.window is not None or result.horizon is not None or result.realised:
@@ -106,27 +101,10 @@ def _own_faults(task: Task, board: Board, result: Result, value: Costs) -> Itera
 
 
 def _bound_faults(result: Result, value: Costs) -> Iterator[Fault]:
-    bounds = StatedBounds(result)
+    bounds = stated_bounds(result)
     if bounds.upper != value:
         yield "cost", "statistics.bounds.upper is not the policy's value"
     if bounds.lower > value or (result.status == "optimal" and bounds.lower != value):
         yield "lower_bound", f"statistics.bounds.lower does not fit status {result.status}"
-    if result.lower_bound != float(bounds.least_sum):
-        yield "lower_bound", f"lower_bound: expected {float(bounds.least_sum):g}, got {result.lower_bound}"
-
-
-def _pair(value: Any) -> Costs | None:
-    """Two costs from their exact texts; None for null.
-
-    Raises:
-        ValueError: it is something else.
-    """
-    if value is None:
-        return None
-    if not isinstance(value, list | tuple) or len(value) != 2 or not all(isinstance(x, str) for x in value):
-        raise ValueError("statistics.bounds: expected the human's and the robot's cost as texts")
-    try:
-        first, second = (exact(cost, "statistics.bounds", MOST_IN_RESULTS) for cost in value)
-    except UsageError as error:
-        raise ValueError(str(error)) from None
-    return first, second
+    if result.lower_bound != float(least_sum(bounds)):
+        yield "lower_bound", f"lower_bound: expected {float(least_sum(bounds)):g}, got {result.lower_bound}"

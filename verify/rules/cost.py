@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+from serendipity.model.numbers import as_written
 from verify.rules.case import Case, Found
 
 
@@ -104,7 +105,7 @@ def opportunity(case: Case) -> Found | None:
     if case.human_plan is None:
         return Found("an opportunity, though there is no pi_H to improve") if result.opportunity else None
     baseline = _baseline(case)
-    without = None if baseline is None else baseline - Fraction(str(result.saving_alone or 0))
+    without = None if baseline is None else baseline - as_written(result.saving_alone or 0)
     if result.opportunity:
         helped = any(not case.own(i) for _, i in case.steps())
         if not helped and case.improvable:
@@ -134,7 +135,7 @@ def _baseline(case: Case) -> Fraction | None:
     """What doing nothing costs; with a robots' goal, as the result's own saving implies."""
     if not case.robots_goal:
         return case.human_cost
-    return None if case.result.saving is None else case.cost + Fraction(str(case.result.saving))
+    return None if case.result.saving is None else case.cost + as_written(case.result.saving)
 
 
 def _sure(cost: Fraction | None) -> Fraction:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from search.algorithms.and_or import AndOrGraph, Rule
 from search.assistance.game.game import INFINITE, Game
+from serendipity.model.actions import apply
 from serendipity.model.deadline import Deadline
 
 
@@ -57,7 +58,7 @@ def upper_bound_alone(game: Game) -> int:
             action = task.actions[i]
             if not action.applicable(state):
                 continue
-            after = state.difference(action.delete).union(action.add)
+            after = apply(state, action)
             if after in seen:
                 continue
             seen.add(after)

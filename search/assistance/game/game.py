@@ -19,7 +19,6 @@ from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask
 from serendipity.model.actions import Condition
 from serendipity.model.deadline import Deadline
-from serendipity.model.errors import UsageError
 
 INFINITE: Final = INFINITE_KEY
 """A run that never ends."""
@@ -43,21 +42,17 @@ class Game:
     """Supporter and prime, moving in turn.
 
     Args:
-        prepared: a task of one human (the prime) and one robot (the supporter); joint actions are
-            nobody's move.
+        prepared: a task of one human (the prime) and exactly one robot (the supporter); joint actions
+            are nobody's move.
         deadline: polled.
         own_deadline: polled while the prime's own optimum is worked out; default ``deadline``.
-
-    Raises:
-        UsageError: there is not exactly one robot.
     """
 
     def __init__(
         self, prepared: PreparedTask, deadline: Deadline, own_deadline: Deadline | None = None
     ) -> None:
         task = prepared.task
-        if len(task.robots) != 1:
-            raise UsageError(f"mode: 'assistance' is for one robot, the task has {len(task.robots)}")
+        assert len(task.robots) == 1, "the facade has checked that"
         if task.robot_goal:
             prepared = prepared.with_goal(task.goal, Condition())
         self.task = prepared.task

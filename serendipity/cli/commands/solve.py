@@ -43,31 +43,14 @@ def solve(
     verbose: output.Verbose = 0,
 ) -> int:
     """Answer as `plan` does, by integer programming alone: slower, and independent of the search."""
-    from serendipity.facade.planning import options_from
+    arguments = locals()
+    from serendipity.facade.call import options_from
     from verify.calls.solve import solve as by_program
 
     form = output.prepare(format, output_file, verbose)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.certify")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
-    options = options_from(
-        plan_options.given(
-            mode=mode,
-            discount=discount,
-            horizon=horizon,
-            window_weight=window_weight,
-            max_window=max_window,
-            suffix=suffix,
-            preservation=preservation,
-            interference=interference,
-            max_cost=max_cost,
-            communication_weight=communication_weight,
-            keep_prefix=keep_prefix,
-            ties=ties,
-            max_ties=max_ties,
-            time_limit=time_limit,
-            memory_limit=memory_limit,
-        )
-    )
+    options = options_from(plan_options.among(arguments, limits=True))
     given = None if human_plan is None else read_human_plan(human_plan).checked(task)
     with progress.working("solving", quiet=quiet):
         result = by_program(

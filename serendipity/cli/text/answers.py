@@ -1,6 +1,5 @@
 """Answers as text for people: the plan in parallel columns, a column per agent."""
 
-import math
 from collections.abc import Iterator
 from dataclasses import fields
 from fractions import Fraction
@@ -9,7 +8,7 @@ from typing import Final
 from serendipity.cli.text.policy_text import policy_lines, totals_line
 from serendipity.cli.text.render import Grid, Line, rendered
 from serendipity.model import Certificate, Options, Result, Task
-from serendipity.model.numbers import plain
+from serendipity.model.numbers import as_written, plain
 
 _REASONS: Final = {
     "no-human-plan": "the human can't reach the goal alone, so there is no plan to preserve",
@@ -101,7 +100,7 @@ def _gap(result: Result) -> str:
 def _least_cost(result: Result) -> str:
     """What the lower bound of an unproved answer means for costs: without the price of the window itself."""
     assert result.lower_bound is not None
-    bound, weight = Fraction(str(result.lower_bound)), result.options.window_weight
+    bound, weight = as_written(result.lower_bound), result.options.window_weight
     paid = "paid, announcements included" if result.options.communication_weight else "paid"
     if result.window is None or not result.options.windowed:
         return f"at least {plain(bound)} has to be {paid}"
@@ -138,16 +137,15 @@ def _columns(task: Task, result: Result) -> Grid:
 def _closing(result: Result) -> Iterator[str]:
     if result.saving_alone:
         yield f"{result.human} could save {plain(result.saving_alone)} alone: the given plan is not the best"
-    ties = result.statistics.get("ties")
-    if ties:
-        helped = sum(bool(tie["opportunity"]) for tie in ties)
-        yield f"{len(ties)} optimal plans of the human, an opportunity with {helped} ({result.options.ties})"
+    if result.ties:
+        helped = sum(tie.opportunity for tie in result.ties)
+        many = f"{len(result.ties)} optimal plans of the human"
+        yield f"{many}, an opportunity with {helped} ({result.options.ties})"
     for model, realised in sorted(result.realised.items()):
         article = "an" if model[0] in "aeiou" else "a"
         yield f"with {article} {model} human the plan {'works out' if realised else 'does not work out'}"
-    elapsed = result.statistics.get("elapsed_seconds")
-    if isinstance(elapsed, int | float) and math.isfinite(elapsed):
-        expanded = result.statistics.get("expanded")
+    elapsed, expanded = result.figure("elapsed_seconds"), result.figure("expanded")
+    if elapsed is not None:
         yield f"planned in {_seconds(elapsed)}" + (f", {expanded} nodes expanded" if expanded else "")
 
 

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from serendipity.model import Result
+from serendipity.model import Result, Window
 from serendipity.model.numbers import plain
 
 if TYPE_CHECKING:
@@ -63,8 +63,8 @@ def plan_text(result: Result) -> "Iterator[Line | Grid]":
     if result.status == "unknown":
         yield Line("the limit came before any answer")
         return
-    entries: list[dict[str, Any]] = result.statistics["goals"]
-    if not result.statistics["recognition"]["explained"]:
+    entries = result.goals or ()
+    if result.recognition is not None and not result.recognition.explained:
         yield Line(_UNEXPLAINED)
     if result.cost is None:
         why = result.reason or result.status
@@ -81,7 +81,7 @@ def plan_text(result: Result) -> "Iterator[Line | Grid]":
     yield Line()
     header = ("probability", "cost", "window", "goal")
     rows = [
-        (f"{entry['probability']:.4f}", plain(entry["cost"]), _window(entry["window"]), entry["name"])
+        (f"{entry.probability:.4f}", plain(entry.cost), _window(entry.window), entry.name)
         for entry in entries
     ]
     yield Grid(header, rows, numbered=True)
@@ -93,5 +93,5 @@ def plan_text(result: Result) -> "Iterator[Line | Grid]":
         yield Grid(("epoch", "agents", "action"), steps, numbered=True)
 
 
-def _window(window: dict[str, int] | None) -> str:
-    return "-" if window is None else f"[{window['start']}, {window['end']})"
+def _window(window: Window | None) -> str:
+    return "-" if window is None else f"[{window.start}, {window.end})"

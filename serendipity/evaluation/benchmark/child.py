@@ -10,9 +10,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from search import Outcome, prepare, solve
+from search import prepare, solve
 from serendipity.evaluation.benchmark.measure import MODES
 from serendipity.evaluation.benchmark.usage import peak_memory
+from serendipity.model.answer import Answer
 from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
 from serendipity.pddl import read_folder
@@ -24,7 +25,7 @@ def answered(folder: Path, mode: str, discount: str, time_limit: float) -> dict[
     """Read, pack and plan twice; what was measured."""
     options = Options(discount=discount, time_limit=time_limit, **MODES[mode])  # type: ignore[arg-type]
 
-    def call() -> Outcome:
+    def call() -> Answer:
         *_, outcome = solve(prepared, options, deadline=Deadline(time_limit))
         return outcome
 

@@ -8,8 +8,9 @@ from typing import Final
 from serendipity.evaluation.crosscheck.calls import PlanCall
 from serendipity.evaluation.crosscheck.laws import LAWS, Law
 from serendipity.evaluation.crosscheck.refusals import may_be_refused
+from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
-from serendipity.facade.planning import options_from, plan
+from serendipity.facade.planning import plan
 from serendipity.model import Deadline, PlanError, Result, UsageError
 from verify.calls.solve import solve
 

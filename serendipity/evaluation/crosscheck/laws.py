@@ -12,8 +12,9 @@ from typing import Final
 
 from serendipity.evaluation.crosscheck.calls import PlanCall, random_options
 from serendipity.evaluation.crosscheck.tasks import split
+from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
-from serendipity.facade.planning import options_from, plan, plan_anytime
+from serendipity.facade.planning import plan, plan_anytime
 from serendipity.facade.session import Session
 from serendipity.model import Deadline, LimitReachedError, Options, PlanError, Result, Task, UsageError
 
@@ -135,7 +136,7 @@ def _or_error(ask: Callable[[], Result]) -> Result | str:
 
 
 def _differences(where: str, found: Result, expected: Result) -> Iterator[str]:
-    one, other = (replace(result, statistics={}).to_dict() for result in (found, expected))
+    one, other = (result.to_dict() | {"statistics": {}} for result in (found, expected))
     for name, value in one.items():
         if value != other[name]:
             yield f"{where}: {name} is {value}, not {other[name]}"

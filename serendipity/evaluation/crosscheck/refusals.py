@@ -3,7 +3,7 @@
 from itertools import islice
 
 from serendipity.evaluation.crosscheck.calls import PlanCall
-from serendipity.facade.planning import options_from
+from serendipity.facade.call import options_from
 from serendipity.model import INFINITE, Options, PlanError, UsageError
 from verify.base.optimal_plans import OptimalPlans
 

@@ -6,6 +6,7 @@ from itertools import pairwise
 from random import Random
 
 from serendipity.model import Condition, GroundAction, HumanPlan, Task
+from serendipity.model.actions import apply
 
 _COSTS = ("1", "1", "1", "2", "3", "0", "0.5", "0.1", "2.5")
 _LONGEST = 6
@@ -35,7 +36,7 @@ def random_human_plan(dice: Random, task: Task) -> HumanPlan | None:
                 break
             plan.append(dice.choice(ways))
             action = task.actions[plan[-1]]
-            state = state.difference(action.delete).union(action.add)
+            state = apply(state, action)
         if task.goal.holds(state):
             return tuple(plan)
     return None

@@ -6,9 +6,6 @@ from typing import Final, NamedTuple
 TESTS: Final = frozenset(str(number) for number in range(1, 201))
 """The paper's 200 problems, by number."""
 
-INDIVIDUAL: Final = Fraction("9.825")
-"""Mean cost of the human alone."""
-
 
 class Printed(NamedTuple):
     """One entry of Table I: the mean cost, and the number of problems in brackets."""

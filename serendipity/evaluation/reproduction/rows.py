@@ -5,6 +5,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.model import Window
+from serendipity.model.numbers import as_written, rounded
 
 COLUMNS: Final = (
     "test",
@@ -75,15 +76,15 @@ class Row:
             "test": self.test,
             "mode": self.mode,
             "discount": float(self.discount),
-            "cost": _float(self.cost),
-            "human_cost": _float(self.human_cost),
+            "cost": rounded(self.cost),
+            "human_cost": rounded(self.human_cost),
             "window_start": None if self.window is None else self.window.start,
             "window_end": None if self.window is None else self.window.end,
             "seconds": self.seconds,
             "status": self.status,
             "opportunity": self.opportunity,
-            "best_tie": _float(self.best_tie),
-            "worst_tie": _float(self.worst_tie),
+            "best_tie": rounded(self.best_tie),
+            "worst_tie": rounded(self.worst_tie),
         }
 
     @classmethod
@@ -95,7 +96,7 @@ class Row:
         return cls(
             test=data["test"],
             mode=data["mode"],
-            discount=Fraction(str(data["discount"])),
+            discount=as_written(data["discount"]),
             status=data["status"],
             cost=exact_cost(data["cost"]),
             human_cost=exact_cost(data["human_cost"]),
@@ -109,11 +110,7 @@ class Row:
 
 def exact_cost(value: float | None) -> Fraction | None:
     """The rational that a cost in a result stands for."""
-    return None if value is None else Fraction(str(value))
-
-
-def _float(value: Fraction | None) -> float | None:
-    return None if value is None else float(value)
+    return None if value is None else as_written(value)
 
 
 def _text(value: Fraction | None) -> str:

@@ -90,7 +90,6 @@ class ExampleAnswer:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
-        window = None if self.window is None else {"start": self.window.start, "end": self.window.end}
         return {
             "section": self.section,
             "example": self.name,
@@ -98,7 +97,7 @@ class ExampleAnswer:
             "discount": float(self.discount),
             "human_cost": self.human_cost,
             "cost": self.cost,
-            "window": window,
+            "window": None if self.window is None else self.window.to_dict(),
         }
 
 

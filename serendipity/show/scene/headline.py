@@ -1,8 +1,6 @@
 """What a picture says in words: one line for everybody, one with the particulars."""
 
-from fractions import Fraction
-
-from serendipity.model.numbers import plain
+from serendipity.model.numbers import as_written, plain
 from serendipity.show.scene.scene import Scene
 
 
@@ -47,7 +45,7 @@ def _saved(scene: Scene) -> str:
     if result.mode == "assistance":
         human = scene.agents[scene.human]
         own = result.agent_costs.get(human, 0)
-        others = sum(Fraction(str(c)) for name, c in result.agent_costs.items() if name != human)
+        others = sum(as_written(c) for name, c in result.agent_costs.items() if name != human)
         before = "" if result.human_cost is None else f"{plain(result.human_cost)} → "
         return f"{before}{plain(own)} for {human}, {plain(others)} for the others"
     if result.saving is None or result.human_cost is None or result.cost is None:

@@ -1,11 +1,11 @@
 """What really happens: the states of a result's plan, and of the human's former plan."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from serendipity.model import GroundAction, InputError, PlanStep, Result, Task
-from serendipity.model.actions import State
+from serendipity.model.actions import State, apply
+from serendipity.model.execution import actions_named
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ def replay(task: Task, result: Result) -> tuple[Moment, ...]:
         for step in by_epoch[epoch]:
             action = _find(task, step, state if turns else before)
             actions.append(action)
-            state = state.difference(action.delete).union(action.add)
+            state = apply(state, action)
         moments.append(Moment(epoch, tuple(actions), state))
     return tuple(moments)
 
@@ -50,16 +50,15 @@ def replay_former(task: Task, result: Result) -> tuple[Moment, ...]:
     plan = task.plan_from_names(result.human_plan or ()) if result.human_plan else ()
     moments = [Moment(0, (), task.init)]
     for epoch, i in enumerate(plan, start=1):
-        action, state = task.actions[i], moments[-1].state
-        moments.append(Moment(epoch, (action,), state.difference(action.delete).union(action.add)))
+        action = task.actions[i]
+        moments.append(Moment(epoch, (action,), apply(moments[-1].state, action)))
     return tuple(moments)
 
 
 def _find(task: Task, step: PlanStep, state: State) -> GroundAction:
     """The action of a step; of several with one name, the first that is applicable."""
     agents = {name.lower() for name in step.agents}
-    same = [task.actions[i] for i in task.named.get(step.action.lower(), ())]
-    same = [action for action in same if {task.agents[i] for i in action.participants} == agents]
+    same = [task.actions[i] for i in actions_named(task, step.action.lower(), agents)]
     if not same:
         who = ", ".join(step.agents)
         raise InputError(f"plan, epoch {step.epoch}: the task has no action '{step.action}' of {who}")
@@ -67,9 +66,3 @@ def _find(task: Task, step: PlanStep, state: State) -> GroundAction:
         if action.applicable(state):
             return action
     raise InputError(f"plan, epoch {step.epoch}: '{step.action}' is not applicable in this task")
-
-
-def agent_names(task: Task, actions: Sequence[GroundAction]) -> Iterator[str]:
-    """The participants of some actions, each once, in the task's order."""
-    taking_part = {i for action in actions for i in action.participants}
-    return (task.agents[i] for i in sorted(taking_part))

@@ -7,6 +7,8 @@ from itertools import chain
 from typing import Final
 
 from serendipity.model import GroundAction, InputError, Result, Task, Window
+from serendipity.model.execution import shares
+from serendipity.model.numbers import total
 from serendipity.show.map.layout import Layout, lay_out
 from serendipity.show.map.names import parts, verb_and_rest, without
 from serendipity.show.map.places import Places, Whereabouts, find_places
@@ -187,12 +189,10 @@ class _Builder:
         for epoch in range(last + 1):
             moment = moments[epoch] if epoch < len(moments) else Moment(epoch, (), moments[-1].state)
             then = former[min(epoch, len(former) - 1)]
-            for action in moment.actions:
-                share = self.task.team_cost(action, self.discount) / len(action.participants)
-                for agent in action.participants:
-                    spent[agent] += share
+            for agent, share in shares(self.task, moment.actions, self.discount).items():
+                spent[agent] += share
             if epoch < len(former):
-                former_spent += sum((action.cost for action in then.actions), Fraction(0))
+                former_spent += total(action.cost for action in then.actions)
             state = moment.state
             frames.append(
                 Frame(

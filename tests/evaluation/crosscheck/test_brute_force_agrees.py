@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.evaluation.crosscheck import random_call
-from serendipity.facade.planning import options_from
+from serendipity.facade.call import options_from
 from serendipity.model import Options, UsageError
 from tests.support.oracle import best, optimal_human_plan
 from tests.support.oracle.reactions import best_reaction

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import Result, Task
 from serendipity.model import Deadline, Decision, Options, Policy
+from serendipity.model.answer import PolicyBounds
+from serendipity.model.numbers import as_written
 from tests.search.assistance.strategies import games
 from tests.support.cases import case_5, case_6
 from verify.policy import check_policy
@@ -32,7 +34,7 @@ def test_answers_are_proved(task: Task, ties: str, no_block: bool) -> None:
 def idle(result: Result, policy: Policy) -> Result:
     """The same answer with a policy that does nothing, and every figure as if that were the best."""
     cost = result.human_cost
-    value = [str(Fraction(str(cost))), "0"]
+    value = as_written(cost), Fraction(0)
     return replace(
         result,
         policy=policy,
@@ -43,7 +45,7 @@ def idle(result: Result, policy: Policy) -> Result:
         lower_bound=cost,
         saving=0.0,
         opportunity=False,
-        statistics={**result.statistics, "bounds": {"lower": value, "upper": value}},
+        bounds=PolicyBounds(value, value),
     )
 
 
@@ -129,7 +131,7 @@ def infeasible() -> Result:
         "p",
         Options(mode="assistance"),
         reason="no-plan",
-        statistics={"bounds": {"lower": ["0", "0"], "upper": None}},
+        bounds=PolicyBounds((Fraction(0), Fraction(0)), None),
     )
 
 

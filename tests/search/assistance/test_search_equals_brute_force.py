@@ -18,13 +18,14 @@ _MOST_POLICIES = 400
 
 def value(result: Result) -> Costs | None:
     """The proved pair of a result; None where it says that there is none."""
-    bounds = result.statistics["bounds"]
+    bounds = result.bounds
+    assert bounds is not None
     if result.status == "infeasible":
         assert result.policy is None
         return None
     assert result.status == "optimal"
-    assert bounds["lower"] == bounds["upper"]
-    first, second = (Fraction(text) for text in bounds["upper"])
+    assert bounds.lower == bounds.upper
+    first, second = bounds.lower
     assert list(result.agent_costs.values()) == [float(first), float(second)]
     assert result.cost == result.objective == result.lower_bound == float(first + second)
     return first, second

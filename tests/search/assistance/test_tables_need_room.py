@@ -71,4 +71,4 @@ def test_answers_are_the_same_without_tables(ties: str, monkeypatch: pytest.Monk
     monkeypatch.setattr(closure, "SMALL", 1)
     monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
     answer = serendipity.plan(case_5(), mode="assistance", ties=ties, deadline=Full())
-    assert (answer.status, answer.statistics["bounds"]) == (full.status, full.statistics["bounds"])
+    assert (answer.status, answer.bounds) == (full.status, full.bounds)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from search import PreparedTask
-from search.assistance import Assistance, assist
+from search.assistance import assist
 from search.assistance.bounds import bound
 from search.assistance.bounds import relaxed_provision as provision
 from search.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
@@ -17,6 +17,7 @@ from search.assistance.distances import perimeter as ball
 from search.assistance.game.game import Game
 from search.assistance.solvers import cheapest_run, lao_star
 from serendipity.model import Options, Task
+from serendipity.model.answer import Answer
 from serendipity.model.deadline import Deadline
 from tests.search.assistance.oracle import by_rounds, explore
 from tests.search.assistance.strategies import games
@@ -43,10 +44,10 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
             patch.setattr(bound, "MAX_JOINT_STATES", 0)
         *_, answer = assist(PreparedTask(game), options, Countdown(questions))
     if answer.status in ("optimal", "infeasible"):
-        assert (answer.status, answer.upper) == (full.status, full.upper)
-    elif full.upper is not None:
-        assert answer.lower <= full.upper
-        assert answer.upper is None or full.upper <= answer.upper
+        assert (answer.status, answer.bounds.upper) == (full.status, full.bounds.upper)
+    elif full.bounds.upper is not None:
+        assert answer.bounds.lower <= full.bounds.upper
+        assert answer.bounds.upper is None or full.bounds.upper <= answer.bounds.upper
 
 
 @pytest.mark.parametrize("ties", TIES)
@@ -58,13 +59,13 @@ def test_doing_nothing_is_an_answer_as_soon_as_his_own_plan_is_known(case, ties:
     known = [answer for answer in answers if answer.status != "unknown"]
     assert (answers[0].status, answers[-1].status) == ("unknown", "optimal")
     assert answers[-len(known) :] == known  # more time never leaves less
-    assert known[0].upper == (2, 0)
+    assert known[0].bounds.upper == (2, 0)
     for answer in known:
-        assert answer.lower <= full.upper <= answer.upper
-        assert (answer.lower == answer.upper) == (answer.status == "optimal")
+        assert answer.bounds.lower <= full.bounds.upper <= answer.bounds.upper
+        assert (answer.bounds.lower == answer.bounds.upper) == (answer.status == "optimal")
 
 
-def last(answers: Iterable[Assistance]) -> Assistance:
+def last(answers: Iterable[Answer]) -> Answer:
     *_, answer = answers
     return answer
 

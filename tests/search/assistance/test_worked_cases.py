@@ -13,10 +13,10 @@ from tests.support.cases import case_5, case_6, case_8
 
 
 def pair(result: Result) -> tuple[str, str]:
-    lower, upper = result.statistics["bounds"]["lower"], result.statistics["bounds"]["upper"]
     assert result.status == "optimal"
-    assert lower == upper
-    return tuple(str(Fraction(text)) for text in upper)
+    assert result.bounds is not None
+    assert result.bounds.lower == result.bounds.upper
+    return tuple(map(str, result.bounds.lower))
 
 
 @pytest.mark.parametrize(

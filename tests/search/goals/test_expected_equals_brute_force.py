@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 
 import serendipity
 from search import PreparedTask
-from search.engine.outcome import plan_steps
-from search.goals import Candidate, Expected, ServedGoal, solve_expected
+from search.engine.paths import plan_steps
+from search.goals import Candidate, solve_expected
 from search.goals.planner import _Search
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
+from serendipity.model.answer import Answer, ServedGoal
 from tests.search.goals.oracle import best_expected, robots_sets
 from tests.search.goals.strategies import literals, rivals
 from tests.support.builders import task as build
@@ -48,7 +49,7 @@ def test_two_goals(rivalry: tuple[Task, list[Candidate]], options: Options) -> N
     answer = solve_expected(PreparedTask(task), options, candidates)
     assert answer.status == "optimal"
     assert answer.cost <= answer.baseline
-    assert sum(c.weight * s.cost for c, s in zip(candidates, answer.served, strict=True)) == answer.cost
+    assert sum(c.weight * s.cost for c, s in zip(candidates, answer.goals or (), strict=True)) == answer.cost
     if horizon:
         objective, cost = best_expected(task, options, candidates, horizon)
         idle = solve_expected(
@@ -65,10 +66,10 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
     """Also those that are served at no gain; to the checker of section 3 they would be no opportunity."""
     task, candidates = rivalry
     answer = solve_expected(PreparedTask(task), options, candidates)
-    for candidate, served in zip(candidates, answer.served, strict=True):
+    for candidate, served in zip(candidates, answer.goals or (), strict=True):
         own = replace(task, goal=candidate.goal)
         robots = {s for s in served.steps if task.human not in task.actions[s.action].participants}
-        assert robots == set(answer.robots)
+        assert robots == set(answer.steps or ())
         line = Timeline(
             "it",
             Fraction(1),
@@ -83,16 +84,16 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
 
 
 def _assert_needed(
-    task: Task, options: Options, candidate: Candidate, served: ServedGoal, answer: Expected
+    task: Task, options: Options, candidate: Candidate, served: ServedGoal, answer: Answer
 ) -> None:
     """A window that gains nothing for its own goal: the human's plan beside what robots do is no better.
 
     Robots do it for the sake of another goal.  Beside it the human's plan is impossible, or costs more,
     since the robots' work comes on top of it.
     """
-    beside = tuple(sorted((*answer.robots, *plan_steps(candidate.plan))))
+    beside = tuple(sorted((*(answer.steps or ()), *plan_steps(candidate.plan))))
     cost = task.cost_of(candidate.plan) + sum(
-        task.team_cost(task.actions[step.action], options.discount) for step in answer.robots
+        task.team_cost(task.actions[step.action], options.discount) for step in answer.steps or ()
     )
     alone = replace(served, steps=beside, window=None, cost=cost)
     line = Timeline(
@@ -123,10 +124,10 @@ def test_a_goal_served_at_no_gain() -> None:
         horizon=3,
         interference="strict",
     )
-    p, z = answer.statistics["goals"]
-    assert (answer.opportunity, p["cost"], z["cost"]) == (True, 1.0, 5.0)
-    assert z["window"] is not None
-    assert [step["action"] for step in z["plan"]] == ["lift r", "mend h"]
+    p, z = answer.goals or ()
+    assert (answer.opportunity, p.cost, z.cost) == (True, 1.0, 5.0)
+    assert z.window is not None
+    assert [step.action for step in z.plan or ()] == ["lift r", "mend h"]
 
 
 @given(calls(modes=("serendipity",), ties=False))
@@ -191,7 +192,7 @@ def _renamed(task: Task, candidates: list[Candidate]) -> list[Candidate]:
 
 
 def _as_result(
-    task: Task, options: Options, candidate: Candidate, served: ServedGoal, answer: Expected
+    task: Task, options: Options, candidate: Candidate, served: ServedGoal, answer: Answer
 ) -> Result:
     """What happens for one goal, ready to be checked."""
     steps = []

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.model import InputError, Result, Task, UsageError
+from serendipity.model import InputError, Result, Task, UsageError, Window
 from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
 from tests.support.builders import task as build
 from tests.support.cases import CASE_3_PLAN, case_3
@@ -37,9 +37,9 @@ def test_help_that_leaves_the_other_plan_alone() -> None:
     assert (answer.status, answer.opportunity) == ("optimal", True)
     assert (answer.cost, answer.human_cost, answer.saving) == (4, 5, 1)  # (2 + 6) / 2
     assert [(step.epoch, step.action) for step in answer.plan or ()] == [(1, "lift r")]
-    p, z = answer.statistics["goals"]
-    assert (p["cost"], p["window"]) == (2, {"start": 1, "end": 2})
-    assert (z["cost"], z["window"]) == (6, None)
+    p, z = answer.goals or ()
+    assert (p.cost, p.window) == (2, Window(1, 2))
+    assert (z.cost, z.window) == (6, None)
     assert answer.agent_costs == {"h": 3, "r": 1}
 
 
@@ -56,7 +56,7 @@ def test_no_considered_plan_is_broken() -> None:
     """Lifting would make the second action of the human's plan for z inapplicable, however unlikely z is."""
     answer = helped(workshop("ready !q -> z @ 4"), 1_000_000, 1)
     assert (answer.status, answer.opportunity, answer.cost, answer.plan) == ("optimal", False, 5, ())
-    assert [goal["window"] for goal in answer.statistics["goals"]] == [None, None]
+    assert [goal.window for goal in answer.goals or ()] == [None, None]
 
 
 def test_impossible_goals_are_not_considered() -> None:
@@ -64,7 +64,8 @@ def test_impossible_goals_are_not_considered() -> None:
     assert helped(task, 1, 0).cost == 2
     unexplained = helped(task, 1, 1, observed=["do2 h"])  # the human can't without the robot
     assert unexplained.cost == 5
-    assert not unexplained.statistics["recognition"]["explained"]
+    assert unexplained.recognition is not None
+    assert not unexplained.recognition.explained
 
 
 def test_what_was_seen_settles_the_goal() -> None:
@@ -72,9 +73,10 @@ def test_what_was_seen_settles_the_goal() -> None:
     task = workshop("!q -> z @ 5")
     assert helped(task, 1, 1).opportunity
     answer = helped(task, 1, 1, observed=["keep h"])
-    p, z = answer.statistics["recognition"]["goals"]
-    assert (p["cost_with_observed"], p["cost_without_observed"]) == (10, 5)
-    assert (z["cost_with_observed"], z["cost_without_observed"]) == (5, None)
+    assert answer.recognition is not None
+    p, z = answer.recognition.goals
+    assert (p.with_observed, p.without_observed) == (10, 5)
+    assert (z.with_observed, z.without_observed) == (5, None)
     assert not answer.opportunity
 
 
@@ -103,7 +105,7 @@ def test_one_source_for_his_plan() -> None:
 def test_without_time_for_the_posterior_nothing_is_known() -> None:
     answer = helped(workshop("!q -> z @ 5"), 1, 1, time_limit=0)
     assert (answer.status, answer.reason, answer.cost) == ("unknown", "time-limit", None)
-    assert "goals" not in answer.statistics
+    assert answer.goals is None
 
 
 def test_text_and_json(run: Callable[[str], Run]) -> None:  # noqa: F811

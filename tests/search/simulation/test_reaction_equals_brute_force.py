@@ -3,8 +3,9 @@
 import pytest
 from hypothesis import given
 
-from search import Outcome, PreparedTask
+from search import PreparedTask
 from search.simulation import simulate, solve_for_human
+from serendipity.model.answer import Answer
 from tests.search.simulation.strategies import Reaction, reactions
 from tests.support.oracle.reactions import best_reaction
 
@@ -37,7 +38,7 @@ def test_reaction_equals_brute_force(human_model: str) -> None:
     law()
 
 
-def _assert_happens(case: Reaction, human_model: str, outcome: Outcome) -> None:
+def _assert_happens(case: Reaction, human_model: str, outcome: Answer) -> None:
     played = simulate(
         PreparedTask(case.task),
         case.options,

@@ -1,7 +1,6 @@
 """Why an edited result may still be proved: what an edit must be for that, and nothing else."""
 
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any, Final
 
 import serendipity
@@ -49,7 +48,7 @@ def explained(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edi
         return "the options don't change the answer"
     if _claims_less(good, result):
         return "it claims less"
-    if "goals" in good.asked and "goals" not in result.statistics and _same_answer(good, result):
+    if "goals" in good.asked and result.goals is None and _same_answer(good, result):
         return "it is the answer for the task's own goal, too"
     if _beliefs(result) is not None and _same_recognition(good, data, result):
         return "the posterior is another one, and the answer is that for it"
@@ -90,7 +89,7 @@ def _without_options(data: dict[str, Any]) -> Any:
 def _asked(good: Good, result: Result) -> Result | None:
     """What the call is answered under the edited result's options; None where it can't be asked so."""
     options = {key: value for key, value in result.options.to_dict().items() if not key.endswith("_limit")}
-    wanted = ("human_plan", *(("goals", "observed") if "goals" in result.statistics else ()))
+    wanted = ("human_plan", *(("goals", "observed") if result.goals is not None else ()))
     given = {key: value for key, value in good.asked.items() if key in wanted}
     try:
         return serendipity.plan(good.task, **options, **given)
@@ -114,8 +113,9 @@ def _same_answer(good: Good, result: Result) -> bool:
 def _bounded(result: Result, again: Result) -> bool:
     """Whether the optimum lies where an unfinished answer says."""
     if result.mode == "assistance" and again.status == "optimal":
-        said, right = (each.statistics["bounds"]["lower"] for each in (result, again))
-        return [Fraction(text) for text in said] <= [Fraction(text) for text in right]
+        assert result.bounds is not None
+        assert again.bounds is not None
+        return result.bounds.lower <= again.bounds.lower
     if again.cost is None or again.objective is None or result.lower_bound is None:
         return result.lower_bound in (None, 0.0)
     least = again.objective
@@ -127,7 +127,7 @@ def _bounded(result: Result, again: Result) -> bool:
 
 def _beliefs(result: Result) -> dict[str, Any] | None:
     """The recognition that an answer for several goals rests on."""
-    return result.statistics.get("recognition") if "goals" in result.statistics else None
+    return None if result.goals is None or result.recognition is None else result.recognition.to_dict()
 
 
 def _same_recognition(good: Good, data: dict[str, Any], result: Result) -> bool:
@@ -145,11 +145,10 @@ def _claims_less(good: Good, result: Result) -> bool:
     before = good.result
     weaker = before.status == result.status or (before.status, result.status) in _WEAKER
     same = replace(result, status=before.status, lower_bound=before.lower_bound, reason=before.reason)
-    statistics = dict(result.statistics)
-    for key in ("bounds", "ties"):  # a bound, and the answers that were looked at
-        if key in before.statistics:
-            statistics[key] = before.statistics[key]
-    same = replace(same, statistics=statistics)
+    if before.bounds is not None:
+        same = replace(same, bounds=before.bounds)
+    if before.ties is not None:  # the answers that were looked at
+        same = replace(same, ties=before.ties)
     if result.status == "feasible" and result.saving_alone is None:  # not known by then
         same = replace(same, saving_alone=before.saving_alone)
     if not weaker or _meaning(same.to_dict()) != _meaning(before.to_dict()):
@@ -157,7 +156,7 @@ def _claims_less(good: Good, result: Result) -> bool:
     if result.status == "unknown" and before.reason and not result.reason:
         return True
     if result.status == "optimal":  # some of the answers that were looked at are not listed
-        return "ties" in before.statistics and result.lower_bound == before.lower_bound
+        return before.ties is not None and result.lower_bound == before.lower_bound
     again = _asked(good, result)
     return again is not None and result.status != "infeasible" and _bounded(result, again)
 

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
+from serendipity.model.fields import Fields, MalformedError
+from serendipity.model.numbers import as_written, rounded
+
 SCHEMA: Final = "serendipity.recognition/1"
 
 
@@ -41,8 +44,8 @@ class GoalPosterior:
             "prior": float(self.prior),
             "likelihood": self.likelihood,
             "posterior": self.posterior,
-            "cost_with_observed": _float(self.with_observed),
-            "cost_without_observed": _float(self.without_observed),
+            "cost_with_observed": rounded(self.with_observed),
+            "cost_without_observed": rounded(self.without_observed),
             "plan": None if self.plan is None else list(self.plan),
         }
 
@@ -83,5 +86,39 @@ class Recognition:
         }
 
 
-def _float(value: Fraction | None) -> float | None:
-    return None if value is None else float(value)
+def read_recognition(value: Any) -> Recognition:
+    """The posterior that a result rests on, as :meth:`Recognition.to_dict` wrote it into ``statistics``.
+
+    Raises:
+        MalformedError: a field is missing or of another type.
+    """
+    data = Fields(value, "statistics.recognition", "recognition")
+    schema, human = data.raw("schema"), data.raw("human")
+    if schema != SCHEMA or not isinstance(human, str):
+        raise MalformedError(f"statistics.recognition: expected schema '{SCHEMA}' and the result's human")
+    return Recognition(
+        human,
+        data.texts("observed"),
+        data.number("beta"),
+        data.flag("explained"),
+        tuple(map(_read_goal, data.objects("goals"))),
+    )
+
+
+def _read_goal(entry: Fields) -> GoalPosterior:
+    """One goal; its weight, of which the posterior is all that was written down, is the posterior."""
+    return GoalPosterior(
+        name=entry.text("name"),
+        goal=entry.texts("goal"),
+        prior=as_written(entry.number("prior")),
+        likelihood=entry.optional("likelihood", entry.number),
+        posterior=(posterior := entry.number("posterior")),
+        weight=as_written(posterior),
+        with_observed=_exact(entry.optional("cost_with_observed", entry.number)),
+        without_observed=_exact(entry.optional("cost_without_observed", entry.number)),
+        plan=entry.optional("plan", entry.texts),
+    )
+
+
+def _exact(value: float | None) -> Fraction | None:
+    return None if value is None else as_written(value)

@@ -1,0 +1,24 @@
+"""What is asked about several candidate goals."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from serendipity.model.actions import Condition
+from serendipity.model.task import HumanPlan
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A goal that the human may have.
+
+    Attributes:
+        goal: the goal.
+        plan: their current plan, if that is their goal.
+        weight: its probability, more than 0.
+        name: for people.
+    """
+
+    goal: Condition
+    plan: HumanPlan
+    weight: Fraction
+    name: str = ""

@@ -1,0 +1,79 @@
+"""What an explanation consists of, and its JSON form (schema ``serendipity.explanation/1``)."""
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+from serendipity.explanation.ask import Parts
+from serendipity.explanation.break_even import Threshold
+from serendipity.explanation.misses import Miss
+from serendipity.explanation.moments import Moment
+from serendipity.facade.interruptibility import Removal
+from serendipity.model import Result
+
+SCHEMA: Final = "serendipity.explanation/1"
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """Why an answer is what it is.
+
+    Attributes:
+        answer: what is explained.
+        removal: what disappears from the human's plan and what replaces it; None without help.
+        parts: what the answer's plan costs; None without a plan.
+        moments: each start of the window; empty where windows play no part.
+        discount: where help begins to pay; None where that is not computed.
+        window_weight: the greatest ``K`` at which longer interruptions help; None where not computed.
+        announcement: the answer in communication mode, or None.
+        misses: what would help if a rule were relaxed; empty where a robot helps anyway.
+        sentences: all of it in words, topic by topic.
+        limit: which limit came before everything was found out (as ``Result.reason`` has it), or None.
+        left_out: what is missing for it: ``moment``, ``discount``, ``window_weight``,
+            ``announcement``, ``miss``.
+    """
+
+    answer: Result
+    removal: Removal | None
+    parts: Parts | None
+    moments: tuple[Moment, ...]
+    discount: Threshold | None
+    window_weight: Threshold | None
+    announcement: Result | None
+    misses: tuple[Miss, ...]
+    sentences: tuple[tuple[str, str], ...] = ()
+    limit: str | None = None
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is missing for want of time or memory."""
+        return self.limit is None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object (schema ``serendipity.explanation/1``)."""
+        answer, gone, told = self.answer, self.removal, self.announcement
+        return {
+            "schema": SCHEMA,
+            "complete": self.complete,
+            "limit": self.limit,
+            "left_out": list(self.left_out),
+            "mode": answer.mode,
+            "opportunity": answer.opportunity,
+            "human_cost": answer.human_cost,
+            "cost": answer.cost,
+            "saving": answer.saving,
+            "reason": answer.reason,
+            "removed": None if gone is None else list(gone.removed),
+            "removed_first": None if gone is None else gone.first,
+            "removed_last": None if gone is None else gone.last,
+            "replacement": None if gone is None else list(gone.replacement),
+            "human_part": None if self.parts is None else float(self.parts.human),
+            "robot_part": None if self.parts is None else float(self.parts.discounted(answer.options)),
+            "moments": [moment.to_dict() for moment in self.moments],
+            "break_even_discount": None if self.discount is None else self.discount.to_dict(),
+            "break_even_window_weight": None if self.window_weight is None else self.window_weight.to_dict(),
+            "announcement": None if told is None else {"cost": told.cost, "opportunity": told.opportunity},
+            "misses": [miss.to_dict() for miss in self.misses],
+            "sentences": [{"topic": topic, "text": text} for topic, text in self.sentences],
+            "options": answer.options.to_dict(),
+        }

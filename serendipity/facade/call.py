@@ -1,0 +1,93 @@
+"""One planning call: what is asked, checked in one place before anything is planned."""
+
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
+from typing import Any, Final
+
+from search import PreparedTask
+from serendipity.model.answer import Answer
+from serendipity.model.deadline import Deadline
+from serendipity.model.errors import UsageError
+from serendipity.model.limits import limits_from
+from serendipity.model.options import Options
+from serendipity.model.task import HumanPlan, Task
+from serendipity.model.visibility import Visible
+
+_ANSWER_SHARE: Final = 0.05
+"""What of the time limit is kept for the end: dropping what the search has made takes time, too."""
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """What one call asks for.
+
+    Attributes:
+        prepared: the task.
+        options: in force.
+        given: ``pi_H`` where the caller gave it; None predicts it.
+        visible: what a human of ``human_model="local"`` sees; None for the default.
+        limits: of the whole call.
+        deadline: of the search: the same without the time that is kept for the end.
+    """
+
+    prepared: PreparedTask
+    options: Options
+    given: HumanPlan | None
+    visible: Visible | None
+    limits: Deadline
+    deadline: Deadline
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.prepared.task
+
+
+Given = Callable[[], HumanPlan] | None
+"""What the human is going to do, replayed when it is asked for; None to predict it."""
+
+Solver = Callable[[Call], Iterator[Answer]]
+"""Answers to a call, each better than the one before or better proved; the last one is the best known."""
+
+
+def options_from(given: dict[str, Any]) -> Options:
+    """Options from keyword arguments.
+
+    Raises:
+        UsageError: an option is unknown or has no legal value.
+    """
+    known = [field.name for field in fields(Options)]
+    for name in given:
+        if name not in known:
+            raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
+    return Options(**given)
+
+
+def checked_call(
+    prepared: PreparedTask,
+    options: Options,
+    given: Given,
+    visible: Visible | None,
+    cancelled: threading.Event | None,
+    outer: Deadline | None,
+) -> Call:
+    """The call that keyword arguments of :func:`serendipity.plan` ask for; its time starts now.
+
+    Raises:
+        UsageError: something that plays no part in the mode, or a task that the mode is not for.
+        PlanError: the human's plan can't be executed, or misses the goal.
+    """
+    if visible is not None and options.human_model != "local":
+        raise UsageError(f"visible: is for human_model 'local' only, not for '{options.human_model}'")
+    limits = limits_from(options.time_limit, options.memory_limit, outer, cancelled)
+    human_plan = None if given is None else given()
+    if options.mode == "assistance":
+        if human_plan is not None:
+            raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")
+        robots = len(prepared.task.robots)
+        if robots != 1:
+            raise UsageError(f"mode: 'assistance' is for one robot, the task has {robots}")
+    elif human_plan is not None:
+        options = options.but(ties="fixed")  # there is but one plan
+    return Call(prepared, options, human_plan, visible, limits, limits.sooner(_ANSWER_SHARE))

@@ -1,0 +1,87 @@
+"""Answers where it is settled which plan the human follows: the one that was given, or the canonical one."""
+
+from collections.abc import Callable, Iterator
+from typing import Final
+
+from search import solve
+from search.simulation import solve_for_human
+from serendipity.facade.call import Call
+from serendipity.facade.simulation import realised
+from serendipity.model.answer import Answer, Improvement
+from serendipity.model.task import HumanPlan
+
+_VERDICT_SHARE: Final = 0.02
+"""What the verdict on humans who replan may add to the time limit: a share of it."""
+
+
+def answers(call: Call) -> Iterator[Answer]:
+    """Answers with falling objective and rising lower bound, each with how it came to be so good."""
+    return _told(call, call.given)
+
+
+def last_answer(call: Call, human_plan: HumanPlan) -> Answer:
+    """The answer to one plan of the human's, with the verdicts on humans who replan."""
+    *_, answer = _told(call, human_plan)
+    return with_verdicts(call, answer._replace(human_plan=human_plan))  # which there was no time to find out
+
+
+def with_verdicts(call: Call, answer: Answer) -> Answer:
+    """The answer with the verdicts of semantics 6, where they were not looked at yet; none without a plan.
+
+    They may go a little beyond the time limit, so that an answer at the limit has them too.
+    """
+    if answer.realised is not None or answer.steps is None or answer.cost is None:
+        return answer
+    verdicts = realised(
+        call.prepared,
+        call.options,
+        answer.human_plan or (),
+        answer.steps,
+        cost=answer.cost,
+        horizon=answer.horizon,
+        visible=call.visible,
+        deadline=call.limits.sooner(-_VERDICT_SHARE),
+    )
+    return answer._replace(realised=verdicts)
+
+
+def _omniscient(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
+    return solve(call.prepared, call.options, human_plan=human_plan, deadline=call.deadline)
+
+
+def _replanning(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
+    return solve_for_human(
+        call.prepared, call.options, human_plan=human_plan, visible=call.visible, deadline=call.deadline
+    )
+
+
+_PLANNERS: Final[dict[str, Callable[[Call, HumanPlan | None], Iterator[Answer]]]] = {
+    "omniscient": _omniscient,
+    "observant": _replanning,
+    "local": _replanning,
+}
+"""By model of the human."""
+
+
+def _told(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
+    gap: list[Improvement] = []
+    for answer in _news(_PLANNERS[call.options.human_model](call, human_plan)):
+        now = Improvement(call.deadline.elapsed(), answer.objective, answer.lower_bound)
+        if not gap or gap[-1][1:] != now[1:]:
+            gap.append(now)
+        yield answer._replace(gap=tuple(gap))
+
+
+def _news(answers: Iterator[Answer]) -> Iterator[Answer]:
+    """The answers that say something new, and the last one."""
+    said: tuple[object, ...] = ()
+    repeated: Answer | None = None
+    for answer in answers:
+        says = (answer.status, answer.objective, answer.lower_bound)
+        if says == said:
+            repeated = answer
+        else:
+            said, repeated = says, None
+            yield answer
+    if repeated is not None:
+        yield repeated

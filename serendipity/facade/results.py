@@ -1,0 +1,123 @@
+"""From exact answers to results: names and floats appear here, and nowhere before."""
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from serendipity.model.answer import Answer, Improvement, ServedGoal
+from serendipity.model.execution import actions_of, participants, shares
+from serendipity.model.numbers import rounded
+from serendipity.model.options import Options
+from serendipity.model.plans import PlanStep, Step
+from serendipity.model.result import Result
+from serendipity.model.result_parts import GapEntry, GoalAnswer, TiedAnswer
+from serendipity.model.task import HumanPlan, Task
+
+
+def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> Result:
+    """An answer in the form that callers see.
+
+    Args:
+        task: what was asked; with several goals, its own plays no part.
+        options: in force.
+        answer: what was found.
+        elapsed: seconds that it took.
+    """
+    discount = _discount(options)
+    human_cost = answer.baseline if answer.goals else None
+    if answer.human_plan is not None:
+        human_cost = task.cost_of(answer.human_plan)
+    counted = {"expanded": answer.expanded, "generated": answer.generated}
+    return Result(
+        mode=options.mode,
+        status=answer.status,
+        human=task.agents[task.human],
+        options=options,
+        human_plan=_names(task, answer.human_plan),
+        human_cost=rounded(human_cost),
+        opportunity=answer.opportunity,
+        cost=rounded(answer.cost),
+        saving=rounded(answer.saving),
+        objective=rounded(answer.objective),
+        lower_bound=rounded(answer.lower_bound),
+        horizon=answer.horizon,
+        window=answer.window,
+        reason=answer.reason,
+        saving_alone=rounded(answer.saving_alone),
+        plan=_plan(task, discount, answer.steps),
+        agent_costs=_agent_costs(task, discount, answer),
+        realised=dict(answer.realised or {}),
+        statistics={
+            "elapsed_seconds": elapsed,
+            **{name: count for name, count in counted.items() if count is not None},
+        },
+        policy=answer.policy,
+        ties=None if answer.ties is None else tuple(_tied(task, tied) for tied in answer.ties),
+        optimal_plans=answer.optimal_plans,
+        goals=None if answer.goals is None else tuple(_goal(task, discount, goal) for goal in answer.goals),
+        recognition=answer.recognition,
+        bounds=answer.bounds,
+        gap=None if answer.gap is None else tuple(map(_gap_entry, answer.gap)),
+    )
+
+
+def named_steps(task: Task, discount: Fraction, steps: Iterable[Step]) -> tuple[PlanStep, ...]:
+    """Steps with the names of their agents and actions, and what each costs the team."""
+    prices: dict[tuple[int, int, bool], float] = {}  # few different ones for many steps
+    named = []
+    for step in steps:
+        action = task.actions[step.action]
+        kind = (*action.cost.as_integer_ratio(), task.human in action.participants)
+        price = prices.get(kind)
+        if price is None:
+            price = prices[kind] = float(task.team_cost(action, discount))
+        named.append(PlanStep(step.epoch, participants(task, action), action.name, price))
+    return tuple(named)
+
+
+def _discount(options: Options) -> Fraction:
+    """In mode ``assistance`` nobody's cost is discounted (semantics 7)."""
+    return Fraction(0) if options.mode == "assistance" else options.discount
+
+
+def _names(task: Task, plan: HumanPlan | None) -> tuple[str, ...] | None:
+    return None if plan is None else tuple(task.actions[i].name for i in plan)
+
+
+def _plan(task: Task, discount: Fraction, steps: tuple[Step, ...] | None) -> tuple[PlanStep, ...] | None:
+    return None if steps is None else named_steps(task, discount, steps)
+
+
+def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, float]:
+    """What each agent contributes: the mean with several goals, both totals of a policy."""
+    if answer.bounds is not None:
+        totals = zip((task.human, *task.robots), answer.bounds.upper or (), strict=False)
+        return {task.agents[agent]: float(cost) for agent, cost in totals}
+    if answer.steps is None:
+        return {}
+    costs = shares(task, actions_of(task, answer.steps), discount)
+    if answer.goals is not None and len(answer.goals) > 1:
+        costs = dict.fromkeys(costs, Fraction(0))
+        for goal in answer.goals:
+            for agent, cost in shares(task, actions_of(task, goal.steps or ()), discount).items():
+                costs[agent] += goal.probability * cost
+    return {task.agents[agent]: float(cost) for agent, cost in costs.items()}
+
+
+def _gap_entry(known: Improvement) -> GapEntry:
+    return GapEntry(known.seconds, rounded(known.objective), rounded(known.lower_bound))
+
+
+def _tied(task: Task, answer: Answer) -> TiedAnswer:
+    plan = _names(task, answer.human_plan) or ()
+    return TiedAnswer(plan, rounded(answer.cost), answer.opportunity, dict(answer.realised or {}))
+
+
+def _goal(task: Task, discount: Fraction, goal: ServedGoal) -> GoalAnswer:
+    return GoalAnswer(
+        goal.name,
+        float(goal.probability),
+        _names(task, goal.human_plan),
+        rounded(goal.cost),
+        goal.window,
+        _plan(task, discount, goal.steps),
+    )

@@ -1,0 +1,52 @@
+"""What the steps of a plan mean: the action of a name, who takes part, who pays what (semantics 1, 2).
+
+Written once for everything around the planner, as ``serendipity.model.actions.apply`` is.  The verifier uses
+neither: it executes plans with code of its own.
+"""
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+
+from serendipity.model.actions import GroundAction
+from serendipity.model.numbers import total
+from serendipity.model.plans import Step
+from serendipity.model.task import Task
+
+
+def actions_named(task: Task, name: str, agents: Iterable[str]) -> tuple[int, ...]:
+    """Ids of the ground actions of that name in which exactly these agents take part; variants, if several.
+
+    Args:
+        task: the task.
+        name: as plans write it, in canonical form.
+        agents: names of the participants, in any order.
+    """
+    wanted = sorted(agents)
+    return tuple(
+        i
+        for i in task.named.get(name, ())
+        if sorted(task.agents[agent] for agent in task.actions[i].participants) == wanted
+    )
+
+
+def participants(task: Task, action: GroundAction) -> tuple[str, ...]:
+    """Names of the agents that take part in an action, in the task's order."""
+    return tuple(task.agents[i] for i in action.participants)
+
+
+def actions_of(task: Task, steps: Iterable[Step]) -> Iterator[GroundAction]:
+    """The actions of some steps, in their order."""
+    return (task.actions[step.action] for step in steps)
+
+
+def shares(task: Task, actions: Iterable[GroundAction], discount: Fraction) -> dict[int, Fraction]:
+    """What each agent contributes, by id: a joint action's cost to the team is shared equally."""
+    found = dict.fromkeys(range(len(task.agents)), Fraction(0))
+    alike: dict[tuple[int, ...], list[Fraction]] = {}
+    for action in actions:
+        alike.setdefault(action.participants, []).append(action.cost)
+    for team, costs in alike.items():
+        price = total(costs) if task.human in team else total(costs) * (1 - discount)
+        for agent in team:
+            found[agent] += price / len(team)
+    return found

@@ -1,0 +1,107 @@
+"""What results say beside their plan: typed in Python, in ``statistics`` in JSON, and kept if malformed."""
+
+import json
+from copy import deepcopy
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity import Result, Task
+from tests.support.builders import task as build
+from tests.support.cases import case_4, case_5
+
+PARTS = ("gap", "ties", "optimal_plans", "bounds", "recognition", "goals")
+
+
+def rivals() -> Task:
+    """Lifting helps with p, and costs nothing with z."""
+    actions = {
+        "do1 h": "-> p @ 9",
+        "do2 h": "q -> p @ 1",
+        "lift r": "-> q @ 0",
+        "keep h": "!q -> z @ 5",
+        "mend h": "q -> z @ 5",
+    }
+    return build(goal="p", actions=actions)
+
+
+def for_goals(**options: Any) -> Result:
+    goals = [{"name": "p", "goal": ["p"], "prior": "1/3"}, {"name": "z", "goal": ["z"], "prior": "2/3"}]
+    return serendipity.plan(rivals(), goals=goals, horizon=3, **options)
+
+
+def examples() -> dict[str, tuple[Task, Result]]:
+    return {
+        "ties": (case_4(), serendipity.plan(case_4(), discount="0.9", ties="expected")),
+        "bounds": (case_5(), serendipity.plan(case_5(), mode="assistance")),
+        "goals": (rivals(), for_goals()),
+    }
+
+
+@pytest.mark.parametrize("name", ["ties", "bounds", "goals"])
+def test_files_say_the_same(name: str) -> None:
+    _, result = examples()[name]
+    data = json.loads(json.dumps(result.to_dict()))
+    read = Result.from_dict(data)
+    assert not set(PARTS) & result.statistics.keys()
+    assert read.statistics == result.statistics
+    assert not read.malformed
+    assert read.to_dict() == data
+    assert getattr(read, name) is not None
+    for part in PARTS:
+        assert read.says(part) == (part in data["statistics"]) == (getattr(result, part) is not None)
+
+
+def test_exact_where_it_is_written_exactly() -> None:
+    result = for_goals()
+    assert result.recognition is not None
+    assert [goal.prior for goal in result.recognition.goals] == [Fraction(1, 3), Fraction(2, 3)]
+    read = Result.from_dict(result.to_dict())
+    assert read.recognition is not None
+    assert [float(goal.prior) for goal in read.recognition.goals] == [1 / 3, 2 / 3]
+    assert (read.ties, read.goals) == (result.ties, result.goals)
+
+
+@pytest.mark.parametrize("value", [None, 7, "x", [7], {"a": 7}, 10**400, [{"cost": 10**400}]])
+@pytest.mark.parametrize(("name", "part"), [("ties", "ties"), ("bounds", "bounds"), ("goals", "goals")])
+def test_a_malformed_part_stays_and_is_refuted(name: str, part: str, value: object) -> None:
+    task, result = examples()[name]
+    data = deepcopy(result.to_dict())
+    data["statistics"][part] = value
+    read = Result.from_dict(data)
+    assert (getattr(read, part), read.statistics[part]) == (None, value)
+    assert part in read.malformed[part]
+    assert read.to_dict() == data
+    refuted = serendipity.verify(task, read).refuted
+    assert refuted is not None
+    assert refuted.reason.endswith(read.malformed[part])
+
+
+@pytest.mark.parametrize("field", ["probability", "cost"])
+def test_numbers_without_a_float_are_refuted(field: str) -> None:
+    """They ended the verifier with a traceback."""
+    data = for_goals().to_dict()
+    data["statistics"]["goals"][0][field] = 10**400
+    refuted = serendipity.verify(rivals(), Result.from_dict(data)).refuted
+    assert refuted is not None
+    assert field in refuted.reason
+
+
+@pytest.mark.parametrize("part", ["gap", "optimal_plans"])
+def test_what_carries_no_claim_is_not_refuted(part: str) -> None:
+    task, result = examples()["ties"]
+    data = result.to_dict()
+    data["statistics"] |= {part: "x", "more": [1]}
+    read = Result.from_dict(data)
+    assert (read.statistics[part], read.statistics["more"]) == ("x", [1])
+    assert serendipity.verify(task, read).verdict == "proved"
+
+
+def test_parts_that_somebody_put_into_statistics_by_hand() -> None:
+    task, result = examples()["ties"]
+    old = replace(result, ties=None, statistics=result.to_dict()["statistics"])
+    assert old.checked().ties == result.ties
+    assert serendipity.verify(task, old).verdict == "proved"
