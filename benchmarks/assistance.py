@@ -23,8 +23,8 @@ from benchmarks.problems import PROBLEMS
 from search import PreparedTask
 from search.assistance import joint_optimum
 from serendipity import Task
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
 
 TIES = ("optimistic", "fixed", "expected", "robust")
 ORDER = (

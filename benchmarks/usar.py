@@ -25,7 +25,7 @@ from typing import Any
 from benchmarks.problems import PROBLEMS
 from search import prepare, solve
 from serendipity.model import Options, Task
-from serendipity.model.collection import no_collection
+from serendipity.model.resources.collection import no_collection
 from serendipity.pddl import forget_parsed, read_folder
 
 DISCOUNTS = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")

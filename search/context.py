@@ -13,10 +13,10 @@ from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction, Successors, as_option
 from search.prepared_task import PreparedTask, TaskTables
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
-from serendipity.model.actions import Condition
-from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import HumanPlan, Task
 
 
 class SearchContext:

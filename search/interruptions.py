@@ -17,10 +17,10 @@ from search.packed.operators import Operator
 from search.planner import left_alone
 from search.prepared_task import PreparedTask
 from search.spaces.fixed_window import FixedWindow, Weighed
-from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
-from serendipity.model.plans import Step, Window
-from serendipity.model.task import HumanPlan
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step, Window
+from serendipity.model.task.task import HumanPlan
 
 
 @dataclass(frozen=True, slots=True)

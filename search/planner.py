@@ -14,13 +14,13 @@ from search.prepared_task import PreparedTask
 from search.spaces.factory import free_bounds, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
 from search.spaces.unrestricted import Unrestricted
-from serendipity.model.answer import Answer, saved
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer, saved
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.horizon import horizon_of
 from serendipity.model.options import INFINITE, Options
-from serendipity.model.plans import Step, Window
-from serendipity.model.task import HumanPlan
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.horizon import horizon_of
+from serendipity.model.task.plans import Step, Window
+from serendipity.model.task.task import HumanPlan
 
 
 def solve(

@@ -20,10 +20,10 @@ from search.packed.cost_vector import CostScales
 from search.packed.packed_task import PackedTask
 from search.packed.packings import diversions, doubted, human_facts
 from search.robots.tables import RobotTables
-from serendipity.model.actions import Condition
-from serendipity.model.deadline import Deadline
-from serendipity.model.task import Task
-from serendipity.model.visibility import Surroundings, surroundings
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import Task
+from serendipity.model.task.visibility import Surroundings, surroundings
 
 
 class TaskTables:

@@ -21,11 +21,11 @@ from search.planner import solve
 from search.prepared_task import PreparedTask
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.windowed import Unscheduled, Windowed
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS
-from serendipity.model.horizon import horizon_of
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.horizon import horizon_of
+from serendipity.model.task.task import HumanPlan
 
 
 def least_over_ties(

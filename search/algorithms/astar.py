@@ -17,7 +17,7 @@ from collections.abc import Callable, Hashable, Iterator
 from heapq import heappop, heappush
 from typing import Generic, TypeVar
 
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 State = TypeVar("State", bound=Hashable)
 

@@ -8,7 +8,7 @@ from collections.abc import Container, Hashable, Iterable, Iterator, Mapping, Se
 from heapq import heappop, heappush
 from typing import Generic, TypeVar
 
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 Item = TypeVar("Item")
 State = TypeVar("State", bound=Hashable)

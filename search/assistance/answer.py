@@ -15,13 +15,13 @@ from search.assistance.solvers.cheapest_run import CheapestRun
 from search.assistance.solvers.lao_star import LaoStar
 from search.assistance.writing import Writer
 from search.prepared_task import PreparedTask
-from serendipity.model.answer import Answer, PolicyBounds
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer, PolicyBounds
+from serendipity.model.answers.policy import Policy
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
-from serendipity.model.plans import Step
-from serendipity.model.policy import Policy
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan, Task
 
 _T = TypeVar("_T")
 

@@ -2,8 +2,8 @@
 
 import time
 
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
 
 
 class PhaseDeadline(Deadline):

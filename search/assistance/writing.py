@@ -2,11 +2,11 @@
 
 from search.assistance.game.game import INFINITE, NOOP, Game, Move
 from search.assistance.game.solution import Costs, Solution
-from serendipity.model.actions import NOOP as NOOP_NAME
+from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.errors import LIMITS
-from serendipity.model.plans import Step
-from serendipity.model.policy import Decision, Floor, Policy, StateDelta
-from serendipity.model.task import HumanPlan
+from serendipity.model.task.actions import NOOP as NOOP_NAME
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan
 
 
 class Writer:

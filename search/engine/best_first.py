@@ -10,7 +10,7 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import NamedTuple, Protocol, TypeVar
 
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 _PATIENCE = 1.25
 """Reports of the bound are this factor apart in time: a few dozen in all."""

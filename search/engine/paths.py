@@ -1,8 +1,8 @@
 """The steps of a plan from the node that it ended in."""
 
 from search.engine.best_first import Node
-from serendipity.model.plans import Step
-from serendipity.model.task import HumanPlan
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan
 
 
 def plan_steps(plan: HumanPlan, first_epoch: int = 1) -> tuple[Step, ...]:

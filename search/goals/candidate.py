@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from serendipity.model.actions import Condition
-from serendipity.model.task import HumanPlan
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import HumanPlan
 
 
 @dataclass(frozen=True, slots=True)

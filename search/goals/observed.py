@@ -16,10 +16,10 @@ from search.packed.operator_index import by_most_asked
 from search.packed.operators import forms_of
 from search.packed.successor_generator import Lookup
 from search.prepared_task import PreparedTask
-from serendipity.model.actions import Condition
-from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import HumanPlan, Task
 
 _At = tuple[int, int]
 """A packed state, and how many observations have been matched."""

@@ -28,12 +28,12 @@ from search.packed.successor_generator import NOTHING, JointAction, Successors, 
 from search.planner import solve
 from search.prepared_task import PreparedTask
 from search.spaces.factory import suffix_rule
-from serendipity.model.answer import Answer, ServedGoal, saved
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer, ServedGoal, saved
 from serendipity.model.errors import LIMITS
-from serendipity.model.horizon import common_horizon
 from serendipity.model.options import Options
-from serendipity.model.plans import Step, Window
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.horizon import common_horizon
+from serendipity.model.task.plans import Step, Window
 
 _Rank = tuple[int, ...]
 """Objective and cost, then window length, lateness and number of actions, weighted sums of each."""

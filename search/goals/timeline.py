@@ -16,7 +16,7 @@ from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import NOTHING, JointAction, Successors
 from search.spaces.windowed import PREFIX, WINDOW
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 _Place = tuple[int, int]
 """Packed state, and the window's start where that tells labels apart."""

@@ -33,7 +33,7 @@ from search.packed.operator_index import by_variable
 from search.packed.operators import Operator, forms_of
 from search.packed.packed_task import PackedTask
 from search.robots.transition_graphs import TransitionGraphs
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 Spot = tuple[int, int, int, int]
 """Value of the field, team of the last op on it, tracked robot's bit, its place.

@@ -12,7 +12,7 @@ from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Idle
 from search.robots.transition_graphs import PositionVariables, TransitionGraphs
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 
 class Provided:

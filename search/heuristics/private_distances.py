@@ -7,7 +7,7 @@ from search.heuristics.interactions import Interactions, Seen
 from search.human.pattern_database import PatternDatabase, Predecessors
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.packed_task import PackedTask
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 NEVER = 1 << 40
 """An epoch after every horizon."""

@@ -14,7 +14,7 @@ from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 Edges = dict[int, list[tuple[int, int]]]
 """Per state the actions that continue an optimal plan, ascending, with their successors."""

@@ -18,7 +18,7 @@ from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_we
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Signature, set_by
 from search.packed.packed_task import PackedGoal, PackedTask
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 _MAX_STATES = 50_000
 

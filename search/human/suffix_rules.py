@@ -6,8 +6,8 @@ from search.human.individual_planner import HumanOptimum, canonical
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedGoal, PackedTask
-from serendipity.model.deadline import Deadline
-from serendipity.model.task import HumanPlan
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import HumanPlan
 
 _Rest = tuple[int, int, int]
 """The first step of ``pi_H`` that is left, a packed state, and how many epochs are left."""

@@ -10,7 +10,7 @@ from search.human.pattern_database import (
     steps_in,
 )
 from search.packed.packed_task import PackedTask
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 
 class HumanTables:

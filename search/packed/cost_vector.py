@@ -16,7 +16,7 @@ from math import lcm
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan
+from serendipity.model.task.task import HumanPlan
 
 _ACTIONS_BITS = 24
 _ACTIONS = (1 << _ACTIONS_BITS) - 1

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from typing import Generic, TypeVar
 
 from search.packed.operators import Operator, Signature, split
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 Item = TypeVar("Item")
 

@@ -11,7 +11,7 @@ ops of the same agents that mention the same fields in the same way.
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 
 class Operator(NamedTuple):

@@ -17,10 +17,10 @@ from functools import cached_property
 from search.packed.operator_index import by_most_asked
 from search.packed.operators import Operator, Signature, forms_of, set_by
 from search.packed.relevance import relevant_to_goals
-from serendipity.model.actions import Condition, conflicting
-from serendipity.model.collection import no_collection
-from serendipity.model.deadline import Deadline
-from serendipity.model.task import Task
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition, conflicting
+from serendipity.model.task.task import Task
 
 
 @dataclass(frozen=True, slots=True)

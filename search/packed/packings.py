@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from search.packed.packed_task import PackedTask
-from serendipity.model.deadline import Deadline
-from serendipity.model.task import Task
-from serendipity.model.variables import Variable
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
+from serendipity.model.task.variables import Variable
 
 
 def human_facts(task: Task) -> frozenset[int]:

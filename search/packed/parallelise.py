@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from serendipity.model.actions import apply, conflicting
-from serendipity.model.plans import Step
-from serendipity.model.task import Task
+from serendipity.model.task.actions import apply, conflicting
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import Task
 
 
 def schedule(task: Task, sets: Sequence[tuple[int, ...]]) -> tuple[Step, ...]:

@@ -3,8 +3,8 @@
 from collections.abc import Collection
 from itertools import compress
 
-from serendipity.model.deadline import Deadline
-from serendipity.model.task import Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
 
 
 def relevant_to_goals(

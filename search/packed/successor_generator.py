@@ -11,8 +11,8 @@ from typing import NamedTuple
 from search.packed.operator_index import OperatorIndex
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
-from serendipity.model.actions import disables
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import disables
 
 
 class JointAction(NamedTuple):

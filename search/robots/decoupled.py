@@ -21,8 +21,8 @@ from search.packed.operators import Operator, Signature
 from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Idle, JointAction, Successors, in_time, together
 from search.robots.transition_graphs import PositionVariables
-from serendipity.model.deadline import Deadline
-from serendipity.model.plans import Step
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step
 
 
 class CenterAction(NamedTuple):

@@ -3,7 +3,7 @@
 from search.packed.packed_task import PackedTask
 from search.robots.decoupled import Decoupled
 from search.robots.transition_graphs import PositionVariables, TransitionGraphs
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 
 class RobotTables:

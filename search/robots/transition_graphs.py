@@ -9,7 +9,7 @@ from collections.abc import Set as AbstractSet
 from search.packed.operator_index import OperatorIndex, by_variable, most_asked
 from search.packed.operators import Operator, Signature, set_by, split
 from search.packed.packed_task import PackedTask
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 Moves = OperatorIndex[tuple[int, Operator]]
 """By a robot's place what sets it: the place after it, and the op."""

@@ -3,7 +3,7 @@
 from typing import Protocol
 
 from search.packed.packed_task import PackedTask
-from serendipity.model.visibility import Surroundings, Visible
+from serendipity.model.task.visibility import Surroundings, Visible
 
 
 class Eyes(Protocol):

@@ -12,9 +12,9 @@ from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask, TaskTables
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
 from search.simulation.intention import Intention, Intentions
-from serendipity.model.deadline import Deadline
 from serendipity.model.options import Options
-from serendipity.model.visibility import Visible
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.visibility import Visible
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,14 +11,14 @@ from search.prepared_task import PreparedTask
 from search.simulation.human import Human
 from search.simulation.space import Reactive
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from serendipity.model.answer import Answer, saved
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer, saved
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.horizon import horizon_of
 from serendipity.model.options import Options
-from serendipity.model.plans import Step
-from serendipity.model.task import HumanPlan, Task
-from serendipity.model.visibility import Visible
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.horizon import horizon_of
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.visibility import Visible
 
 
 def solve_for_human(

@@ -8,12 +8,12 @@ from search.packed.operators import Operator, applicable
 from search.prepared_task import PreparedTask
 from search.simulation.human import Glance, Human
 from search.simulation.intention import Intention
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
-from serendipity.model.plans import Step
-from serendipity.model.task import HumanPlan, Task
-from serendipity.model.visibility import Visible
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.visibility import Visible
 
 INAPPLICABLE, CONFLICT, REFUSED = "inapplicable", "conflict", "refused"
 

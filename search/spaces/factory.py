@@ -16,7 +16,7 @@ from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction
 from search.spaces.windowed import AnyOfPlan, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan
+from serendipity.model.task.task import HumanPlan
 
 
 def window_space(

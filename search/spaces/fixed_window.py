@@ -12,8 +12,8 @@ from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import NOTHING, JointAction, Successors
 from search.spaces.factory import bounds_along, suffix_rule
 from search.spaces.windowed import PREFIX, TOUCHED, WINDOW
-from serendipity.model.plans import Window
-from serendipity.model.task import HumanPlan
+from serendipity.model.task.plans import Window
+from serendipity.model.task.task import HumanPlan
 
 
 class Weighed:

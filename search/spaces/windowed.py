@@ -18,7 +18,7 @@ from search.human.suffix_rules import Suffix
 from search.packed.cost_vector import CostLayout
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import NOTHING, Idle, JointAction, Successors, in_time
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task.task import HumanPlan, Task
 
 PREFIX, WINDOW, TOUCHED = 0, 1, 2
 """Phases: before the window; in it, before and after the first touch of the human in it."""

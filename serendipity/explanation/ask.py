@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from serendipity.facade.planning import plan
 from serendipity.model import Deadline, LimitReachedError, Options, Result, Task
-from serendipity.model.task import canonical_name
+from serendipity.model.task.task import canonical_name
 
 PROVED: Final = ("optimal", "infeasible")
 """The statuses of answers that say how things are."""

@@ -14,7 +14,7 @@ from serendipity.facade.call import options_from
 from serendipity.facade.interruptibility import InterruptionReport, interruptions
 from serendipity.model import Deadline, LimitReachedError, Result, Task, UsageError
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.limits import limits_from
+from serendipity.model.resources.limits import limits_from
 
 _MODES: Final = ("serendipity", "communication", "composite")
 _REPORTED: Final = ("discount", "horizon", "suffix", "preservation", "interference")

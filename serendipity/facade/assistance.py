@@ -5,7 +5,7 @@ from importlib import import_module
 
 from search.assistance import assist
 from serendipity.facade.call import Call
-from serendipity.model.answer import Answer
+from serendipity.model.answers.answer import Answer
 
 
 def load_arrays() -> None:

@@ -6,13 +6,13 @@ from dataclasses import dataclass, fields
 from typing import Any, Final
 
 from search import PreparedTask
-from serendipity.model.answer import Answer
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import UsageError
-from serendipity.model.limits import limits_from
 from serendipity.model.options import Options
-from serendipity.model.task import HumanPlan, Task
-from serendipity.model.visibility import Visible
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.resources.limits import limits_from
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.visibility import Visible
 
 _ANSWER_SHARE: Final = 0.05
 """What of the time limit is kept for the end: dropping what the search has made takes time, too."""

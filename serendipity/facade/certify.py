@@ -3,8 +3,8 @@
 from time import perf_counter
 
 from serendipity.model import Certificate, Deadline, Result, Task
-from serendipity.model.collection import no_collection
-from serendipity.model.limits import limits_from
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.limits import limits_from
 from verify.certificate.by_rules import check_by_rules
 from verify.rules.header import require_same_task
 

@@ -11,11 +11,11 @@ from serendipity.facade.call import options_from
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
-from serendipity.model.collection import no_collection
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.execution import actions_of
-from serendipity.model.limits import limits_from
 from serendipity.model.numbers import rounded
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.limits import limits_from
+from serendipity.model.task.execution import actions_of
 
 SCHEMA: Final = "serendipity.interruptions/1"
 

@@ -12,9 +12,9 @@ from typing import Final
 
 from search import PreparedTask, prepare
 from serendipity.facade.prepared import HELD
-from serendipity.model.deadline import Deadline
-from serendipity.model.limits import limits_from
-from serendipity.model.task import Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.resources.limits import limits_from
+from serendipity.model.task.task import Task
 from serendipity.pddl.layouts import Pair, read_agents, read_folder, read_pddl
 from serendipity.pddl.parsing.files import PathArgument
 from serendipity.pddl.work import OnProgress, Work, within_limits

@@ -7,8 +7,8 @@ from search import solve
 from search.simulation import solve_for_human
 from serendipity.facade.call import Call
 from serendipity.facade.simulation import realised
-from serendipity.model.answer import Answer, Improvement
-from serendipity.model.task import HumanPlan
+from serendipity.model.answers.answer import Answer, Improvement
+from serendipity.model.task.task import HumanPlan
 
 _VERDICT_SHARE: Final = 0.02
 """What the verdict on humans who replan may add to the time limit: a share of it."""

@@ -11,14 +11,14 @@ from serendipity.facade.one_plan import with_verdicts
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import to_result
 from serendipity.facade.solvers import SOLVERS
-from serendipity.model.answer import Answer
-from serendipity.model.collection import no_collection
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer
+from serendipity.model.answers.result import Result
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import Number
-from serendipity.model.result import Result
-from serendipity.model.task import Task
-from serendipity.model.visibility import Visible
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
+from serendipity.model.task.visibility import Visible
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven, ObservedGiven

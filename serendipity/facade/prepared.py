@@ -9,7 +9,7 @@ import threading
 from typing import Final
 
 from search import PreparedTask
-from serendipity.model.task import Task
+from serendipity.model.task.task import Task
 
 _MOST: Final = 8
 """Tasks at once: more than a caller goes back and forth between."""

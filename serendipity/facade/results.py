@@ -3,14 +3,14 @@
 from collections.abc import Iterable
 from fractions import Fraction
 
-from serendipity.model.answer import Answer, Improvement, ServedGoal
-from serendipity.model.execution import actions_of, participants, shares
+from serendipity.model.answers.answer import Answer, Improvement, ServedGoal
+from serendipity.model.answers.result import Result
+from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.numbers import rounded
 from serendipity.model.options import Options
-from serendipity.model.plans import PlanStep, Step
-from serendipity.model.result import Result
-from serendipity.model.result_parts import GapEntry, GoalAnswer, TiedAnswer
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task.execution import actions_of, participants, shares
+from serendipity.model.task.plans import PlanStep, Step
+from serendipity.model.task.task import HumanPlan, Task
 
 
 def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> Result:

@@ -8,10 +8,10 @@ from typing import Any
 from serendipity.facade.call import Given
 from serendipity.facade.planning import planned, planned_anytime
 from serendipity.facade.prepared import HELD
-from serendipity.model.actions import Condition, GroundAction, apply, conflicting
+from serendipity.model.answers.result import Result
 from serendipity.model.errors import PlanError, UsageError
-from serendipity.model.result import Result
-from serendipity.model.task import HumanPlan, Task, canonical_name
+from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
+from serendipity.model.task.task import HumanPlan, Task, canonical_name
 
 
 class Session:

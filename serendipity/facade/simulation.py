@@ -9,17 +9,17 @@ from search.simulation import Epoch, Simulated
 from search.simulation import simulate as play
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.result import Result
+from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
 from serendipity.model.errors import LIMITS, InputError, UsageError
-from serendipity.model.execution import actions_named, participants
-from serendipity.model.limits import limits_from
 from serendipity.model.numbers import rounded
 from serendipity.model.options import Options
-from serendipity.model.plans import PlanStep, Step
-from serendipity.model.result import Result
-from serendipity.model.task import HumanPlan, Task
-from serendipity.model.trace import WHY, Trace, TraceEpoch, TraceSkip
-from serendipity.model.visibility import Visible
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.resources.limits import limits_from
+from serendipity.model.task.execution import actions_named, participants
+from serendipity.model.task.plans import PlanStep, Step
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.visibility import Visible
 
 HUMAN_MODELS: Final = ("observant", "local")
 """Models of a human who replans."""

@@ -8,7 +8,7 @@ from typing import Final
 from search import least_over_ties, optimal_human_plans
 from serendipity.facade import one_plan
 from serendipity.facade.call import Call
-from serendipity.model.answer import Answer
+from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 
 _A_FEW: Final = 4

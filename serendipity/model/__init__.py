@@ -6,18 +6,18 @@ Serendipity" (Chakraborti et al., IROS 2015), as made precise in
 ``docs/semantics.md``.
 """
 
-from serendipity.model.actions import Condition, GroundAction
-from serendipity.model.certificate import Certificate, Claim
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.certificate import Certificate, Claim
+from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
+from serendipity.model.answers.result import Result
+from serendipity.model.answers.trace import Trace, TraceEpoch, TraceSkip
 from serendipity.model.errors import InputError, LimitReachedError, PlanError, SerendipityError, UsageError
 from serendipity.model.numbers import exact
 from serendipity.model.options import INFINITE, Options
-from serendipity.model.plans import PlanStep, Step, Window
-from serendipity.model.policy import Decision, Floor, Policy, StateDelta
-from serendipity.model.result import Result
-from serendipity.model.task import HumanPlan, Task
-from serendipity.model.trace import Trace, TraceEpoch, TraceSkip
-from serendipity.model.visibility import Surroundings, Visible, surroundings
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition, GroundAction
+from serendipity.model.task.plans import PlanStep, Step, Window
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.visibility import Surroundings, Visible, surroundings
 
 __all__ = [
     "INFINITE",

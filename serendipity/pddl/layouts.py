@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.model import Deadline, InputError, Task, UsageError
-from serendipity.model.task import canonical_name
+from serendipity.model.task.task import canonical_name
 from serendipity.pddl.grounding.assemble import Blueprint, Source, assemble
 from serendipity.pddl.parsing.files import PathArgument, read_unit
 from serendipity.pddl.parsing.lifted import And, Key, Unit

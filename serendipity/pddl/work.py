@@ -5,8 +5,8 @@ from itertools import islice
 from typing import Final, TypeVar
 
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.model.collection import no_collection
 from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.resources.collection import no_collection
 
 T = TypeVar("T")
 

@@ -7,7 +7,7 @@ from os import PathLike
 from typing import Any
 
 from serendipity.model import Condition, InputError, Task, UsageError, exact
-from serendipity.model.task import canonical_name
+from serendipity.model.task.task import canonical_name
 from serendipity.pddl.parsing.lists import Entry
 from serendipity.recognition.files import read_goals, read_observed
 

@@ -9,7 +9,7 @@ from os import PathLike
 from typing import Any
 
 from serendipity.model import InputError
-from serendipity.model.task import canonical_name
+from serendipity.model.task.task import canonical_name
 from serendipity.pddl.parsing.files import read_text
 from serendipity.pddl.parsing.lists import Entry, actions_in, json_items, lines_of, starts_json
 

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 from search.goals import Likelihood, explanations
 from serendipity.model import Deadline, Task, UsageError, exact
-from serendipity.model.collection import no_collection
-from serendipity.model.limits import limits_from
+from serendipity.model.answers.recognition import GoalPosterior, Recognition
 from serendipity.model.numbers import Number, as_written
-from serendipity.model.recognition import GoalPosterior, Recognition
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.limits import limits_from
 from serendipity.recognition.candidates import (
     CandidateGoal,
     GoalsGiven,

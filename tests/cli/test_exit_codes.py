@@ -11,7 +11,7 @@ import pytest
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS, OF_VERDICT, ExitCode
 from serendipity.model import Result, Task
-from serendipity.model.result import STATUSES
+from serendipity.model.answers.result import STATUSES
 from tests.cli.conftest import Run
 
 HUMAN_ALONE_CANNOT = """

@@ -13,8 +13,8 @@ from search import PreparedTask, least_over_ties, optimal_human_plans, solve
 from serendipity import UsageError
 from serendipity.facade.ties import combined, until_settled
 from serendipity.model import Condition, Task, Window
-from serendipity.model.answer import Answer
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer
+from serendipity.model.resources.deadline import Deadline
 from tests.support.builders import task as build
 from tests.support.builders import usar
 from tests.support.cases import case_4

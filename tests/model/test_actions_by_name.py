@@ -5,7 +5,7 @@ from hypothesis import given
 
 import serendipity
 from serendipity.model import Condition, Task
-from serendipity.model.names import ActionNames
+from serendipity.model.task.names import ActionNames
 from tests.support.builders import task as build
 from tests.support.strategies import Call, calls
 

@@ -5,7 +5,7 @@ import os
 import pytest
 
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.model.memory import resident
+from serendipity.model.resources.memory import resident
 from tests.support.cases import case_4
 from tests.support.countdown import Countdown
 

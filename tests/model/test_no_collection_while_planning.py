@@ -5,7 +5,7 @@ import gc
 import pytest
 
 import serendipity
-from serendipity.model.collection import no_collection
+from serendipity.model.resources.collection import no_collection
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from serendipity import Task
 from serendipity.model import Condition, GroundAction
-from serendipity.model.variables import find_variables
+from serendipity.model.task.variables import find_variables
 from tests.support.builders import task as build
 from tests.support.strategies import tasks
 

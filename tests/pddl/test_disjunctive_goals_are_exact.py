@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity import InputError, Session, Task, plan, verify
-from serendipity.model.actions import conflicting
+from serendipity.model.task.actions import conflicting
 from tests.pddl.texts import action, domain, one, problem, two
 
 PREDICATES = "(p) (q) (at ?w ?x) (on ?w ?x)"

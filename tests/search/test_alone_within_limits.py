@@ -4,7 +4,7 @@ from search import PreparedTask
 from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.support.builders import task as build
 
 

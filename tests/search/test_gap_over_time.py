@@ -12,7 +12,7 @@ from search import PreparedTask, solve
 from search.engine import best_first
 from serendipity import Result, plan, plan_anytime
 from serendipity.model import Options
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.support.cases import case_2
 from tests.support.strategies import Call, calls
 

@@ -11,7 +11,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_bounds
 from serendipity.facade.planning import plan
 from serendipity.model import Options, Task
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.support.builders import task, usar
 from tests.support.strategies import strips_tasks, tasks
 

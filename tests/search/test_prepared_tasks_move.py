@@ -7,7 +7,7 @@ from hypothesis import given
 
 from search import PreparedTask, prepare, solve
 from serendipity.model import Condition, Deadline, Options, Task
-from serendipity.model.answer import Answer
+from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LimitReachedError
 from tests.support.cases import case_1, case_4
 from tests.support.strategies import tasks

@@ -11,7 +11,7 @@ from search.engine import best_first
 from serendipity import LimitReachedError, Task
 from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.support.builders import task as build
 from tests.support.cases import case_2, case_4
 from tests.support.countdown import Countdown

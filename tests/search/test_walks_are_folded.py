@@ -8,7 +8,7 @@ import serendipity
 from search import PreparedTask
 from search.context import SearchContext
 from serendipity.model import Window
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.support import builders
 
 OPTIONS = (

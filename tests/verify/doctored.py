@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from serendipity.model import Condition, Options, PlanStep, Policy, Result, Task, Window
-from serendipity.model.result_parts import TiedAnswer
+from serendipity.model.answers.result_parts import TiedAnswer
 from tests.support.builders import task as build
 from tests.support.cases import CASE_3_PLAN, case_2, case_3, case_4, case_7, case_8, case_9, case_10
 from tests.verify.results import moved, result, step, with_steps

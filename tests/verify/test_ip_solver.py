@@ -8,7 +8,7 @@ from time import perf_counter
 import pytest
 
 from serendipity.model import Deadline, UsageError
-from serendipity.model.memory import resident
+from serendipity.model.resources.memory import resident
 from verify.solvers import cbc, highs, worker
 from verify.solvers.mip import LARGEST_COEFFICIENT, SOLVERS, Model, optimise, solver_version
 

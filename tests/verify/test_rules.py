@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model import Options, Task
-from serendipity.model.result_parts import TiedAnswer
+from serendipity.model.answers.result_parts import TiedAnswer
 from tests.support.oracle import Alone as OracleAlone
 from tests.support.oracle.epochs import after
 from tests.support.strategies import tasks

@@ -6,8 +6,8 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageError
-from serendipity.model.collection import no_collection
-from serendipity.model.result_parts import TiedAnswer
+from serendipity.model.answers.result_parts import TiedAnswer
+from serendipity.model.resources.collection import no_collection
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans

@@ -15,7 +15,7 @@ from serendipity.model import (
     Task,
     UsageError,
 )
-from serendipity.model.collection import no_collection
+from serendipity.model.resources.collection import no_collection
 from verify.base import wording
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed

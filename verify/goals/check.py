@@ -6,8 +6,8 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, Deadline, Result, Task
-from serendipity.model.fields import MalformedError
-from serendipity.model.result_parts import GoalAnswer
+from serendipity.model.answers.fields import MalformedError
+from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base import wording
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, needed

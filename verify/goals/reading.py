@@ -5,9 +5,9 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Condition, Result, Task
-from serendipity.model.fields import MalformedError
-from serendipity.model.recognition import SCHEMA, GoalPosterior
-from serendipity.model.result_parts import GoalAnswer
+from serendipity.model.answers.fields import MalformedError
+from serendipity.model.answers.recognition import SCHEMA, GoalPosterior
+from serendipity.model.answers.result_parts import GoalAnswer
 
 _MOST_DIGITS: Final = 10**6
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Condition, Deadline, PlanStep, Result, Task
-from serendipity.model.result_parts import GoalAnswer
+from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base.individual import IndividualOptimum
 from verify.goals.reading import weight
 from verify.rules.case import Case

@@ -5,8 +5,8 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import PlanError, Result, Task
-from serendipity.model.answer import PolicyBounds
-from serendipity.model.fields import MalformedError
+from serendipity.model.answers.answer import PolicyBounds
+from serendipity.model.answers.fields import MalformedError
 from verify.policy.board import Board, Costs
 from verify.rules.replay import replay_human
 

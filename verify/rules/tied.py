@@ -3,8 +3,8 @@
 import math
 
 from serendipity.model import Result
-from serendipity.model.fields import MalformedError
-from serendipity.model.result_parts import TiedAnswer
+from serendipity.model.answers.fields import MalformedError
+from serendipity.model.answers.result_parts import TiedAnswer
 from verify.base.obligations import is_mean, is_tied
 from verify.rules.case import Case, Found
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from search.algorithms.and_or import AndOrGraph, Rule
 from search.assistance.game.game import INFINITE, Game
-from serendipity.model.actions import apply
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import apply
 
 
 class _Action(NamedTuple):

@@ -13,8 +13,8 @@ from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.packed_task import PackedGoal
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
 
 if TYPE_CHECKING:
     from search.assistance.distances.layers import Layers

@@ -11,7 +11,7 @@ from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.assistance.distances.arrays import Indices, Kinds, Places, Words, distinct
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 _WORD_BITS: Final = 62
 _FAR: Final = np.iinfo(np.int64).max // 4

@@ -19,8 +19,8 @@ from search.assistance.distances.arcs import Arc
 from search.assistance.distances.arrays import Places, Stored, distinct
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import LIMITS, LimitReachedError
+from serendipity.model.resources.deadline import Deadline
 
 MINOR_BITS: Final = 24
 """Weights of arcs are ``major << 24 | minor``, compared in this order; the minor is above 0."""

@@ -6,7 +6,7 @@ from operator import itemgetter
 
 from search.packed.operator_index import LiteralIndex
 from search.packed.operators import Operator, split
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 _RANK = itemgetter(0)
 

@@ -17,8 +17,8 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask
-from serendipity.model.actions import Condition
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
 
 INFINITE: Final = INFINITE_KEY
 """A run that never ends."""

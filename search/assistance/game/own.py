@@ -14,7 +14,7 @@ from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 LENGTH_BITS: Final = 24
 MAX_STATES: Final = 3_000_000

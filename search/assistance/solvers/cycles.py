@@ -13,7 +13,7 @@ from search.algorithms.and_or import AndOrGraph, Rule
 from search.assistance.game.rules import Mean, Value
 from search.assistance.solvers.evaluate import Option, evaluate, option_value
 from search.assistance.solvers.graph import Graph
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 Model = dict[int, list[Option]]
 

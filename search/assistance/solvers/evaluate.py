@@ -7,7 +7,7 @@ from search.assistance.game.game import Move
 from search.assistance.game.rules import ChoiceRule, Mean, Value
 from search.assistance.solvers.components import components
 from search.assistance.solvers.linear import Row, solve_linear
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 
 class Option(NamedTuple):

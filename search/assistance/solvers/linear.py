@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 Number = int | Fraction
 Row = tuple[int, dict[int, int], tuple[Number, Number]]

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from itertools import groupby
 
 from serendipity.model import GroundAction, PlanStep, Result, Task
-from serendipity.model.actions import disables
 from serendipity.model.numbers import plain
+from serendipity.model.task.actions import disables
 from serendipity.writing.printable import printable
 
 

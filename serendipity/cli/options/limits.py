@@ -9,7 +9,7 @@ import typer
 
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.limits import limits_from
+from serendipity.model.resources.limits import limits_from
 
 TimeLimit = Annotated[
     str | None,

@@ -9,9 +9,9 @@ import typer
 
 from serendipity.cli.options import limits
 from serendipity.cli.streams import output, progress
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import UsageError
-from serendipity.model.task import Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
 
 Files = Annotated[
     list[Path] | None,

@@ -13,9 +13,9 @@ from typing import Any, TypeVar
 from search import prepare, solve
 from serendipity.evaluation.benchmark.measure import MODES
 from serendipity.evaluation.benchmark.usage import peak_memory
-from serendipity.model.answer import Answer
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer
 from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
 from serendipity.pddl import read_folder
 
 T = TypeVar("T")

@@ -8,9 +8,9 @@ from typing import Final
 from search import PreparedTask, solve
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.answer import Answer
-from serendipity.model.collection import no_collection
-from serendipity.model.deadline import Deadline
 from serendipity.model.options import INFINITE, Options
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.deadline import Deadline
 
 
 @dataclass(frozen=True, slots=True)

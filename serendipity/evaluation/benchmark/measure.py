@@ -11,7 +11,7 @@ from serendipity.evaluation.benchmark.answer import Answer
 from serendipity.evaluation.benchmark.contenders import CONTENDERS, Contender
 from serendipity.model.errors import DisagreementError, UsageError
 from serendipity.model.options import INFINITE, Options
-from serendipity.model.task import Task
+from serendipity.model.task.task import Task
 
 T = TypeVar("T")
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 from random import Random
 
 from serendipity.model import Condition, GroundAction, HumanPlan, Task
-from serendipity.model.actions import apply
+from serendipity.model.task.actions import apply
 
 _COSTS = ("1", "1", "1", "2", "3", "0", "0.5", "0.1", "2.5")
 _LONGEST = 6

@@ -8,7 +8,7 @@ from itertools import chain
 from typing import Final
 
 from serendipity.model import GroundAction, InputError, Task
-from serendipity.model.actions import NOOP
+from serendipity.model.task.actions import NOOP
 from serendipity.pddl.grounding.blocks import Block
 from serendipity.pddl.grounding.disjunctive import NotExactError, variables_behind, with_disjunctions
 from serendipity.pddl.grounding.goals import Goal, read_goal

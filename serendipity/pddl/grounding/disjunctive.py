@@ -16,8 +16,8 @@ from dataclasses import replace
 from itertools import islice
 
 from serendipity.model import Condition, GroundAction, Task
-from serendipity.model.actions import Disjunction
-from serendipity.model.variables import Variable, find_variables
+from serendipity.model.task.actions import Disjunction
+from serendipity.model.task.variables import Variable, find_variables
 from serendipity.pddl.grounding.normal import MAX_CASES
 from serendipity.pddl.grounding.numbering import in_order
 from serendipity.pddl.parsing.tree import quoted

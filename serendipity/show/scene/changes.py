@@ -4,7 +4,7 @@ from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 from serendipity.model import Task
-from serendipity.model.variables import Variable
+from serendipity.model.task.variables import Variable
 
 
 @dataclass(frozen=True, slots=True)

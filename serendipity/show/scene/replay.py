@@ -4,8 +4,8 @@ from collections import defaultdict
 from dataclasses import dataclass
 
 from serendipity.model import GroundAction, InputError, PlanStep, Result, Task
-from serendipity.model.actions import State, apply
-from serendipity.model.execution import actions_named
+from serendipity.model.task.actions import State, apply
+from serendipity.model.task.execution import actions_named
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,8 @@ from itertools import chain
 from typing import Final
 
 from serendipity.model import GroundAction, InputError, Result, Task, Window
-from serendipity.model.execution import shares
 from serendipity.model.numbers import total
+from serendipity.model.task.execution import shares
 from serendipity.show.map.layout import Layout, lay_out
 from serendipity.show.map.names import parts, verb_and_rest, without
 from serendipity.show.map.places import Places, Whereabouts, find_places

@@ -13,7 +13,7 @@ from search.planner import _Call
 from search.spaces.windowed import Windowed
 from serendipity.evaluation.crosscheck import JUDGES, compare, random_call
 from serendipity.evaluation.crosscheck.laws import LAWS
-from serendipity.model.actions import conflicting
+from serendipity.model.task.actions import conflicting
 
 Patch = pytest.MonkeyPatch
 

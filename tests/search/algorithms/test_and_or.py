@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from search.algorithms.and_or import AndOrGraph, Rule
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 
 STATES = range(6)
 LIMIT = 40

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from search.algorithms.astar import AStar
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.search.algorithms.graphs import NODES, Edges, distances, graphs, turned
 
 FAR = 1000

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from search.algorithms.shortest_paths import LevelQueue, backward
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.search.algorithms.graphs import NODES, Edges, distances, graphs, turned
 
 sources = st.dictionaries(st.integers(0, NODES - 1), st.integers(0, 3), min_size=1, max_size=3)

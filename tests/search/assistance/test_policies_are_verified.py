@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import Result, Task
 from serendipity.model import Deadline, Decision, Options, Policy
-from serendipity.model.answer import PolicyBounds
+from serendipity.model.answers.answer import PolicyBounds
 from serendipity.model.numbers import as_written
 from tests.search.assistance.strategies import games
 from tests.support.cases import case_5, case_6

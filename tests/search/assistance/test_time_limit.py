@@ -17,8 +17,8 @@ from search.assistance.distances import perimeter as ball
 from search.assistance.game.game import Game
 from search.assistance.solvers import cheapest_run, lao_star
 from serendipity.model import Options, Task
-from serendipity.model.answer import Answer
-from serendipity.model.deadline import Deadline
+from serendipity.model.answers.answer import Answer
+from serendipity.model.resources.deadline import Deadline
 from tests.search.assistance.oracle import by_rounds, explore
 from tests.search.assistance.strategies import games
 from tests.support.builders import task

@@ -6,7 +6,7 @@ from search.assistance.distances.watched import Watched
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from serendipity.model import Task
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
 from tests.search.assistance.strategies import games
 
 

@@ -13,7 +13,7 @@ from search.engine.paths import plan_steps
 from search.goals import Candidate, solve_expected
 from search.goals.planner import _Search
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
-from serendipity.model.answer import Answer, ServedGoal
+from serendipity.model.answers.answer import Answer, ServedGoal
 from tests.search.goals.oracle import best_expected, robots_sets
 from tests.search.goals.strategies import literals, rivals
 from tests.support.builders import task as build

@@ -6,8 +6,8 @@ from itertools import islice
 from hypothesis import strategies as st
 
 from serendipity.model import Condition, HumanPlan, Options, Step, Task, surroundings
-from serendipity.model.actions import State
-from serendipity.model.visibility import Visible
+from serendipity.model.task.actions import State
+from serendipity.model.task.visibility import Visible
 from tests.support.oracle import Alone, human_plans
 from tests.support.oracle.epochs import after, usable
 from tests.support.strategies import tasks

@@ -5,7 +5,7 @@ from hypothesis import given
 
 from search import PreparedTask
 from search.simulation import simulate, solve_for_human
-from serendipity.model.answer import Answer
+from serendipity.model.answers.answer import Answer
 from tests.search.simulation.strategies import Reaction, reactions
 from tests.support.oracle.reactions import best_reaction
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from serendipity.model import GroundAction
-from serendipity.model.actions import conflicting
+from serendipity.model.task.actions import conflicting
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 from tests.verify.planted.roles import part
 

@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 
 PLACES = {
     # the model's rules
-    "whether an action is applicable": "serendipity.model.actions:GroundAction.applicable",
-    "whether two actions conflict": "serendipity.model.actions:conflicting",
-    "whether an action disables another": "serendipity.model.actions:disables",
+    "whether an action is applicable": "serendipity.model.task.actions:GroundAction.applicable",
+    "whether two actions conflict": "serendipity.model.task.actions:conflicting",
+    "whether an action disables another": "serendipity.model.task.actions:disables",
     # the packed task
     "whether an operator is applicable": "search.packed.operators:applicable",
     "operators that an index offers": "search.packed.operator_index:OperatorIndex.candidates",

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from serendipity.model.errors import UsageError
-from serendipity.model.plans import PlanStep
+from serendipity.model.task.plans import PlanStep
 
 SCHEMA: Final = "serendipity.certificate/1"
 CLAIMS: Final = (

@@ -1,16 +1,16 @@
 """What the steps of a plan mean: the action of a name, who takes part, who pays what (semantics 1, 2).
 
-Written once for everything around the planner, as ``serendipity.model.actions.apply`` is.  The verifier uses
+Written once for everything around the planner, as :func:`.actions.apply` is.  The verifier uses
 neither: it executes plans with code of its own.
 """
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
-from serendipity.model.actions import GroundAction
 from serendipity.model.numbers import total
-from serendipity.model.plans import Step
-from serendipity.model.task import Task
+from serendipity.model.task.actions import GroundAction
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import Task
 
 
 def actions_named(task: Task, name: str, agents: Iterable[str]) -> tuple[int, ...]:

@@ -13,8 +13,8 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from itertools import chain
 
-from serendipity.model.actions import GroundAction
-from serendipity.model.deadline import Deadline
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import GroundAction
 
 _MAX_ATTEMPTS = 64
 

@@ -2,8 +2,8 @@
 
 import threading
 
-from serendipity.model.deadline import Deadline
 from serendipity.model.options import limit_of
+from serendipity.model.resources.deadline import Deadline
 
 
 def limits_from(

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from serendipity.model.actions import NOOP
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.numbers import MOST_IN_RESULTS, exact
+from serendipity.model.task.actions import NOOP
 
 Costs = tuple[Fraction, Fraction]
 """The human's total and the supporter's, compared in this order."""

@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Final, TypeVar
 
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError, limit_reason
-from serendipity.model.memory import available, resident
+from serendipity.model.resources.memory import available, resident
 
 T = TypeVar("T")
 

@@ -5,12 +5,12 @@ from dataclasses import InitVar, dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 
-from serendipity.model.actions import NOOP, Condition, Disjunction, GroundAction, apply
-from serendipity.model.deadline import Deadline
 from serendipity.model.errors import PlanError, UsageError
-from serendipity.model.names import ActionNames
 from serendipity.model.numbers import total
-from serendipity.model.variables import Variable, find_variables
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply
+from serendipity.model.task.names import ActionNames
+from serendipity.model.task.variables import Variable, find_variables
 
 HumanPlan = tuple[int, ...]
 """``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t."""

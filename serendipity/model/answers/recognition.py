@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.model.fields import Fields, MalformedError
+from serendipity.model.answers.fields import Fields, MalformedError
 from serendipity.model.numbers import as_written, rounded
 
 SCHEMA: Final = "serendipity.recognition/1"

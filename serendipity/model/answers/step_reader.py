@@ -2,10 +2,10 @@
 
 from typing import Any
 
+from serendipity.model.answers.fields import finite, names
 from serendipity.model.errors import InputError
-from serendipity.model.fields import finite, names
 from serendipity.model.options import MAX_EPOCH
-from serendipity.model.plans import PlanStep, Window
+from serendipity.model.task.plans import PlanStep, Window
 
 
 class StepReader:

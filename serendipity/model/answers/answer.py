@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from serendipity.model.plans import Step, Window
-from serendipity.model.policy import Costs, Policy
-from serendipity.model.recognition import Recognition
-from serendipity.model.task import HumanPlan
+from serendipity.model.answers.policy import Costs, Policy
+from serendipity.model.answers.recognition import Recognition
+from serendipity.model.task.plans import Step, Window
+from serendipity.model.task.task import HumanPlan
 
 
 class Improvement(NamedTuple):

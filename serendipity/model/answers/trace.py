@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 from serendipity.model.errors import limit_words
-from serendipity.model.plans import PlanStep
+from serendipity.model.task.plans import PlanStep
 
 SCHEMA: Final = "serendipity.trace/1"
 

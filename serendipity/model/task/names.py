@@ -3,7 +3,7 @@
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 
-from serendipity.model.actions import GroundAction
+from serendipity.model.task.actions import GroundAction
 
 
 class ActionNames(Mapping[str, tuple[int, ...]]):

@@ -3,15 +3,21 @@
 from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
-from serendipity.model.answer import PolicyBounds
+from serendipity.model.answers.answer import PolicyBounds
+from serendipity.model.answers.fields import finite, names
+from serendipity.model.answers.policy import Policy
+from serendipity.model.answers.recognition import Recognition
+from serendipity.model.answers.result_parts import (
+    GapEntry,
+    GoalAnswer,
+    TiedAnswer,
+    bounds_to_dict,
+    read_parts,
+)
+from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.fields import finite, names
 from serendipity.model.options import Options
-from serendipity.model.plans import PlanStep, Window
-from serendipity.model.policy import Policy
-from serendipity.model.recognition import Recognition
-from serendipity.model.result_parts import GapEntry, GoalAnswer, TiedAnswer, bounds_to_dict, read_parts
-from serendipity.model.step_reader import StepReader
+from serendipity.model.task.plans import PlanStep, Window
 
 SCHEMA: Final = "serendipity.result/1"
 STATUSES: Final = ("optimal", "feasible", "infeasible", "unknown")

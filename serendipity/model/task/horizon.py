@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from serendipity.model.errors import UsageError
 from serendipity.model.options import INFINITE, Options
-from serendipity.model.task import HumanPlan, Task
+from serendipity.model.task.task import HumanPlan, Task
 
 
 def horizon_of(task: Task, options: Options, plan: HumanPlan | None) -> int | str:

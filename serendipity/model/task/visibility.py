@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain
 
-from serendipity.model.actions import State
-from serendipity.model.task import Task
+from serendipity.model.task.actions import State
+from serendipity.model.task.task import Task
 
 Visible = Callable[[int, int, State], bool]
 """``visible(agent, fact, state)``: whether the agent sees in ``state`` if the fact is true."""

@@ -8,14 +8,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
-from serendipity.model.answer import PolicyBounds
+from serendipity.model.answers.answer import PolicyBounds
+from serendipity.model.answers.fields import Fields, MalformedError, finite, names
+from serendipity.model.answers.policy import Costs
+from serendipity.model.answers.recognition import read_recognition
+from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.fields import Fields, MalformedError, finite, names
 from serendipity.model.numbers import MOST_IN_RESULTS, exact
-from serendipity.model.plans import PlanStep, Window
-from serendipity.model.policy import Costs
-from serendipity.model.recognition import read_recognition
-from serendipity.model.step_reader import StepReader
+from serendipity.model.task.plans import PlanStep, Window
 
 
 @dataclass(frozen=True, slots=True)
