@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from serendipity.evaluation.crosscheck.calls import PlanCall
+from serendipity.evaluation.crosscheck.tasks import unambiguous
 from serendipity.model import Condition, Task
 
 
@@ -35,7 +36,7 @@ def _smaller(call: PlanCall) -> Iterator[PlanCall]:
             yield replace(call, options={key: value for key, value in call.options.items() if key != name})
     if call.human_plan is not None:
         yield replace(call, human_plan=None)
-    for task in _smaller_tasks(call.task):
+    for task in filter(unambiguous, _smaller_tasks(call.task)):
         yield replace(call, task=task)
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import combinations, pairwise
 from random import Random
 
 from serendipity.model import Condition, GroundAction, HumanPlan, Task
@@ -61,13 +61,32 @@ def _with_variants(dice: Random, task: Task) -> Task:
         return task
     if dice.random() < 0.5:
         other = replace(action, pre=(fact,), neg=())
-        return replace(task, actions=(*task.actions[: i + 1], other, *task.actions[i + 1 :]))
+        varied = replace(task, actions=(*task.actions[: i + 1], other, *task.actions[i + 1 :]))
+        return varied if unambiguous(varied) else task
     more = dice.randrange(len(task.facts))
     if more in (*action.add, *action.delete):
         return task
     parted = split(task, i, fact)
     adds = replace(parted.actions[i], add=_with(action.add, more))
-    return replace(parted, actions=(*parted.actions[:i], adds, *parted.actions[i + 1 :]))
+    varied = replace(parted, actions=(*parted.actions[:i], adds, *parted.actions[i + 1 :]))
+    return varied if unambiguous(varied) else task
+
+
+def unambiguous(task: Task) -> bool:
+    """Whether variants of one action do the same wherever some state allows them both, as PDDL's do."""
+    return all(
+        _same_effects(a, b) or _exclude_each_other(a, b)
+        for ids in task.named.values()
+        for a, b in combinations([task.actions[i] for i in ids], 2)
+    )
+
+
+def _same_effects(a: GroundAction, b: GroundAction) -> bool:
+    return (a.add, a.delete) == (b.add, b.delete)
+
+
+def _exclude_each_other(a: GroundAction, b: GroundAction) -> bool:
+    return not (set(a.pre).isdisjoint(b.neg) and set(b.pre).isdisjoint(a.neg))
 
 
 def _with_robot_goal(dice: Random, task: Task) -> Task:
