@@ -35,7 +35,7 @@ class Task:
         robot_goal: the robots' own goal ``G_R`` (empty: they have none).
         actions: ascending in ``GroundAction.key``; an action's id is its index.
             No ``noop`` among them.  Several may share one name (disjunctive
-            preconditions, conditional effects).
+            preconditions, conditional effects): those that one state allows have the same effects.
         warnings: lines for the user about the input.
         waiting: names of actions of the input that only wait, each with the agent who
             does: a given plan may name them.
