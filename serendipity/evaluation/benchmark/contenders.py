@@ -8,6 +8,7 @@ from typing import Final
 from search import PreparedTask, solve
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.answer import Answer
+from serendipity.evaluation.benchmark.usage import children_seconds
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
@@ -47,9 +48,9 @@ def _program(encoding: str) -> Callable[[PreparedTask, Options], Answer]:
         from verify.calls.solve import solve as by_program  # loads a solver
 
         with no_collection():
-            start = time.process_time()
+            start = time.process_time() + children_seconds()  # solvers are processes of their own
             result = by_program(prepared.task, options, encoding=encoding)
-            seconds = time.process_time() - start
+            seconds = time.process_time() + children_seconds() - start
         return Answer(seconds, result.status, result.cost)
 
     return answer

@@ -12,6 +12,7 @@ from serendipity.evaluation.benchmark import (
     TIMES_HEADER,
     Contender,
     Timing,
+    contenders,
     measure,
     ratios,
     times,
@@ -184,3 +185,12 @@ def test_outside_processes_have_rows_of_their_own() -> None:
     found[1] = replace(found[1], process_seconds=3.0)
     assert [row["contender"] for row in time_rows(found)] == ["search", "other", "other, process"]
     assert [row["least"] for row in ratio_rows(found)] == ["2.00 x", "30 x"]
+
+
+def test_what_a_solver_works_counts_though_it_is_a_process_of_its_own(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(contenders, "children_seconds", iter((10.0, 110.0)).__next__)
+    answer = CONTENDERS["paper"].answer(PreparedTask(example("room2")), Options(discount="0.6"))
+    assert answer.cost == 12.6
+    assert answer.seconds > 100
