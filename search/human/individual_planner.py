@@ -6,7 +6,7 @@ search per projection, and a search also fills in the states along its result.
 """
 
 from collections.abc import Callable, Iterator
-from typing import Protocol
+from typing import Final, Protocol
 
 from search.algorithms.astar import AStar
 from search.human.pattern_database import PatternDatabase
@@ -14,7 +14,17 @@ from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup
+from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
+
+_MANY: Final = 2_000
+"""States after which a better bound is worth its tables."""
+
+_A_WHILE: Final = 0.5
+"""Seconds without which they are not begun: loading what makes them takes some of that already."""
+
+_SHARE: Final = 0.25
+"""What of the time that is left they may take."""
 
 Edges = dict[int, list[tuple[int, int]]]
 """Per state the actions that continue an optimal plan, ascending, with their successors."""
@@ -88,12 +98,23 @@ class PlanGraph:
 
 
 class Memory:
-    """What has been found out about the human alone; good for calls that weigh alike."""
+    """What has been found out about the human alone; good for calls that weigh alike.
+
+    Attributes:
+        lookup: the human's own operators.
+        known: optimal keys by state.
+        at_least: what optimal keys are not below.
+        expanded: how many states have come up, until the bound was refined.
+        refined: a better bound than the projection onto private fields, once there is one.
+        plans: the optimal plans from the state that was asked about last.
+    """
 
     def __init__(self, lookup: Lookup) -> None:
         self.lookup = lookup
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
+        self.expanded = 0
+        self.refined: Callable[[int], int] | None = None
         self.plans: tuple[int, PlanGraph | None] | None = None
 
 
@@ -128,9 +149,10 @@ class IndividualPlanner:
         deadline: Deadline,
         memory: Memory | None = None,
     ) -> None:
-        self._actions = packed.task.actions
+        self._packed = packed
         self._goal = goal
-        self._bound = bound
+        self._weight = weight
+        self._projection = bound
         self._deadline = deadline
         self._mask = goal.mask | bound.mask | packed.own_mask
         self._memory = memory or Memory(Lookup(packed.own_index, weight))
@@ -159,6 +181,8 @@ class IndividualPlanner:
         parents: dict[int, tuple[int, int]] = {}
         end, hopeless = None, True
         for state, spent in search:
+            if self._refines(start):
+                return self.key(start, limit)
             rest = self._rest(state)
             if rest is not None:
                 hopeless = hopeless and rest >= INFINITE_KEY
@@ -176,6 +200,39 @@ class IndividualPlanner:
             return INFINITE_KEY
         self._at_least[start] = max(limit, self._at_least.get(start, 0))
         return limit
+
+    def _bound(self, state: int) -> int:
+        """Lower bound of the optimal key from a packed state."""
+        projected, refined = self._projection(state), self._memory.refined
+        return projected if refined is None else max(projected, refined(state))
+
+    def _refines(self, start: int) -> bool:
+        """Whether so many states have come up that the bound has been refined: a search begins anew then.
+
+        Args:
+            start: where it began; that nothing leads to a goal from there may show.
+        """
+        memory = self._memory
+        memory.expanded += 1
+        if memory.expanded != _MANY:
+            return False
+        left = self._deadline.left()
+        if left is not None and left < _A_WHILE:
+            return False
+        # Loaded only here: it takes longer than most calls, which come by without it.
+        from search.abstractions.bound import own_bound
+        from search.abstractions.reachability import may_reach
+
+        packed = self._packed
+        if not may_reach(start, self._goal, packed.fields, packed.own, self._deadline):
+            self._known[start] = INFINITE_KEY
+            return True
+        part = self._deadline if left is None else self._deadline.within(left * _SHARE)
+        try:
+            memory.refined = own_bound(packed, self._goal, self._weight, self._lookup, start, part)
+        except LimitReachedError:
+            self._deadline.check()
+        return memory.refined is not None
 
     def _rest(self, state: int) -> int | None:
         """The human's optimal key where it is known or a goal is reached; else None."""
@@ -218,6 +275,8 @@ class IndividualPlanner:
         expanded: dict[int, list[tuple[int, int, int]]] = {}
         goals = []
         for state, spent in search:
+            if self._refines(start):
+                return self._optimal(start)
             steps: list[tuple[int, int, int]] = []
             expanded[state] = steps
             if self._goal.holds(state):
@@ -241,7 +300,7 @@ class IndividualPlanner:
 
     def _one_a_name(self, steps: list[tuple[int, int]]) -> list[tuple[int, int]]:
         """The first step of each name: variants of one action make no different plan (semantics 1)."""
-        names = [self._actions[action].name for action, _ in steps]
+        names = [self._packed.task.actions[action].name for action, _ in steps]
         return [step for step, name, last in zip(steps, names, ["", *names], strict=False) if name != last]
 
 

@@ -1,0 +1,1 @@
+"""Abstractions of what the human does alone: projections as arrays, and the sums of several."""
