@@ -27,7 +27,9 @@ def test_every_room_has_a_place(package: str) -> None:
     contract = CONTRACTS[f"rooms of {package}"]
     layers = contract["layers"] if contract["type"] == "layers" else contract["modules"]
     named = {name.strip() for layer in layers for name in layer.split("|")}
-    assert {name for name in named if name.startswith(f"{package}.")} == children(package)
+    listed = {name for name in named if name.startswith(f"{package}.")}
+    differing = sorted(listed ^ children(package))
+    assert not differing, f"'rooms of {package}' in pyproject.toml and the folder differ in {differing}"
 
 
 def test_search_and_verify_import_the_model_only() -> None:

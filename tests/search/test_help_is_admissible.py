@@ -83,6 +83,8 @@ def assert_admissible(task: Task, options: Options, over: int | None) -> int:
         bound = bounds.untouched(0, state, spent)
         assert bound <= rest or spent + rest >= limit
         told += bounds.private(state) < bound < INFINITE_KEY
+    for state, rest in graph.rest.items():  # what holds whether anybody has helped or not
+        assert bounds.private(state) <= rest
     return told
 
 

@@ -39,7 +39,10 @@ def test_doctored_results_are_refuted_with_the_right_rule(name: str) -> None:
 
 def test_every_rule_refutes_something() -> None:
     refuted = {rule for rule, _ in RULE_BROKEN.values()}
-    assert {rule.name for rule in RULES} - refuted == {"ties-mean"}
+    missing = {rule.name for rule in RULES} - refuted - {"ties-mean"}  # which has a test of its own
+    assert not missing, (
+        f"no doctored result breaks {missing}: add one to RULE_BROKEN in tests/verify/doctored.py"
+    )
 
 
 def test_expected_cost_has_to_be_the_mean() -> None:

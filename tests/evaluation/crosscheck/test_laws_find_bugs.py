@@ -111,5 +111,8 @@ def test_bugs_are_found(bug: Callable[[Patch], None], monkeypatch: Patch) -> Non
     assert compare(random_call(seed), judges, laws) is None
     bug(monkeypatch)
     found = compare(random_call(seed), judges, laws)
-    assert found is not None, "the generator has changed: find another such call"
+    assert found is not None, (
+        f"random calls are drawn otherwise now: in FOUND, give {bug.__name__} the first seed from 0 on"
+        f" for which {law!r} finds nothing without the bug, and something with it"
+    )
     assert found.law == law
