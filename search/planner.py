@@ -6,12 +6,13 @@ from fractions import Fraction
 
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
+from search.engine.dominance import ParetoFront
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.human.individual_planner import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.prepared_task import PreparedTask
-from search.spaces.factory import free_bounds, window_space
+from search.spaces.factory import free_bounds, no_worse, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
 from search.spaces.unrestricted import Unrestricted
 from serendipity.model.answers.answer import Answer, saved
@@ -240,6 +241,9 @@ class _Call:
             return window_space(
                 self.context, self.plan, self.epochs, self._most_cost(), self.best.key, idle=idle
             )
+        # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
+        announces = self.context.weights.announces
+        compared = no_worse(self.keys, self.options, self._most_cost()) if announces else None
         return Unrestricted(
             initial=self.context.packed.init,
             horizon=self.epochs,
@@ -248,6 +252,7 @@ class _Call:
             keys=self.keys,
             successors=self.context.successors(idle=idle),
             bounds=free_bounds(self.context, self.epochs, self.best.key, idle=idle),
+            labels=ParetoFront(compared),
         )
 
     def _most_cost(self) -> int | None:

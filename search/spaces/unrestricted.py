@@ -24,6 +24,7 @@ class Unrestricted:
         keys: layout of keys.
         successors: what agents can do in an epoch.
         bounds: lower bounds on what still has to be paid.
+        labels: which nodes make others superfluous.
     """
 
     def __init__(
@@ -36,6 +37,7 @@ class Unrestricted:
         keys: CostLayout,
         successors: Successors,
         bounds: Bounds,
+        labels: ParetoFront,
     ) -> None:
         self._initial = initial
         self._horizon = horizon
@@ -44,7 +46,7 @@ class Unrestricted:
         self._keys = keys
         self._successors = successors
         self._bounds = bounds
-        self._labels = ParetoFront()
+        self._labels = labels
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""

@@ -4,6 +4,7 @@ import pytest
 
 import serendipity
 from serendipity import UsageError, Window
+from tests.support.builders import task as build
 from tests.support.cases import WORKED, Worked, case_4, case_8
 
 ROOMS = {
@@ -69,3 +70,13 @@ def test_paper_example_iii_c_hands_over_in_hall4_at_epoch_6() -> None:
     (joint,) = [step for step in result.plan if len(step.agents) == 2]
     assert joint.epoch == 6
     assert joint.action == "hand_over robot commx mk2 hall4"
+
+
+def test_what_is_announced_does_not_hide_what_costs_less() -> None:
+    """What the human announces counts more and costs less: only with that it stays within 3."""
+    actions = {"own h": "-> g @ 10", "prepare h": "-> p @ 2", "make r": "-> p @ 3", "end r": "p -> g"}
+    task = build(goal="g", actions=actions)
+    asked = {"mode": "communication", "communication_weight": 1, "horizon": 2}
+    result = serendipity.plan(task, max_cost=3, **asked)
+    assert (result.cost, result.objective) == (3.0, 5.0)
+    assert serendipity.verify(task, result).verdict == "proved"

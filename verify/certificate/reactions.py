@@ -77,24 +77,24 @@ class _Reactions:
             return Minimum("found", Solution((), None, 0, 0), 0) if affordable else Minimum("none")
         self.known[start] = 0
         best: Solution | None = None
-        layer = [start]
+        layer = {start: 0}
         for epoch in range(1, self.call.question.horizon + 1):
-            following: dict[Moment, None] = {}
-            for now in layer:
+            following: dict[Moment, int] = {}
+            for now, spent in layer.items():
                 if len(self.known) > MOST_MOMENTS:
                     return Minimum("undecided", best, reason=f"more than {MOST_MOMENTS} states and minds")
-                for after, total in self._play(epoch, now):
+                for after, total in self._play(epoch, now, spent):
                     if self.game.done(after.state):
                         best, self.most = self._found(epoch, after, total), total - 1
                     else:
                         self.known[after] = total
-                        following[after] = None
-            layer = list(following)
+                        following[after] = total
+            layer = following
         return Minimum("none") if best is None else Minimum("found", best, best.cost)
 
-    def _play(self, epoch: int, now: Moment) -> Iterator[tuple[Moment, int]]:
+    def _play(self, epoch: int, now: Moment, spent: int) -> Iterator[tuple[Moment, int]]:
         """What can come of an epoch, where it is worth going on, with the cost so far."""
-        spent, look, team = self.known[now], self.game.look(now), self.call.prices.team
+        look, team = self.game.look(now), self.call.prices.team
         for offers in self._offers(now.state):
             self.deadline.tick()
             deed, after = self.game.act(look, offers)

@@ -170,3 +170,21 @@ def test_usar_answers_are_proved(human_model: str, usar200: Path) -> None:
         task = serendipity.load(usar200 / f"test{number}", human="commx")
         _, certificate = _certified(task, discount="0.9", human_model=human_model)
         assert certificate.verdict == "proved", (number, certificate)
+
+
+def test_a_moment_that_a_later_epoch_reaches_at_less_cost_costs_what_it_did() -> None:
+    """What was paid for a state is that of its epoch: with it the answer was refuted by a plan of 7.2."""
+    actions = {
+        "back0 h": "-> at0 !at1",
+        "jump0 h": "at0 open0 -> at2 !at0",
+        "walk0 h": "-> at1",
+        "walk1 h": "at1 -> at2 !at1 @ 3",
+        "walk2 h": "at2 -> at3 @ 3",
+        "walk3 h": "at3 -> at4",
+        "open0 r": "-> open0",
+        "prepare r": "-> tired",
+    }
+    task = build(goal="at4", robot_goal="open0", actions=actions)
+    result = serendipity.plan(task, discount=0.9, ties="optimistic", human_model="local")
+    assert result.cost == 8.1
+    assert serendipity.verify(task, result).verdict == "proved"

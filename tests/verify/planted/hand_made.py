@@ -109,6 +109,9 @@ def _limits() -> Iterator[PlanCall]:
     yield PlanCall(case_1(), {"discount": "0.6", "max_cost": "9.6"})
     yield PlanCall(case_4(), {"discount": "0.9", "max_cost": "6", "mode": "communication"})
     yield PlanCall(case_4(), {"discount": "0.9", "max_cost": "6"})
+    prepared = {"own h": "-> g @ 10", "prepare h": "-> p @ 2", "make r": "-> p @ 3", "end r": "p -> g"}
+    announced = {"mode": "communication", "communication_weight": "1", "horizon": "2", "max_cost": "3"}
+    yield PlanCall(build(goal="g", actions=prepared), announced)
     # The longer window has the higher objective, but only its plan is within max_cost.
     twice = {
         "one h": "a -> b !a @ 3",
