@@ -227,8 +227,23 @@ class AchieverAutomaton:
             self._anyhow.setdefault(value, []).append(i)
 
     def _exits(self, value: int, robot: int) -> set[int]:
-        """Places in which something can happen to the value, and that not everywhere."""
-        return {*self._acts.by_place(value, robot).by_value, *self._at_place.get((value, robot), ())}
+        """Places in which something can happen to the value, and that not everywhere.
+
+        What can happen everywhere leaves the robot where it is, so places count in which something
+        can happen to the next value, too.
+        """
+        found: set[int] = set()
+        pending, seen = [value], {value}
+        while pending:
+            at = pending.pop()
+            acts = self._acts.by_place(at, robot)
+            found.update(acts.by_value, self._at_place.get((at, robot), ()))
+            for op in (*acts.always, *self._flips.at(at)):
+                after = op.put & self._field if self._field & ~op.keep else at
+                if after not in seen:
+                    seen.add(after)
+                    pending.append(after)
+        return found
 
     def _least_step(self, label: Label) -> int:
         """The least that a robot pays from where no exit is; 0 where it need not walk to go on."""

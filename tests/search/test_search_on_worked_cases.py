@@ -80,3 +80,19 @@ def test_what_is_announced_does_not_hide_what_costs_less() -> None:
     result = serendipity.plan(task, max_cost=3, **asked)
     assert (result.cost, result.objective) == (3.0, 5.0)
     assert serendipity.verify(task, result).verdict == "proved"
+
+
+def test_where_a_robot_is_counts_for_what_it_does_after_something_that_it_does_anywhere() -> None:
+    """The robot opens during the first step, and prepares wherever it is: the human can jump."""
+    actions = {
+        "walk0 h": "-> at1",
+        "walk1 h": "at1 -> at2",
+        "walk2 h": "at2 -> at3 @ 2",
+        "jump h": "at2 open -> at3 @ 0.5",
+        "open r": "-> open",
+        "prepare r": "at1 -> at2 @ 0",
+    }
+    task = build(goal="at3", actions=actions)
+    result = serendipity.plan(task)
+    assert (result.cost, result.objective) == (2.5, 1002.5)
+    assert serendipity.verify(task, result).verdict == "proved"
