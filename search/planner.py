@@ -236,18 +236,17 @@ class _Call:
         self.settled = True
 
     def _space(self, *, idle: bool = False) -> Space[Node, Incumbent]:
+        most_cost = self._most_cost()
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
-            return window_space(
-                self.context, self.plan, self.epochs, self._most_cost(), self.best.key, idle=idle
-            )
+            return window_space(self.context, self.plan, self.epochs, most_cost, self.best.key, idle=idle)
         # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
         announces = self.context.weights.announces
-        compared = no_worse(self.keys, self.options, self._most_cost()) if announces else None
+        compared = no_worse(self.keys, self.options, most_cost) if announces else None
         return Unrestricted(
             initial=self.context.packed.init,
             horizon=self.epochs,
-            most_cost=self._most_cost(),
+            most_cost=most_cost,
             goals=self.context.goals,
             keys=self.keys,
             successors=self.context.successors(idle=idle),
