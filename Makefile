@@ -1,18 +1,23 @@
 # Every target works alone on a fresh clone; `make help` lists them.
 PYTHON ?= python3
 BIN := .venv/bin
+INSTALLED := .venv/.installed
 READY := .venv/.ready
 PROBLEMS := $(or $(SERENDIPITY_PROBLEMS),../shared)
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test test-browser pictures browser check docs bench fuzz requirements clean
+.PHONY: help .venv demo test test-browser pictures browser check docs bench bench-domains bench-extra fuzz wheels requirements clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z.-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 .venv: $(READY)  ## make the virtual environment (with uv where it is installed, else with pip)
 
-$(READY): requirements-dev.txt pyproject.toml
+$(READY): $(INSTALLED) search/kernel/kernel.c search/kernel/build.py
+	@$(BIN)/python -m search.kernel.build || true  # all works without it
+	@touch $@
+
+$(INSTALLED): requirements-dev.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 	  || { echo "Python 3.11 or later is needed; set PYTHON=..., for example: make PYTHON=python3.12" >&2; exit 1; }
 	@if command -v uv >/dev/null 2>&1; then \
@@ -71,13 +76,7 @@ docs: $(READY)  ## build the documentation into build/docs; a broken link or any
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict --site-dir build/docs
 	@echo "build/docs/index.html"
 
-bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders side by side; then scaling series
-	@$(BIN)/python -c 'import sys; from serendipity.evaluation.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \
-	  || { if command -v uv >/dev/null 2>&1; then \
-	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-bench.txt; \
-	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
-	         -r requirements-bench.txt; fi; } \
-	  || echo "No Fast Downward, and it can't be installed here: it is left out."
+bench: bench-extra  ## measure on the 200 problems of the paper: parts, contenders side by side; then scaling series
 	@mkdir -p build/bench
 	@$(BIN)/python -m benchmarks.usar $(PROBLEMS)/usar200
 	@echo && $(BIN)/serendipity bench $(PROBLEMS)/usar200 --stride 4 --discounts 0,0.1,0.3,0.5,0.7,0.9 \
@@ -86,10 +85,34 @@ bench: $(READY)  ## measure on the 200 problems of the paper: parts, contenders 
 	  --contenders search,again,paper -o build/bench/paper.csv --plot build/bench/paper.png
 	@echo && $(BIN)/serendipity bench --scaling all --seeds 3 -o build/bench/scaling.csv --plot build/bench/scaling.png
 
+bench-domains: bench-extra  ## measure on the competition's domains beside Fast Downward: an hour or two
+	@mkdir -p build/bench
+	@$(BIN)/serendipity bench $(PROBLEMS)/codmap15 -o build/bench/domains.csv --plot build/bench/domains.svg
+
+bench-extra: $(READY)
+	@$(BIN)/python -c 'import sys; from serendipity.evaluation.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \
+	  || { if command -v uv >/dev/null 2>&1; then \
+	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-bench.txt; \
+	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+	         -r requirements-bench.txt; fi; } \
+	  || echo "No Fast Downward, and it can't be installed here: it is left out."
+
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests
 	@$(BIN)/serendipity crosscheck --count 10000 --judges search,automata -o build/disagreement
 	@$(BIN)/serendipity crosscheck --count 1000 --judges search,automata,paper,cbc -o build/disagreement
 	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
+
+PLATFORMS := any manylinux_2_17_x86_64 manylinux_2_17_aarch64 macosx_11_0_x86_64 macosx_11_0_arm64 win_amd64
+
+wheels: $(READY)  ## what is released, into dist/: a wheel for each platform, one for any other, and the sources
+	@$(BIN)/python -c 'import ziglang' 2>/dev/null \
+	  || { if command -v uv >/dev/null 2>&1; then \
+	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-wheels.txt; \
+	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+	         -r requirements-wheels.txt; fi; }
+	@set -e; for platform in $(PLATFORMS); do \
+	  SERENDIPITY_WHEEL=$$platform $(BIN)/python -m hatchling build -t wheel; done
+	@$(BIN)/python -m hatchling build -t sdist
 
 requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
@@ -102,7 +125,9 @@ requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	  --no-emit-index-url --extra docs -c requirements-dev.txt pyproject.toml -o requirements-docs.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	  --no-emit-index-url --extra bench -c requirements-dev.txt pyproject.toml -o requirements-bench.txt
+	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
+	  --no-emit-index-url --extra wheels -c requirements-dev.txt pyproject.toml -o requirements-wheels.txt
 
 clean:  ## remove the environment and all caches
-	@rm -rf .venv .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache build dist *.egg-info
+	@rm -rf .venv .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache build dist *.egg-info search/kernel/_kernel*
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

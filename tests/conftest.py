@@ -8,6 +8,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from benchmarks.problems import PROBLEMS
+from search.kernel.library import library
 from serendipity.cli.streams import progress_lines
 
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
@@ -15,6 +16,11 @@ settings.register_profile("ci", derandomize=True, max_examples=100, database=Non
 settings.register_profile("dev", max_examples=50, **_CALM)
 settings.register_profile("fuzz", max_examples=1000, print_blob=True, **_CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+def pytest_report_header() -> str:
+    """Whether the tests run with the kernel."""
+    return f"kernel: {'compiled' if library() else 'none'}"
 
 
 @pytest.fixture(autouse=True, scope="session")

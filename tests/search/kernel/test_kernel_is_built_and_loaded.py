@@ -1,0 +1,150 @@
+"""A kernel is loaded if it was compiled from the source beside it, and done without otherwise."""
+
+import ctypes
+import shlex
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from search.kernel import library
+from search.kernel.build import CompilerError, compile_kernel, compiler, main
+
+SOURCE = """
+const char *kernel_source_hash(void);
+const char *kernel_source_hash(void) { return KERNEL_SOURCE_HASH; }
+"""
+
+needs_compiler = pytest.mark.skipif(compiler() is None, reason="there is no C compiler here")
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    path = tmp_path / "kernel.c"
+    path.write_text(SOURCE, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def binary(tmp_path: Path) -> Path:
+    return tmp_path / library.BINARY.name
+
+
+@pytest.fixture
+def beside(source: Path, binary: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The library is looked for where the test has put one."""
+    monkeypatch.setattr(library, "SOURCE", source)
+    monkeypatch.setattr(library, "BINARY", binary)
+    monkeypatch.delenv("SERENDIPITY_KERNEL", raising=False)
+    library._loaded.cache_clear()
+    yield
+    library._loaded.cache_clear()
+
+
+@needs_compiler
+@pytest.mark.usefixtures("beside")
+def test_what_is_built_is_loaded_once(
+    source: Path, binary: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(binary, source) == 0
+    assert capsys.readouterr() == (f"Kernel compiled: {binary}\n", "")
+    found = library.library()
+    assert isinstance(found, ctypes.CDLL)
+    assert library.library() is found
+    monkeypatch.setenv("SERENDIPITY_KERNEL", "off")
+    assert library.library() is None
+    assert set(source.parent.iterdir()) == {source, binary}
+
+
+@pytest.mark.usefixtures("beside")
+def test_none_where_it_is_absent() -> None:
+    assert library.library() is None
+
+
+@needs_compiler
+def test_none_where_the_source_has_changed(source: Path, binary: Path) -> None:
+    assert main(binary, source) == 0
+    source.write_text(f"{SOURCE}/* changed */", encoding="utf-8")
+    assert library.load(binary, source) is None
+    source.unlink()
+    assert library.load(binary, source), "nothing says that it is stale"
+
+
+@needs_compiler
+def test_none_where_the_library_is_something_else(source: Path, binary: Path) -> None:
+    other = source.with_name("other.c")
+    other.write_text("int other(void); int other(void) { return 1; }", encoding="utf-8")
+    compile_kernel(compiler() or [], binary, other)
+    assert library.load(binary, source) is None
+
+
+@pytest.mark.parametrize("content", [b"", b"no library", b"\x7fELF"])
+def test_none_where_the_file_is_no_library(content: bytes, source: Path, binary: Path) -> None:
+    binary.write_bytes(content)
+    assert library.load(binary, source) is None
+
+
+@needs_compiler
+def test_an_error_leaves_what_was_there(
+    source: Path, binary: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    binary.write_bytes(b"before")
+    source.write_text("int broken(", encoding="utf-8")
+    assert main(binary, source) == 1
+    said = capsys.readouterr().err
+    assert "error" in said
+    assert said.endswith(f"No kernel: {source} can't be compiled.\n")
+    assert binary.read_bytes() == b"before"
+    assert set(source.parent.iterdir()) == {source, binary}
+
+
+@needs_compiler
+def test_what_cannot_be_loaded_is_removed(
+    source: Path, binary: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source.write_text("int other(void); int other(void) { return 1; }", encoding="utf-8")
+    assert main(binary, source) == 1
+    assert "can't be loaded" in capsys.readouterr().err
+    assert not binary.exists()
+
+
+def test_no_compiler_is_no_failure(
+    source: Path, binary: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("PATH", str(source.parent))
+    monkeypatch.setitem(sys.modules, "ziglang", None)
+    assert compiler() is None
+    assert main(binary, source) == 0
+    assert capsys.readouterr().out.startswith("No kernel: ")
+    assert not binary.exists()
+
+
+def test_a_named_compiler_that_is_absent_is_one_line(
+    source: Path, binary: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("CC", "no-such-compiler -m64")
+    with pytest.raises(CompilerError, match=r"no-such-compiler: No such file or directory"):
+        compile_kernel(compiler() or [], binary, source)
+    assert main(binary, source) == 1
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_the_first_compiler_that_there_is(source: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(source.parent))
+    monkeypatch.setenv("CC", "gcc -m64")
+    assert compiler() == ["gcc", "-m64"]
+    monkeypatch.delenv("CC")
+    monkeypatch.setattr(shutil, "which", {"cc": "/usr/bin/cc"}.get)
+    assert compiler() == ["cc"]
+    monkeypatch.setattr(shutil, "which", {}.get)
+    monkeypatch.setattr("search.kernel.build.find_spec", {"ziglang": object()}.get)
+    assert shlex.join(compiler() or []).endswith("-m ziglang cc -target native -mcpu=baseline -s")
+
+
+@needs_compiler
+def test_the_source_compiles_without_a_warning(binary: Path) -> None:
+    compile_kernel([*(compiler() or []), "-Werror"], binary)
+    assert library.load(binary, library.SOURCE)

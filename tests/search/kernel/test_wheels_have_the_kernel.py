@@ -1,0 +1,56 @@
+"""A wheel has a kernel, and is for one platform then, where there is a compiler; else it is for any."""
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from search.kernel.build import compiler
+from search.kernel.library import BINARY, SOURCE, load
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def build(folder: Path, monkeypatch: pytest.MonkeyPatch, **environment: str) -> Path:
+    """The wheel that is built under environment variables."""
+    for name in ("CC", "SERENDIPITY_WHEEL"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in environment.items():
+        monkeypatch.setenv(name, value)
+    subprocess.run(
+        [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+    )
+    (wheel,) = folder.glob("*.whl")
+    return wheel
+
+
+def kernels(wheel: Path) -> set[str]:
+    """What the wheel has of the kernel, but for modules."""
+    names = zipfile.ZipFile(wheel).namelist()
+    return {name for name in names if name.startswith("search/kernel/") and not name.endswith(".py")}
+
+
+@pytest.mark.skipif(compiler() is None, reason="there is no C compiler here")
+def test_a_wheel_for_this_platform(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    wheel = build(tmp_path, monkeypatch)
+    assert "-py3-none-" in wheel.name
+    assert not wheel.name.endswith("-any.whl")
+    assert kernels(wheel) == {"search/kernel/kernel.c", f"search/kernel/{BINARY.name}"}
+    with zipfile.ZipFile(wheel) as archive:
+        assert load(Path(archive.extract(f"search/kernel/{BINARY.name}", tmp_path)), SOURCE)
+        metadata = next(name for name in archive.namelist() if name.endswith("/WHEEL"))
+        assert b"Root-Is-Purelib: false" in archive.read(metadata)
+
+
+@pytest.mark.parametrize("environment", [{"SERENDIPITY_WHEEL": "any"}, {"CC": "no-such-compiler"}])
+def test_a_wheel_for_any_platform(
+    environment: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    wheel = build(tmp_path, monkeypatch, **environment)
+    assert wheel.name.endswith("-py3-none-any.whl")
+    assert kernels(wheel) == {"search/kernel/kernel.c"}
