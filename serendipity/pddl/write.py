@@ -8,13 +8,14 @@ no goal needs are not in it.
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from math import lcm
 from pathlib import Path
 from typing import Final
 
 from serendipity.model import GroundAction, Task
+from serendipity.pddl.classical import ClassicalFiles
 from serendipity.pddl.parsing.scope import RESERVED
 from serendipity.pddl.participants import agents_named
 
@@ -58,22 +59,7 @@ def task_files(task: Task) -> dict[str, tuple[str, str]]:
     return files
 
 
-@dataclass(frozen=True, slots=True)
-class CompositeFiles:
-    """A task as one problem of the super-agent, for planners that know one agent.
-
-    Attributes:
-        domain: its text.
-        problem: its text; the goal is that of all agents.
-        scale: costs in the texts are whole numbers: team costs times this.
-    """
-
-    domain: str
-    problem: str
-    scale: int
-
-
-def composite_files(task: Task, discount: Fraction) -> CompositeFiles:
+def composite_files(task: Task, discount: Fraction) -> ClassicalFiles:
     """One domain and problem whose optimal plans are the composite ones without a horizon.
 
     Plans of such a problem are sequences.  Where actions may share an epoch although each
@@ -90,7 +76,7 @@ def composite_files(task: Task, discount: Fraction) -> CompositeFiles:
     everything = set(range(len(facts)))
     goals = (task.goal, task.robot_goal)
     literals = [text for goal in goals for text in _goal(goal.positive, goal.negative, facts)]
-    return CompositeFiles(
+    return ClassicalFiles(
         _domain(actions, facts, everything), _problem(task, facts, everything, literals), scale
     )
 

@@ -1,14 +1,21 @@
 """``serendipity bench`` measures contenders on the same calls and writes every timing."""
 
 import csv
+import shutil
+import signal
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from serendipity.cli.app import main
-from serendipity.evaluation.benchmark import AXES, CONTENDERS, fast_downward
+from serendipity.evaluation.benchmark import AXES, CONTENDERS
+from serendipity.evaluation.benchmark.coverage import CONTENDERS as SUITE_CONTENDERS
+from serendipity.evaluation.benchmark.coverage import Call, Outcome, Row, rows_as_csv
+from serendipity.evaluation.benchmark.coverage import Contender as SuiteContender
+from serendipity.evaluation.benchmark.fast_downward import installed
 from serendipity.evaluation.benchmark.scaling import Axis, Size
+from serendipity.scenarios.examples import DATA
 
 
 def test_contenders_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -40,9 +47,9 @@ def test_an_absent_contender_is_left_out_with_one_line(
 
 
 def test_absence_is_noticed_without_an_import(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fast_downward, "_has_translator", lambda: False)
-    monkeypatch.setattr(fast_downward, "_binary", lambda: None)
-    reason = fast_downward.absent()
+    monkeypatch.setattr(installed, "_has_translator", lambda: False)
+    monkeypatch.setattr(installed, "binary", lambda: None)
+    reason = installed.absent()
     assert reason is not None
     assert "no fast-downward.translate and no up-fast-downward" in reason
 
@@ -81,3 +88,72 @@ def test_wrong_usage_is_one_line(wrong: list[str], capsys: pytest.CaptureFixture
 def test_an_unknown_contender_is_named(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "--rooms", "4", "--seeds", "1", "--contenders", "search,guess"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_suite_is_measured_and_its_tables_are_printed_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("flights", "parcels"):
+        shutil.copytree(DATA / name, tmp_path / "suite" / name)
+    rows = tmp_path / "rows.csv"
+    arguments = [
+        "bench",
+        str(tmp_path / "suite"),
+        "--modes",
+        "individual,serendipity",
+        "--contenders",
+        "search",
+    ]
+    assert main([*arguments, "--domains", "parcels", "--time-limit", "10", "-o", str(rows)]) == 0
+    first = capsys.readouterr().out
+    assert "Calls decided: search." in first
+    assert [row["status"] for row in csv.DictReader(rows.read_text().splitlines())] == ["optimal", "optimal"]
+    assert main(["bench", str(rows)]) == 0
+    assert first.endswith(capsys.readouterr().out)
+    assert main(["bench", str(rows), "--markdown"]) == 0
+    printed = capsys.readouterr().out
+    assert "| domain | tasks | human's plan | individual | serendipity |\n| --- |" in printed
+    assert "| parcels | 1 | 1 | 1 | 1 |" in printed
+
+
+def test_optima_of_a_suite_that_differ_are_an_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = [
+        Row("d", "t", "h", "r", True, "individual", 0.9, name, Outcome("optimal", cost))
+        for name, cost in (("search", 1.0), ("fast-downward", 2.0))
+    ]
+    (tmp_path / "rows.csv").write_text(rows_as_csv(rows))
+    assert main(["bench", str(tmp_path / "rows.csv")]) == 2
+    printed = capsys.readouterr()
+    assert "Calls decided" in printed.out
+    assert printed.err == (
+        "Error: d t, individual: the proved optima differ: search 1.0, fast-downward 2.0\n"
+    )
+
+
+def test_coverage_over_time_is_drawn(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    row = Row("d", "t", "h", "r", True, "individual", 0.9, "search", Outcome("optimal", 1.0, seconds=0.5))
+    (tmp_path / "rows.csv").write_text(rows_as_csv([row]))
+    assert main(["bench", str(tmp_path / "rows.csv"), "--plot", str(tmp_path / "over.svg")]) == 0
+    assert "<svg" in (tmp_path / "over.svg").read_text()
+
+
+def test_an_interrupted_suite_leaves_what_was_measured(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = iter(("optimal", "failed"))
+
+    def answer(call: Call) -> Outcome:
+        status = next(asked)
+        if status == "failed":
+            signal.raise_signal(signal.SIGINT)
+        return Outcome(status, 1.0)
+
+    monkeypatch.setitem(SUITE_CONTENDERS, "search", SuiteContender(answer))
+    shutil.copytree(DATA / "flights", tmp_path / "suite" / "flights")
+    rows = tmp_path / "rows.csv"
+    assert main(["bench", str(tmp_path / "suite"), "--contenders", "search", "-o", str(rows)]) == 130
+    assert "Calls decided" in capsys.readouterr().out
+    assert [row["status"] for row in csv.DictReader(rows.read_text().splitlines())] == ["optimal"]

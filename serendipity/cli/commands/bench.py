@@ -1,52 +1,71 @@
-"""``serendipity bench``: the search, integer programs and Fast Downward on the same calls; scaling series."""
+"""``serendipity bench``: the search, integer programs and Fast Downward on the same calls; series, suites."""
 
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import astuple, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.render import Grid, Line, rendered
+from serendipity.cli.text.render import Grid, Line, as_markdown, rendered
 from serendipity.model import InputError, Task, UsageError
+from serendipity.model.errors import DisagreementError
 from serendipity.writing.csv_text import as_csv
 
 if TYPE_CHECKING:
-    from serendipity.evaluation.benchmark import Sample, Timing
+    from serendipity.evaluation.benchmark import Contender, Sample, Timing
+    from serendipity.evaluation.benchmark.coverage import Contender as SuiteContender
+    from serendipity.evaluation.benchmark.coverage import Row
+
+_MODES: Final = ("serendipity", "communication", "composite-inf")
+_DISCOUNTS: Final = ("0", "0.5", "0.9")
+_CONTENDERS: Final = ("search", "in-turn", "automata", "fast-downward")
 
 
 def bench(
     folder: Annotated[
         Path | None,
-        typer.Argument(help="Tasks in folders, as for `reproduce`; generated buildings without one."),
+        typer.Argument(
+            help="Tasks in folders, as for `reproduce`; or a suite, folders with domain.pddl and problems in "
+            "MA-PDDL; or the CSV of a suite, to print its tables again. Generated buildings without one."
+        ),
     ] = None,
-    stride: Annotated[int, typer.Option(min=1, help="Take every N-th task of the folder.")] = 1,
+    stride: Annotated[
+        int, typer.Option(min=1, help="Take every N-th task of the folder, of each domain of a suite.")
+    ] = 1,
+    domains: Annotated[str, typer.Option(help="Of a suite, separated by commas: all.")] = "",
     rooms: Annotated[int, typer.Option(min=2, help="Rooms of generated buildings.")] = 21,
     medkits: Annotated[int, typer.Option(min=1, help="Their medkits.")] = 2,
-    robots: Annotated[int, typer.Option(min=1, help="Their robots.")] = 1,
+    robots: Annotated[
+        int | None, typer.Option(min=1, help="Their robots: 1; of a suite's tasks the most: 2.")
+    ] = None,
     seeds: Annotated[
         int | None,
         typer.Option(min=1, help="How many to generate: 10; for each value of a scaling series 5."),
     ] = None,
     modes: Annotated[
-        str,
+        str | None,
         typer.Option(
-            help="Modes, separated by commas; composite-inf is composite mode without a horizon, the "
-            "only one that Fast Downward knows."
+            help="Modes, separated by commas; composite-inf is composite mode without a horizon. Fast "
+            "Downward knows that one, and individual in suites, where serendipity-k0 has K = 0."
         ),
-    ] = "serendipity,communication,composite-inf",
-    discounts: Annotated[str, typer.Option(help="Discounts, separated by commas.")] = "0,0.5,0.9",
+    ] = None,
+    discounts: Annotated[
+        str | None, typer.Option(help="Discounts, separated by commas: 0,0.5,0.9; one for a suite: 0.9.")
+    ] = None,
     contenders: Annotated[
-        str,
+        str | None,
         typer.Option(
             help="Some of search (first calls), in-turn (each task's discounts one after another), again "
-            "(the same call again), automata, paper, fast-downward, separated by commas."
+            "(the same call again), automata, paper, fast-downward, separated by commas; of a suite some "
+            "of search, fast-downward, fast-downward-ipdb."
         ),
-    ] = "search,in-turn,automata,fast-downward",
+    ] = None,
     scaling: Annotated[
         str | None,
         typer.Option(
@@ -61,8 +80,11 @@ def bench(
     output_file: output.Output = None,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", metavar="FILE", help="Log-log plot: .png, .svg or .pdf (needs matplotlib)."),
+        typer.Option(
+            "--plot", metavar="FILE", help="Plot, a suite's over time: .png, .svg or .pdf (needs matplotlib)."
+        ),
     ] = None,
+    markdown: Annotated[bool, typer.Option("--markdown", help="A suite's tables as Markdown.")] = False,
     quiet: output.Quiet = False,
 ) -> int:
     """Measure the search beside integer programs and Fast Downward; -o writes every timing as CSV."""
@@ -72,16 +94,30 @@ def bench(
             raise UsageError("--scaling: generates its buildings, so it takes no folder")
         return _scaling(scaling, seeds, time_limit, output_file, plot, quiet=quiet)
     from serendipity.evaluation import benchmark
+    from serendipity.evaluation.benchmark import coverage
 
-    chosen, absent = _present(contenders.split(","))
+    if folder is not None and folder.is_file():
+        return _covered(coverage.read_rows(folder), "", output_file, plot, markdown=markdown, quiet=quiet)
+    if folder is not None and folder.is_dir() and coverage.is_suite(folder):
+        asked = {"discount": discounts or "0.9", "robots": robots or 2, "time_limit": time_limit}
+        rows, complete = _suite(folder, _listed(domains, ()), stride, modes, contenders, quiet=quiet, **asked)
+        where = f"{benchmark.machine()}; at most {time_limit:g} s a call by the clock."
+        code = _covered(rows, where, output_file, plot, markdown=markdown, quiet=quiet)
+        return code if complete else ExitCode.INTERRUPTED
+    chosen, absent = _present(_listed(contenders, _CONTENDERS), benchmark.CONTENDERS)
     with tempfile.TemporaryDirectory() as scratch:
         if folder is None:
-            tasks = list(_generated(Path(scratch), rooms, medkits, robots, seeds or 10))
+            tasks = list(_generated(Path(scratch), rooms, medkits, robots or 1, seeds or 10))
         else:
             tasks = list(_loaded(folder, stride))
     timings: list[Timing] = []
     found = benchmark.measure(
-        tasks, modes.split(","), discounts.split(","), chosen, repeat=repeat, time_limit=time_limit
+        tasks,
+        _listed(modes, _MODES),
+        _listed(discounts, _DISCOUNTS),
+        chosen,
+        repeat=repeat,
+        time_limit=time_limit,
     )
     with progress.counting("tasks", quiet=quiet) as on_progress:
         for timing in found:
@@ -104,6 +140,74 @@ def bench(
 
         answers.append(output.Answer(side_by_side(timings, plot.suffix), plot, "--plot"))
     output.write_answers(answers)
+    return ExitCode.ANSWERED
+
+
+def _suite(
+    folder: Path,
+    domains: Sequence[str],
+    stride: int,
+    modes: str | None,
+    contenders: str | None,
+    *,
+    quiet: bool,
+    **asked: Any,
+) -> "tuple[list[Row], bool]":
+    """The rows of a suite's calls, and whether these are all; Ctrl-C leaves those that are there."""
+    from serendipity.evaluation.benchmark import coverage
+
+    chosen, absent = _present(_listed(contenders, coverage.CONTENDERS), coverage.CONTENDERS)
+    output.warn(absent, quiet=quiet)
+    problems = coverage.problems(folder, domains, stride)
+    rows: list[Row] = []
+    with cancelling() as cancelled, progress.counting("tasks", quiet=quiet) as on_progress:
+        for row in coverage.measure(problems, _listed(modes, coverage.MODES), chosen, **asked):
+            if cancelled.is_set():  # which may have ended the contender, too
+                return rows, False
+            rows.append(row)
+            on_progress(len({(row.domain, row.task) for row in rows}), len(problems))
+    return rows, True
+
+
+def _covered(
+    rows: "Sequence[Row]",
+    where: str,
+    output_file: Path | None,
+    plot: Path | None,
+    *,
+    markdown: bool,
+    quiet: bool,
+) -> int:
+    """Print and write what the rows of a suite, measured somewhere, come to.
+
+    Raises:
+        DisagreementError: contenders have proved what can't all be true.
+    """
+    from serendipity.evaluation.benchmark import coverage
+
+    output.warn(tuple(coverage.failures(rows)), quiet=quiet)
+    order = " / ".join(coverage.contenders_in(rows))
+    titled = {
+        f"Calls decided: {order}": coverage.decided(rows),
+        f"Median seconds until the answer, reading left out: {order}": coverage.seconds(rows),
+        "Median expansions where both have decided": coverage.expansions(rows),
+        "Calls decided, and calls with a plan, after some seconds": coverage.over_time(rows),
+    }
+    parts: list[Line | Grid] = [Line(where), Line()] if where else []
+    for title, (header, lines) in titled.items():
+        parts += [Line(f"{title}."), Line(), Grid(header, lines), Line()]
+    parts.pop()
+    answers = [output.Answer((as_markdown if markdown else rendered)(parts), None)]
+    if output_file is not None:
+        answers.append(output.Answer(coverage.rows_as_csv(rows), output_file))
+    if plot is not None:
+        from serendipity.evaluation.benchmark.coverage.plot import over_time
+
+        answers.append(output.Answer(over_time(rows, plot.suffix), plot, "--plot"))
+    output.write_answers(answers)
+    differing = coverage.disagreements(rows)
+    if differing:
+        raise DisagreementError("; ".join(differing))
     return ExitCode.ANSWERED
 
 
@@ -153,12 +257,17 @@ def _check_files(output_file: Path | None, plot: Path | None) -> None:
         check_suffix(plot.suffix)
 
 
-def _present(names: Sequence[str]) -> tuple[list[str], tuple[str, ...]]:
-    """The contenders that can run here, and a warning for each that can't."""
-    from serendipity.evaluation.benchmark import CONTENDERS
+def _listed(text: str | None, default: Iterable[str]) -> list[str]:
+    """The names in an option, which are separated by commas."""
+    return text.split(",") if text else list(default)
 
-    reasons = {name: CONTENDERS[name].absent() for name in names if name in CONTENDERS}
-    absent = tuple(reason for reason in reasons.values() if reason is not None)
+
+def _present(
+    names: Sequence[str], known: "Mapping[str, Contender | SuiteContender]"
+) -> tuple[list[str], tuple[str, ...]]:
+    """The contenders that can run here, and why others can't."""
+    reasons = {name: known[name].absent() for name in names if name in known}
+    absent = tuple(dict.fromkeys(reason for reason in reasons.values() if reason is not None))
     return [name for name in names if reasons.get(name) is None], absent
 
 

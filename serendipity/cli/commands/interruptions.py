@@ -17,7 +17,7 @@ from serendipity.model.numbers import plain
 
 _PICTURES: Final = (".svg", ".png")
 
-_WRITE_SHARE: Final = {"text": 0.05, "json": 0.2}
+_WRITE_SHARE: Final = {"text": 0.05, "json": 0.4}
 """What of the time limit is kept for writing: each window has a plan, and they are thousands."""
 
 if TYPE_CHECKING:

@@ -132,7 +132,7 @@ def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, c
 
 def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str]:
     """What is going to be loaded."""
-    modules = ["serendipity.facade.planning", "serendipity.facade.certify"]
+    modules = ["serendipity.facade.planning", "serendipity.facade.certify", "serendipity.cli.text.answers"]
     if mode == "assistance":
         modules += [
             "serendipity.facade.assistance",

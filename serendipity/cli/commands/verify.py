@@ -26,9 +26,8 @@ def verify(
 ) -> int:
     """Check a result of `plan --format json` claim by claim, independently of the search."""
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(
-        time_limit, memory_limit, "serendipity.facade.certify", "verify.certificate.certify"
-    )
+    modules = ("serendipity.facade.certify", "verify.certificate.certify", "serendipity.cli.text.answers")
+    deadline = limits.begin(time_limit, memory_limit, *modules)
     named, answer, result = read_result(files, "verify")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     try:

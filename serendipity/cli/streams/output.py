@@ -85,11 +85,10 @@ def check_output(output: Path | None, option: str = "-o") -> None:
 
 def as_json(value: dict[str, Any]) -> str:
     """A JSON object as text, indented; characters that can't be seen are escaped."""
-    import json
-
+    from serendipity.writing.json_text import json_text
     from serendipity.writing.printable import printable_json
 
-    return printable_json(json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False)) + "\n"
+    return printable_json(json_text(value)) + "\n"
 
 
 def write_answer(answer: str | bytes, output: Path | None, option: str = "-o") -> None:

@@ -64,6 +64,18 @@ def rendered(parts: Iterable[Line | Grid], *, terminal: bool | None = None) -> s
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
+def as_markdown(parts: Iterable[Line | Grid]) -> str:
+    """The same for a page in Markdown: lines as paragraphs, grids as tables."""
+    blocks = []
+    for part in map(_printable, parts):
+        if isinstance(part, Line):
+            blocks.append(part.text)
+        else:
+            rows = [part.header, ["---"] * len(part.header), *part.rows]
+            blocks.append("\n".join(f"| {' | '.join(row)} |" for row in rows))
+    return "\n\n".join(filter(None, blocks)) + "\n"
+
+
 def _printable(part: Line | Grid) -> Line | Grid:
     if isinstance(part, Line):
         return replace(part, text=printable(part.text))

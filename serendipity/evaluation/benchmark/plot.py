@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SUFFIXES: Final = (".png", ".svg", ".pdf")
-_COLOURS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+COLOURS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 """The Okabe-Ito palette: told apart by everybody."""
 _MARKERS: Final = "os^Dv<>"
 _RATIOS: Final = (1, 10, 100, 1000, 10000)
@@ -30,26 +30,26 @@ def check_suffix(suffix: str) -> None:
     """
     if suffix not in SUFFIXES:
         raise UsageError(f"--plot: expected a file that ends in {', '.join(SUFFIXES)}, got '{suffix}'")
-    _figure(1, 1)
+    new_figure(1, 1)
 
 
 def side_by_side(timings: Sequence[Timing], suffix: str) -> bytes:
     """What each contender takes over what the search takes, a point a call; crosses met the limit."""
     modes = list(dict.fromkeys(timing.mode for timing in timings))
-    figure = _figure(5 * len(modes), 4.6)
+    figure = new_figure(5 * len(modes), 4.6)
     for i, mode in enumerate(modes):
         members = [timing for timing in timings if timing.mode == mode]
         axes = figure.add_subplot(1, len(modes), i + 1)
         axes.set_title(mode)
         _scatter(axes, members)
-    return _bytes(figure, suffix)
+    return as_bytes(figure, suffix)
 
 
 def _scatter(axes: "Axes", timings: Sequence[Timing]) -> None:
     base = {(t.task, t.discount): t.seconds * 1000 for t in timings if t.contender == "search"}
     points = [(base[t.task, t.discount], t) for t in timings if (t.task, t.discount) in base]
     names = dict.fromkeys(t.contender for _, t in points if t.contender != "search")
-    for name, colour, marker in zip(names, _COLOURS, _MARKERS, strict=False):
+    for name, colour, marker in zip(names, COLOURS, _MARKERS, strict=False):
         for solved, shape in ((True, marker), (False, _UNPROVED)):
             chosen = [(x, t.seconds * 1000) for x, t in points if t.contender == name and t.solved is solved]
             if chosen:
@@ -85,7 +85,7 @@ def _decades(axes: "Axes", which: Literal["x", "y"], values: Sequence[float]) ->
 def series(samples: Sequence[Sample], suffix: str) -> bytes:
     """Search time and peak memory over each axis, with the fitted power of the time."""
     names = list(dict.fromkeys(sample.axis for sample in samples))
-    figure = _figure(4.6 * len(names), 7.4)
+    figure = new_figure(4.6 * len(names), 7.4)
     for i, name in enumerate(names):
         members = [sample for sample in samples if sample.axis == name]
         upper = figure.add_subplot(2, len(names), i + 1)
@@ -102,7 +102,7 @@ def series(samples: Sequence[Sample], suffix: str) -> bytes:
             upper.legend(fontsize=8)
         _points(lower, members, [s.memory for s in members], "peak memory of the process, MiB")
         lower.set_ylim(0, 1.1 * max(s.memory for s in members))
-    return _bytes(figure, suffix)
+    return as_bytes(figure, suffix)
 
 
 def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], label: str) -> None:
@@ -111,7 +111,7 @@ def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], la
         chosen = [(s.value, y) for s, y in zip(samples, values, strict=True) if s.solved is solved]
         if chosen:
             xs, ys = zip(*chosen, strict=True)
-            axes.scatter(xs, ys, s=14, marker=marker, c=_COLOURS[0 if solved else 1], alpha=0.7)
+            axes.scatter(xs, ys, s=14, marker=marker, c=COLOURS[0 if solved else 1], alpha=0.7)
     if axis.numeric:
         from matplotlib.ticker import NullFormatter
 
@@ -131,7 +131,12 @@ def _spread(ticks: Sequence[float]) -> list[float]:
     return [*ticks[:-1:step], ticks[-1]]
 
 
-def _figure(width: float, height: float) -> "Figure":
+def new_figure(width: float, height: float) -> "Figure":
+    """An empty figure, in inches.
+
+    Raises:
+        UsageError: matplotlib is not installed.
+    """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -142,7 +147,8 @@ def _figure(width: float, height: float) -> "Figure":
     return figure
 
 
-def _bytes(figure: "Figure", suffix: str) -> bytes:
+def as_bytes(figure: "Figure", suffix: str) -> bytes:
+    """A figure as a file with that suffix."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format=suffix.removeprefix("."), dpi=120)
     return buffer.getvalue()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+from search.kernel.library import library
 from serendipity.evaluation.benchmark.contenders import SEARCHES
 from serendipity.evaluation.benchmark.measure import Timing
 
@@ -118,7 +119,7 @@ def machine() -> str:
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     return (
         f"{platform.system()} on {_processor()}, {os.cpu_count()} cores, {memory:.0f} GiB, "
-        f"Python {platform.python_version()}"
+        f"Python {platform.python_version()}, {'compiled' if library() else 'no compiled'} kernel"
     )
 
 

@@ -19,7 +19,7 @@ class Types:
     """
 
     def __init__(self, parents: Mapping[str, Type]) -> None:
-        self._parents = parents
+        self.parents = parents
         self._subtypes: dict[tuple[Type, Type], bool] = {}
         self._above: dict[str, frozenset[str]] = {OBJECT: frozenset(ANYTHING)}
         for name in parents:
@@ -28,7 +28,7 @@ class Types:
     def _climb(self, name: str) -> frozenset[str]:
         if name not in self._above:
             self._above[name] = frozenset((name, OBJECT))  # ends a circle, which is refused elsewhere
-            above = [self._climb(parent) for parent in self._parents.get(name, ANYTHING)]
+            above = [self._climb(parent) for parent in self.parents.get(name, ANYTHING)]
             self._above[name] = self._above[name].union(*above)
         return self._above[name]
 
@@ -46,7 +46,7 @@ class Types:
     def _within(self, name: str, expected: Type) -> bool:
         if name in expected or OBJECT in expected:
             return True
-        parents = self._parents.get(name)
+        parents = self.parents.get(name)
         return parents is not None and self.is_subtype(parents, expected)
 
     def comparable(self, a: Type, b: Type) -> bool:

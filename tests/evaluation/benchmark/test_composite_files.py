@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from search import PreparedTask
 from serendipity import Task, example, load_agents, plan
-from serendipity.evaluation.benchmark import fast_downward
+from serendipity.evaluation.benchmark import CONTENDERS, fast_downward
 from serendipity.model import Options
 from serendipity.pddl.write import composite_files
 from tests.support.strategies import tasks
@@ -45,7 +46,7 @@ def test_one_agent_pays_what_the_team_pays(task: Task, discount: str) -> None:
 def test_fast_downward_finds_the_same_cost(name: str) -> None:
     task = example(name)
     options = Options(mode="composite", horizon="inf", discount=Fraction("0.9"))
-    answer = fast_downward.answer(task, options)
+    answer = CONTENDERS["fast-downward"].answer(PreparedTask(task), options)
     assert answer.status == "optimal"
     assert answer.cost == plan(task, mode="composite", horizon="inf", discount="0.9").cost
     assert answer.process_seconds is not None and answer.process_seconds > answer.seconds > 0

@@ -1,6 +1,7 @@
 """What is read from Fast Downward's output, with processes that only print it."""
 
-import subprocess
+import importlib
+import sys
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -9,61 +10,100 @@ import pytest
 
 from search import PreparedTask
 from serendipity import SerendipityError, example
-from serendipity.evaluation.benchmark import fast_downward
+from serendipity.evaluation.benchmark import CONTENDERS
+from serendipity.evaluation.benchmark.fast_downward import LMCUT, Found, run
 from serendipity.model import Options
+from serendipity.pddl.classical import ClassicalFiles
 
-FOUND = """[t=0.004982s, 10696 KB] Actual search time: 0.001458s
+PROCESSES = importlib.import_module("serendipity.evaluation.benchmark.fast_downward.run")
+FILES = ClassicalFiles("", "", scale=5)
+
+FOUND = """[t=0.001001s, 10696 KB] f = 100, 1 evaluated, 0 expanded
+[t=0.002001s, 10696 KB] f = 126, 20 evaluated, 8 expanded
+[t=0.004982s, 10696 KB] Actual search time: 0.001458s
 [t=0.005000s, 10696 KB] Plan cost: 126
+[t=0.005000s, 10696 KB] Expanded 13 state(s).
 [t=0.005000s, 10696 KB] Search time: 0.001651s
 [t=0.005000s, 10696 KB] Total time: 0.005000s
 Solution found.
 Peak memory: 10240 KB
 """
 NONE = FOUND.replace("Plan cost: 126", "Completely explored state space -- no solution!")
-OPTIONS = Options(mode="composite", horizon="inf", discount=Fraction("0.6"), time_limit=5)
+ENDED = FOUND.partition("[t=0.004982s")[0] + "Peak memory: 20480 KB\ncaught signal 15 -- exiting\n"
+
+Outputs = list[tuple[int | None, str]]
 
 
 @pytest.fixture
-def processes(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[tuple[int, str]]]:
+def processes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Outputs]:
     """Exit codes and outputs of the processes, in turn."""
-    left: list[tuple[int, str]] = []
+    left: Outputs = []
 
-    def run(command: list[str], folder: Path, limit: float | None, stdin: object = None) -> tuple[int, str]:
-        if not left:
-            raise subprocess.TimeoutExpired(command, limit or 0)
+    def process(
+        command: list[str], folder: Path, limit: float | None, stdin: object = None
+    ) -> tuple[int | None, str]:
         return left.pop(0)
 
-    monkeypatch.setattr(fast_downward, "_binary", lambda: Path("downward"))
-    monkeypatch.setattr(fast_downward, "_run", run)
+    monkeypatch.setattr(PROCESSES, "binary", lambda: Path("downward"))
+    monkeypatch.setattr(PROCESSES, "_process", process)
     yield left
     assert not left
 
 
-def test_costs_are_scaled_back(processes: list[tuple[int, str]]) -> None:
+def answered() -> Found:
+    return run(FILES, LMCUT, 5)
+
+
+def test_costs_are_scaled_back(processes: Outputs) -> None:
     processes += [(0, "Done!"), (0, FOUND)]
-    answer = fast_downward.answer(PreparedTask(example("room2")), OPTIONS)
+    found = answered()
+    assert (found.status, found.cost, found.lower_bound) == ("optimal", Fraction("25.2"), Fraction("25.2"))
+    assert (found.search_seconds, found.seconds, found.expanded, found.memory) == (0.001651, 0.005, 13, 10)
+
+
+def test_a_contender_tells_its_search_time(processes: Outputs) -> None:
+    processes += [(0, "Done!"), (0, FOUND)]
+    options = Options(mode="composite", horizon="inf", discount=Fraction("0.6"), time_limit=5)
+    answer = CONTENDERS["fast-downward"].answer(PreparedTask(example("room2")), options)
     # Team costs are 1 and 0.4, so the files' are 5 and 2.
-    assert (answer.status, answer.cost) == ("optimal", 25.2)
-    assert (answer.seconds, answer.memory) == (0.001651, 10)
+    assert (answer.status, answer.cost, answer.seconds, answer.memory) == ("optimal", 25.2, 0.001651, 10)
 
 
 @pytest.mark.parametrize("outputs", [[(10, "unsolvable")], [(0, "Done!"), (11, NONE)]])
-def test_proofs_that_there_is_no_plan(
-    processes: list[tuple[int, str]], outputs: list[tuple[int, str]]
-) -> None:
+def test_proofs_that_there_is_no_plan(processes: Outputs, outputs: Outputs) -> None:
     processes += outputs
-    answer = fast_downward.answer(PreparedTask(example("room2")), OPTIONS)
-    assert (answer.status, answer.cost) == ("infeasible", None)
+    found = answered()
+    assert (found.status, found.cost, found.lower_bound) == ("infeasible", None, None)
 
 
-@pytest.mark.parametrize("outputs", [[], [(0, "Done!")]])
-def test_the_limit_comes_first(processes: list[tuple[int, str]], outputs: list[tuple[int, str]]) -> None:
+@pytest.mark.parametrize("outputs", [[(None, "")], [(0, "Done!"), (None, "")]])
+def test_the_limit_comes_first(processes: Outputs, outputs: Outputs) -> None:
     processes += outputs
-    assert fast_downward.answer(PreparedTask(example("room2")), OPTIONS).status == "unknown"
+    found = answered()
+    assert (found.status, found.cost, found.lower_bound) == ("unknown", None, None)
+
+
+def test_what_it_knew_at_the_limit_is_told(processes: Outputs) -> None:
+    processes += [(0, "Done!"), (None, ENDED)]
+    found = answered()
+    assert (found.status, found.lower_bound, found.expanded) == ("unknown", Fraction("25.2"), 8)
+    assert found.memory == 20
 
 
 @pytest.mark.parametrize("outputs", [[(30, "bad file")], [(0, ""), (32, "bad option")], [(0, ""), (0, "hm")]])
-def test_failures_are_told(processes: list[tuple[int, str]], outputs: list[tuple[int, str]]) -> None:
+def test_failures_are_told(processes: Outputs, outputs: Outputs) -> None:
     processes += outputs
     with pytest.raises(SerendipityError, match="fast-downward"):
-        fast_downward.answer(PreparedTask(example("room2")), OPTIONS)
+        answered()
+
+
+def test_a_process_is_ended_at_the_limit_and_says_what_it_knows(tmp_path: Path) -> None:
+    script = (
+        "import signal, sys, time\n"
+        "signal.signal(signal.SIGTERM, lambda *_: (print('so far'), sys.exit(0)))\n"
+        "print('started', flush=True)\n"
+        "time.sleep(60)\n"
+    )
+    code, text = PROCESSES._process([sys.executable, "-c", script], tmp_path, 1.0)
+    assert code is None
+    assert text.split("\n")[-2:] == ["so far", ""]

@@ -191,6 +191,6 @@ def test_what_a_solver_works_counts_though_it_is_a_process_of_its_own(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(contenders, "children_seconds", iter((10.0, 110.0)).__next__)
-    answer = CONTENDERS["paper"].answer(PreparedTask(example("room2")), Options(discount="0.6"))
+    answer = CONTENDERS["automata"].answer(PreparedTask(example("room2")), Options(discount="0.6"))
     assert answer.cost == 12.6
     assert answer.seconds > 100

@@ -1,0 +1,104 @@
+"""Suites of MA-PDDL as competitions give them: a folder a domain, with ``domain.pddl`` and problem files."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from serendipity.model.errors import InputError, UsageError
+from serendipity.pddl.parsing.files import read_unit
+from serendipity.pddl.parsing.lifted import Unit
+from serendipity.pddl.work import Work
+
+_DOMAIN: Final = "domain.pddl"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One problem of a suite: the name of its domain, its own, and its files."""
+
+    domain: str
+    name: str
+    domain_file: Path
+    problem_file: Path
+
+    def unit(self) -> Unit:
+        """The problem as it is written.
+
+        Raises:
+            InputError: a file of it is wrong.
+        """
+        return read_unit(None, self.domain_file, self.problem_file, Work())
+
+
+@dataclass(frozen=True, slots=True)
+class Roles:
+    """Who is who in a problem.
+
+    Attributes:
+        human: the human.
+        robots: the robots.
+        alone: whether the human is known to have a plan alone.
+    """
+
+    human: str
+    robots: tuple[str, ...]
+    alone: bool = False
+
+
+def is_suite(folder: Path) -> bool:
+    """Whether a folder holds domains with their problems."""
+    return any(_problem_files(path) for path in _domains(folder))
+
+
+def problems(folder: Path, domains: Sequence[str] = (), stride: int = 1) -> list[Problem]:
+    """Every ``stride``-th problem of each domain.
+
+    Args:
+        folder: with a folder for each domain.
+        domains: only these of them; none means all.
+        stride: 1 for all of a domain's problems.
+
+    Raises:
+        UsageError: there is no such domain.
+    """
+    there = {path.name: path for path in _domains(folder)}
+    for name in domains:
+        if name not in there:
+            raise UsageError(f"--domains: expected some of {', '.join(there)}, got '{name}'")
+    return [
+        Problem(name, file.stem, path / _DOMAIN, file)
+        for name, path in there.items()
+        if not domains or name in domains
+        for file in _problem_files(path)[::stride]
+    ]
+
+
+def _domains(folder: Path) -> Iterator[Path]:
+    return (path for path in sorted(folder.iterdir()) if (path / _DOMAIN).is_file())
+
+
+def _problem_files(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.glob("*.pddl") if path.name != _DOMAIN)
+
+
+def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], bool]) -> Roles:
+    """The first agent of the file who can do it alone, or else the first, and the next others.
+
+    Args:
+        problem: the problem.
+        robots: how many there are at most.
+        can_alone: whether a human is known to have a plan alone.
+
+    Raises:
+        InputError: a file is wrong, or there are fewer than two agents.
+    """
+    unit = problem.unit()
+    kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
+    fits = unit.domain.types.is_subtype
+    agents = [name for name, own in unit.problem.objects.items() if any(fits(own, kind) for kind in kinds)]
+    if len(agents) < 2:
+        raise InputError("expected two objects or more that can be an ':agent'", problem.problem_file)
+    choices = [Roles(human, tuple(a for a in agents if a != human)[:robots]) for human in agents]
+    able = next((choice for choice in choices if can_alone(problem, choice)), None)
+    return choices[0] if able is None else replace(able, alone=True)

@@ -1,0 +1,51 @@
+"""Rows as CSV, and back."""
+
+import csv
+from collections.abc import Iterable
+from dataclasses import astuple, fields
+from pathlib import Path
+from typing import Any, Final
+
+from serendipity.evaluation.benchmark.coverage.contenders import Outcome
+from serendipity.evaluation.benchmark.coverage.rows import Row
+from serendipity.model.errors import InputError
+from serendipity.pddl.parsing.files import read_text
+from serendipity.writing.csv_text import as_csv
+
+_OWN: Final = tuple(field for field in fields(Row) if field.name != "outcome")
+_FIELDS: Final = (*_OWN, *fields(Outcome))
+
+_READ: Final[dict[Any, Any]] = {
+    str: str,
+    int: int,
+    float: float,
+    bool: "True".__eq__,
+    float | None: lambda cell: float(cell) if cell else None,
+}
+"""By type, how a cell is read."""
+
+
+def rows_as_csv(rows: Iterable[Row]) -> str:
+    """The rows, one a line, below the names of their columns."""
+    cells = ((*astuple(row)[: len(_OWN)], *astuple(row.outcome)) for row in rows)
+    return as_csv([field.name for field in _FIELDS], cells)
+
+
+def read_rows(path: Path) -> list[Row]:
+    """The rows of such a file; several may stand in it one after another.
+
+    Raises:
+        InputError: it is something else.
+    """
+    header = [field.name for field in _FIELDS]
+    rows = []
+    for line, cells in enumerate(csv.reader(read_text(path).splitlines()), start=1):
+        if cells == header:
+            continue
+        try:
+            of = {field.name: _READ[field.type](cell) for field, cell in zip(_FIELDS, cells, strict=True)}
+        except ValueError:
+            raise InputError("expected a row that `serendipity bench` has written", path, line) from None
+        outcome = Outcome(**{field.name: of.pop(field.name) for field in fields(Outcome)})
+        rows.append(Row(**of, outcome=outcome))
+    return rows

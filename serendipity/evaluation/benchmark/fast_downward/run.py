@@ -1,0 +1,171 @@
+"""One problem, translated and searched."""
+
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+from serendipity.evaluation.benchmark.fast_downward.installed import binary
+from serendipity.evaluation.benchmark.usage import children_seconds
+from serendipity.model.errors import SerendipityError
+from serendipity.pddl.classical import ClassicalFiles
+
+LMCUT: Final = "astar(lmcut())"
+"""A* with landmark cuts."""
+IPDB: Final = "astar(ipdb())"
+"""A* with the pattern databases that hill climbing chooses."""
+ANY_PLAN: Final = "lazy_greedy([ff()], preferred=[ff()])"
+"""Some plan, soon."""
+
+_SAS: Final = "output.sas"
+_TRANSLATE: Final = ("-m", "fast_downward.translate", "domain.pddl", "problem.pddl", "--sas-file", _SAS)
+_NO_INVARIANTS: Final = ("--invariant-generation-max-time", "0")
+_UNSOLVABLE: Final = {"the translator": 10, "the search": 11}
+"""Exit codes that are proofs (``driver/returncodes.py`` of Fast Downward)."""
+
+_LEAVING: Final = 5.0
+"""Seconds for saying what it knows, once it has to end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What it says.
+
+    Attributes:
+        status: ``optimal``, ``infeasible`` or ``unknown``.
+        cost: in the unit of the task, or None; the least only where the search was for that.
+        lower_bound: likewise: no plan is cheaper; None where nothing is known, or there is no plan.
+        expanded: nodes, as far as it has told.
+        search_seconds: its search time, which leaves out what is built before.
+        seconds: of its search process: as it tells them, or by the clock where it had to end.
+        translate_seconds: of the translator, by the clock.
+        process_seconds: processor time of both.
+        memory: peak of the search process in MiB, or None.
+    """
+
+    status: str
+    cost: Fraction | None = None
+    lower_bound: Fraction | None = None
+    expanded: int = 0
+    search_seconds: float = 0.0
+    seconds: float = 0.0
+    translate_seconds: float = 0.0
+    process_seconds: float = 0.0
+    memory: float | None = None
+
+
+def run(files: ClassicalFiles, search: str, time_limit: float | None, *, invariants: bool = True) -> Found:
+    """What it finds.
+
+    Args:
+        files: the problem.
+        search: its configuration, such as :data:`LMCUT`.
+        time_limit: seconds for translating, and as many again for the search.
+        invariants: whether to look for them: on ground files that takes seconds, and finds none.
+
+    Raises:
+        SerendipityError: it fails, with what it says.
+    """
+    program = binary()
+    assert program is not None, "absent() was asked before"
+    before, start = children_seconds(), time.perf_counter()
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        (folder / "domain.pddl").write_text(files.domain, encoding="utf-8")
+        (folder / "problem.pddl").write_text(files.problem, encoding="utf-8")
+        translator = [sys.executable, *_TRANSLATE, *(() if invariants else _NO_INVARIANTS)]
+        code, text = _process(translator, folder, time_limit)
+        status = _status(code, "the translator", text)
+        translated = time.perf_counter()
+        found = Found(status)
+        if status == "optimal":
+            code, text = _process([str(program), "--search", search], folder, time_limit, _SAS)
+            status = _status(code, "the search", text)
+            found = _read(status, text, files.scale, time.perf_counter() - translated)
+    return replace(found, translate_seconds=translated - start, process_seconds=children_seconds() - before)
+
+
+def _status(code: int | None, who: str, text: str) -> str:
+    if code is None:
+        return "unknown"
+    if code == _UNSOLVABLE[who]:
+        return "infeasible"
+    if code != 0:
+        raise _failed(who, text)
+    return "optimal"
+
+
+def _failed(who: str, text: str) -> SerendipityError:
+    return SerendipityError(f"fast-downward: {who} failed: {' '.join(text.splitlines()[-4:])}")
+
+
+def _read(status: str, text: str, scale: int, seconds: float) -> Found:
+    """What the search has printed.
+
+    Raises:
+        SerendipityError: something is missing in it.
+    """
+    memory = _last(r"Peak memory: (\d+) KB", text)
+    bound = _last(r"f = (\d+),", text)
+    found = Found(
+        status,
+        lower_bound=None if bound is None or status == "infeasible" else Fraction(int(bound), scale),
+        expanded=int(_last(r"(\d+) expanded$", text) or 0),
+        seconds=seconds,
+        search_seconds=seconds,
+        memory=None if memory is None else float(memory) / 1024,
+    )
+    if status == "unknown":
+        return found
+    cost = Fraction(int(_printed(r"Plan cost: (\d+)", text)), scale) if status == "optimal" else None
+    return replace(
+        found,
+        cost=cost,
+        lower_bound=cost,
+        expanded=int(_printed(r"Expanded (\d+) state", text)),
+        search_seconds=float(_printed(r"Search time: ([0-9.e-]+)s", text)),
+        seconds=float(_printed(r"Total time: ([0-9.e-]+)s", text)),
+    )
+
+
+def _last(pattern: str, text: str) -> str | None:
+    found = re.findall(pattern, text, re.MULTILINE)
+    return found[-1] if found else None
+
+
+def _printed(pattern: str, text: str) -> str:
+    found = _last(pattern, text)
+    if found is None:
+        raise _failed("the search", text)
+    return found
+
+
+def _process(
+    command: list[str], folder: Path, time_limit: float | None, stdin: str | None = None
+) -> tuple[int | None, str]:
+    """Exit code, None if it had to end, and output of a process."""
+    with (Path("/dev/null") if stdin is None else folder / stdin).open("rb") as source:
+        process = subprocess.Popen(
+            command, cwd=folder, stdin=source, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+    with process:
+        try:
+            text, _ = process.communicate(timeout=time_limit)
+            return process.returncode, text
+        except subprocess.TimeoutExpired:
+            process.terminate()  # it then says what it knows
+            return None, _last_words(process)
+        finally:
+            process.kill()
+
+
+def _last_words(process: subprocess.Popen[str]) -> str:
+    try:
+        return process.communicate(timeout=_LEAVING)[0]
+    except subprocess.TimeoutExpired:
+        return ""

@@ -1,0 +1,48 @@
+"""JSON says what it was made of, on lines that people can read."""
+
+import json
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from serendipity.writing.json_text import json_text
+
+scalars = (
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.text()
+)
+values = st.recursive(scalars, lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner))
+
+
+@given(st.dictionaries(st.text(), values))
+def test_it_reads_as_it_was(value: dict[str, object]) -> None:
+    assert json.loads(json_text(value)) == value
+
+
+def test_members_have_lines_down_to_the_second_level() -> None:
+    steps = [{"epoch": 1, "agents": ["é"]}, {"epoch": 2, "agents": []}]
+    assert json_text(
+        {"cost": 1.5, "none": [], "window": {"start": 1, "end": 2}, "plan": steps}
+    ).splitlines() == [
+        "{",
+        ' "cost": 1.5,',
+        ' "none": [],',
+        ' "window": {',
+        '  "start": 1,',
+        '  "end": 2',
+        " },",
+        ' "plan": [',
+        '  {"epoch": 1, "agents": ["é"]},',
+        '  {"epoch": 2, "agents": []}',
+        " ]",
+        "}",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("value", "error"), [(math.nan, ValueError), ([-math.inf], ValueError), ({1}, TypeError)]
+)
+def test_what_is_no_json_is_not_written(value: object, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        json_text({"a": value})
