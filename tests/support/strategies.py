@@ -10,9 +10,11 @@ typical call in some ten milliseconds.
 
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
+from random import Random
 
 from hypothesis import strategies as st
 
+from serendipity.evaluation.crosscheck.families import AGENTS, FAMILIES, SMALL
 from serendipity.model import Condition, HumanPlan, Options, Task
 from tests.support.builders import task as build
 from tests.support.builders import usar
@@ -156,23 +158,40 @@ def errand_tasks(draw: st.DrawFn) -> Task:
     return draw(_with_robot_goal(built))
 
 
+@st.composite
+def family_tasks(draw: st.DrawFn) -> Task:
+    """Blocks, logistics or switches: goals on what robots change, too.  A seed decides all but the size."""
+    family = draw(st.sampled_from(sorted(FAMILIES)))
+    size, agents = draw(st.sampled_from(SMALL[family]))
+    return FAMILIES[family](Random(draw(st.integers(0, 10**9))), size, AGENTS[:agents])
+
+
 def tasks() -> st.SearchStrategy[Task]:
     """Any small task."""
-    return st.one_of(strips_tasks(), corridor_tasks(), corridor_tasks(), usar_tasks(), errand_tasks())
+    return st.one_of(
+        strips_tasks(), corridor_tasks(), corridor_tasks(), usar_tasks(), errand_tasks(), family_tasks()
+    )
 
 
 # -- options and calls
 
 
 @st.composite
-def calls(draw: st.DrawFn, *, modes: tuple[str, ...] = MODES, ties: bool = True) -> Call:
+def calls(
+    draw: st.DrawFn,
+    *,
+    modes: tuple[str, ...] = MODES,
+    ties: bool = True,
+    of: st.SearchStrategy[Task] | None = None,
+) -> Call:
     """A task, a mode and every option that semantics 3 gives it, often with a given human plan.
 
     Args:
         modes: drawn from.
         ties: whether ``ties`` other than ``fixed`` are drawn.
+        of: tasks, or None for any.
     """
-    task = draw(tasks())
+    task = draw(tasks() if of is None else of)
     mode = draw(st.sampled_from(modes))
     plans = list(islice(human_plans(task), _MOST_TIES + 1))
     plan = plans[0] if plans else None

@@ -4,8 +4,11 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
-from serendipity.evaluation.crosscheck.tasks import random_human_plan, random_task
+from serendipity.evaluation.crosscheck.families import FAMILIES
+from serendipity.evaluation.crosscheck.human_plans import plan_after_detour, random_human_plan
+from serendipity.evaluation.crosscheck.tasks import random_task
 from serendipity.model import Task
+from verify.base.optimal_plans import OptimalPlans
 
 _DISCOUNTS = ("0", "0.25", "1/3", "0.5", "0.6", "0.9", "1")
 _MODES = ("serendipity", "serendipity", "communication", "communication", "composite", "individual")
@@ -55,15 +58,20 @@ class PlanCall:
 
 
 def random_call(seed: int) -> PlanCall:
-    """A small random task with random options; equal seeds give equal calls."""
+    """A small random task, half the time of a family, with random options; equal seeds give equal calls."""
+    family = Random(f"family {seed}").choice(("",) * len(FAMILIES) + tuple(FAMILIES))
     dice = Random(f"crosscheck {seed}")
-    task = random_task(dice)
+    task = random_task(dice, family)
     options = random_options(dice)
-    plan = random_human_plan(dice, task) if dice.random() < 0.25 else None
-    if plan is not None and "horizon" in options and options["horizon"] != "inf":
-        options["horizon"] = str(len(plan) + dice.choice((0, 0, 1, 2)))
-    given = None if plan is None else tuple(task.actions[i].name for i in plan)
-    return PlanCall(task, options, given, seed)
+    plan = None
+    if dice.random() < 0.25:
+        plan = (plan_after_detour if family else random_human_plan)(dice, task)
+    known = OptimalPlans(task).canonical() if family and plan is None else plan
+    length = 0 if known is None else len(known)
+    if options.get("horizon", "inf") != "inf" and (plan is not None or length > int(options["horizon"])):
+        options["horizon"] = str(length + dice.choice((0, 0, 1, 2)))
+    names = None if plan is None else tuple(task.actions[i].name for i in plan)
+    return PlanCall(task, options, names, seed)
 
 
 def random_options(dice: Random) -> dict[str, str]:

@@ -1,45 +1,47 @@
-"""Random small tasks: walks with short cuts, robots on errands, plain STRIPS; equal dice give equal tasks."""
+"""Random small tasks: walks with short cuts, errands, plain STRIPS, families; equal dice give equal tasks."""
 
 from dataclasses import replace
-from fractions import Fraction
 from itertools import combinations, pairwise
 from random import Random
 
-from serendipity.model import Condition, GroundAction, HumanPlan, Task
-from serendipity.model.task.actions import apply
+from serendipity.evaluation.crosscheck.builder import Builder
+from serendipity.evaluation.crosscheck.families import AGENTS, FAMILIES, SMALL
+from serendipity.model import Condition, GroundAction, Task
+from verify.base.optimal_plans import OptimalPlans
 
 _COSTS = ("1", "1", "1", "2", "3", "0", "0.5", "0.1", "2.5")
 _LONGEST = 6
-"""Actions of a human plan that is given."""
+"""Actions of the human's plan in a task of a family."""
 
 
-def random_task(dice: Random) -> Task:
-    """A task with one or two robots, of which a person could work out the answers on a page."""
-    make = dice.choice((_corridor, _corridor, _corridor, _strips, _strips, _errands))
-    task = make(dice)
+def random_task(dice: Random, family: str = "") -> Task:
+    """A task with one or two robots, of which a person could work out the answers on a page.
+
+    Args:
+        dice: decides everything.
+        family: one of ``FAMILIES``, or none of them.
+    """
+    if family:
+        task = _of_family(dice, family)
+    else:
+        task = dice.choice((_corridor, _corridor, _corridor, _strips, _strips, _errands))(dice)
     for _ in range(dice.choice((0, 0, 0, 0, 1, 2))):
         task = _with_variants(dice, task)
-    if dice.random() < 0.25:
+    if dice.random() < (0.08 if family else 0.25):
         task = _with_robot_goal(dice, task)
-    if dice.random() < 0.05:
+    if dice.random() < (0.02 if family else 0.05):
         task = replace(task, init=task.init.union(task.goal.positive).difference(task.goal.negative))
     return task
 
 
-def random_human_plan(dice: Random, task: Task) -> HumanPlan | None:
-    """What somebody may say that the human is going to do: their best or not; None if none was found."""
-    for _ in range(12):
-        state, plan = task.init, list[int]()
-        while len(plan) < _LONGEST and not (task.goal.holds(state) and dice.random() < 0.8):
-            ways = [i for i in task.human_actions if task.actions[i].applicable(state)]
-            if not ways:
-                break
-            plan.append(dice.choice(ways))
-            action = task.actions[plan[-1]]
-            state = apply(state, action)
-        if task.goal.holds(state):
-            return tuple(plan)
-    return None
+def _of_family(dice: Random, family: str) -> Task:
+    """A small task whose human needs no long plan: to prove what is best beside one may take a minute."""
+    while True:
+        size, agents = dice.choice(SMALL[family])
+        task = FAMILIES[family](dice, size, AGENTS[:agents])
+        worth = OptimalPlans(task).worth(task.init)
+        if worth is None or worth[1] <= _LONGEST:
+            return task
 
 
 def split(task: Task, action: int, fact: int) -> Task:
@@ -102,52 +104,10 @@ def _with_robot_goal(dice: Random, task: Task) -> Task:
     return replace(task, robot_goal=Condition((fact,), ()) if true else Condition((), (fact,)))
 
 
-class _Builder:
-    """Facts by name, numbered as they come up."""
-
-    def __init__(self, agents: tuple[str, ...]) -> None:
-        self.agents = agents
-        self.facts: list[str] = []
-        self.actions: list[GroundAction] = []
-
-    def fact(self, name: str) -> int:
-        if name not in self.facts:
-            self.facts.append(name)
-        return self.facts.index(name)
-
-    def action(self, name: str, agents: tuple[int, ...], pre: str, effects: str, cost: str) -> None:
-        """An action; ``!`` in front of a fact negates it."""
-        needs, changes = self._literals(pre), self._literals(effects)
-        delete = tuple(f for f in changes.negative if f not in changes.positive)
-        who = " ".join(self.agents[i] for i in agents)
-        ground = GroundAction(
-            f"{name} {who}", agents, needs.positive, needs.negative, changes.positive, delete, Fraction(cost)
-        )
-        self.actions.append(ground)
-
-    def task(self, init: str, goal: str) -> Task:
-        wanted = self._literals(goal)
-        return Task(
-            name="random",
-            agents=self.agents,
-            human=0,
-            init=frozenset(self._literals(init).positive),
-            goal=wanted,
-            facts=tuple(self.facts),
-            actions=tuple(sorted(self.actions, key=lambda action: action.key)),
-        )
-
-    def _literals(self, text: str) -> Condition:
-        words = text.split()
-        positive = {self.fact(word) for word in words if word[0] != "!"}
-        negative = {self.fact(word[1:]) for word in words if word[0] == "!"}
-        return Condition(tuple(sorted(positive)), tuple(sorted(negative - positive)))
-
-
 def _corridor(dice: Random) -> Task:
     """A walk between places; robots open shortcuts, block ways, or take part in a carry."""
     agents = ("hum", "rob", "bot")[: dice.choice((2, 2, 3))]
-    builder = _Builder(agents)
+    builder = Builder(agents)
     places = [f"at{i}" for i in range(dice.randint(3, 6))]
     for i, (a, b) in enumerate(pairwise(places)):
         cost = dice.choice(("1", "2", "3"))
@@ -183,7 +143,7 @@ def _corridor(dice: Random) -> Task:
 def _errands(dice: Random) -> Task:
     """Robots walk about a building of their own, and do in its rooms what helps or hinders."""
     agents = ("hum", "rob", "bot")
-    builder = _Builder(agents)
+    builder = Builder(agents)
     places = [f"at{i}" for i in range(dice.randint(3, 5))]
     for i, (a, b) in enumerate(pairwise(places)):
         builder.action(f"walk{i}", (0,), a, f"{b} !{a}", dice.choice(("1", "2", "3")))
@@ -220,7 +180,7 @@ def _errands(dice: Random) -> Task:
     return builder.task(init, places[-1])
 
 
-def _pushed(dice: Random, builder: _Builder, rooms: range) -> str:
+def _pushed(dice: Random, builder: Builder, rooms: range) -> str:
     """A crate that both robots move together, and what it is good for; returns where it is."""
     step = dice.choice(_COSTS)
     for i, j in pairwise(rooms):
@@ -234,7 +194,7 @@ def _pushed(dice: Random, builder: _Builder, rooms: range) -> str:
 def _strips(dice: Random) -> Task:
     """Random actions, negative preconditions and goals included."""
     agents = ("hum", "rob", "bot")[: dice.choice((2, 2, 3))]
-    builder = _Builder(agents)
+    builder = Builder(agents)
     facts = [f"f{i}" for i in range(dice.randint(3, 7))]
 
     def literals(most: int, negated: float) -> str:

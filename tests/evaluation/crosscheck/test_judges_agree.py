@@ -120,6 +120,26 @@ def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
     assert search(replace(smallest, task=task), Deadline()).cost == search(smallest, Deadline()).cost
 
 
+def test_a_session_keeps_the_places_of_a_local_human() -> None:
+    """Made anew after the first epoch, the task would have a variable whose values look like places."""
+    task = build(
+        agents="hum rob",
+        human="hum",
+        init="free_hum",
+        goal="on_b_table",
+        actions={
+            "lift_a_b hum": "free_hum -> hold_hum_a clear_b !free_hum @ 0.5",
+            "lift_b_c hum": "free_hum clear_b -> hold_hum_b !free_hum @ 2.5",
+            "lift_b_c rob": "-> hold_rob_b",
+            "put_a_table hum": "hold_hum_a -> free_hum !hold_hum_a @ 0",
+            "put_b_table hum": "hold_hum_b -> clear_b on_b_table !hold_hum_b @ 0.1",
+            "take_b hum rob": "free_hum hold_rob_b -> hold_hum_b !free_hum",
+        },
+    )
+    call = PlanCall(task, {"mode": "serendipity", "human_model": "local"})
+    assert compare(call, {"search": JUDGES["search"]}) is None
+
+
 def test_judges_without_time_agree_with_everybody() -> None:
     call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9"})
     assert compare(call, {"search": JUDGES["search"], "automata": JUDGES["automata"]}, time_limit=0) is None

@@ -55,7 +55,7 @@ def best(task: Task, options: Options, human_plan: HumanPlan | None = None) -> O
     Raises:
         UsageError: the horizon is missing or too short, or there are too many ties.
     """
-    if human_plan is None and options.ties != "fixed":
+    if human_plan is None and options.ties != "fixed" and options.mode in ("serendipity", "communication"):
         plans = list(islice(human_plans(task), options.max_ties + 1))
         if len(plans) > options.max_ties:
             raise UsageError("ties: too many optimal human plans")
