@@ -1,4 +1,7 @@
-"""Makes docs/images again: the page of `show` for the paper's example III-C (``make pictures``)."""
+"""Makes docs/images again (``make pictures``): what `show` makes of examples.
+
+Stills of those that are shipped beside the paper's, and photographs of the page for its III-C.
+"""
 
 import io
 import sys
@@ -12,19 +15,23 @@ from serendipity.show import build_scene, draw
 from tests.show.browser import chromium, chromium_path
 
 IMAGES = Path(__file__).parent / "images"
+STILLS = ("parcels", "flights", "taxis")
 EPOCHS = (1, 6, 11)
 SIZE = {"width": 1300, "height": 900}
 COLOURS = 128
 
 
 def main() -> int:
-    """Photograph the page at some epochs."""
+    """Draw the stills, and photograph the page at some epochs."""
+    for name in STILLS:
+        still = IMAGES / f"{name}.svg"
+        still.write_text(str(drawn(name, "0.5", ".svg")), encoding="utf-8")
+        sys.stdout.write(f"{still.relative_to(Path.cwd())}\n")
     path = chromium_path()
     if path is None:
         sys.stderr.write("Error: there is no chromium (set CHROMIUM to its path)\n")
         return 2
-    task = serendipity.example("room2")
-    page_text = str(draw(build_scene(task, serendipity.plan(task, discount="0.6")), ".html"))
+    page_text = str(drawn("room2", "0.6", ".html"))
     with tempfile.TemporaryDirectory() as folder, chromium(path) as browser:
         file = Path(folder) / "room2.html"
         file.write_text(page_text, encoding="utf-8")
@@ -38,6 +45,12 @@ def main() -> int:
             shot.quantize(COLOURS, dither=Image.Dither.NONE).save(image, optimize=True)
             sys.stdout.write(f"{image.relative_to(Path.cwd())}\n")
     return 0
+
+
+def drawn(name: str, discount: str, suffix: str) -> str | bytes:
+    """The picture of an example's answer."""
+    task = serendipity.example(name)
+    return draw(build_scene(task, serendipity.plan(task, discount=discount)), suffix)
 
 
 if __name__ == "__main__":

@@ -44,12 +44,19 @@ def _usar(name: str, summary: str) -> Example:
     return Example(name, summary, "usar/domain.pddl", f"usar/{name}.pddl", "commx", ("robot",))
 
 
+def _domain(name: str, summary: str, human: str, *robots: str) -> Example:
+    return Example(name, summary, f"{name}/domain.pddl", f"{name}/{name}.pddl", human, robots)
+
+
 EXAMPLES: Final = {
     shipped.name: shipped
     for shipped in (
         _usar("room2", "the paper's III-C: a medkit handed over in passing pays from a discount above 0.5"),
         _usar("room5", "the paper's III-B: the human passes the medkit's room before meeting the robot"),
         _usar("room7", "the paper's III-D: no help without a word, 12.6 for 13 with one at discount 0.6"),
+        _domain("parcels", "a parcel lies where the van comes past, and a detour is spared", "dora", "rolo"),
+        _domain("flights", "a passenger has come half of the way, and no fuel is needed", "ada", "kite"),
+        _domain("taxis", "one taxi makes way for another, which takes the next guest", "tom", "uno", "due"),
     )
 }
 """By name, in the order in which they are listed."""

@@ -3,10 +3,11 @@
 An agent's own *moves* take away one fact and add another of the same predicate: ``at commx
 hall1``, ``at commx hall2``.  Facts that moves connect, of which at most one is true initially
 and whose common words speak of the agent or of nobody in particular, tell its position;
-what differs between them is the place.
+what differs between them is the place.  What agents move that is none of them (``at van hall1``),
+by facts of the same predicate, is a vehicle: where it gets is a place, too.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import networkx as nx
@@ -17,10 +18,11 @@ from serendipity.show.map.names import Parts, common_ends, find, natural, parts,
 
 @dataclass(frozen=True, slots=True)
 class Whereabouts:
-    """What a fact says about an agent or an object: it is in a place, or somebody holds it."""
+    """What a fact says about an object: it is in a place, somebody holds it, or another object carries it."""
 
     place: str | None = None
     holder: int | None = None
+    carrier: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,26 +52,49 @@ def find_places(task: Task) -> Places:
     links: set[tuple[str, str]] = set()
     moves = _moves(task)
     for agent, facts in _positions(task, moves).items():
-        places = positions[agent] = _place_names(task, agent, facts)
-        for source, target in moves[agent].subgraph(facts).edges:
-            a, b = sorted((places[source], places[target]), key=natural)
-            links.add((a, b))
-    names = sorted({place for places in positions.values() for place in places.values()}, key=natural)
-    if not names:
+        places = positions[agent] = _place_names(task, facts, task.agents[agent])
+        links |= _links(moves[agent].subgraph(facts), places)
+    if not positions:
         return Places()
+    every = nx.compose_all(moves.values())
+    driven: set[str] = set()
+    for facts in _vehicles(task, every, positions):
+        places = _place_names(task, facts)
+        driven.update(places.values())
+        links |= _links(every.subgraph(facts), places)
+    names = sorted(driven.union(*(told.values() for told in positions.values())), key=natural)
     finder = _PlaceFinder(task, names)
+    finder.add_stops(positions)
     taken = {f for places in positions.values() for f in places}
     objects: dict[str, dict[int, Whereabouts]] = {}
+    groups: dict[str, Sequence[int]] = {}
     for group in _groups(task, moves):
         name, told = finder.object(group) if taken.isdisjoint(group) else ("", {})
-        if name and name not in objects:
-            objects[name] = told
+        if name and name not in objects and name not in task.agents:
+            objects[name], groups[name] = told, group
+    for name, group in groups.items():
+        for fact in set(group) - objects[name].keys():
+            carrier = _named(task.facts[fact], objects.keys() - {name})
+            if carrier is not None:
+                objects[name][fact] = Whereabouts(carrier=carrier)
     alone = [variable.facts[0] for variable in task.variables if variable.boolean]
     at = {fact: finder.place(parts(task.facts[fact])) for fact in alone}
     marks = {fact: place for fact, place in at.items() if place is not None}
     ordered = sorted(links, key=lambda link: (natural(link[0]), natural(link[1])))
     riding = _riding(task, positions, tuple(objects))
-    return Places(tuple(names), tuple(ordered), positions, objects, riding, marks)
+    return Places(tuple(names), tuple(ordered), dict(sorted(positions.items())), objects, riding, marks)
+
+
+def _links(moves: "nx.Graph[int]", places: dict[int, str]) -> set[tuple[str, str]]:
+    """The places that moves join."""
+    joined = ((places[source], places[target]) for source, target in moves.edges)
+    return {(a, b) if natural(a) < natural(b) else (b, a) for a, b in joined}
+
+
+def _named(fact: str, names: Iterable[str]) -> str | None:
+    """One of some names that a fact mentions after its predicate, or None."""
+    words = parts(fact)
+    return next((name for name in sorted(names) if find(tuple(name.split()), words) > 0), None)
 
 
 def _moves(task: Task) -> "dict[int, nx.Graph[int]]":
@@ -92,23 +117,42 @@ def _positions(task: Task, moves: "dict[int, nx.Graph[int]]") -> dict[int, list[
     """By agent: the facts that tell its position.
 
     A group of facts is given to the agent whom it names, else to the one whose name is part
-    of its words, else to the one who moves most in it.
+    of its words, else to the one who moves most in it.  An agent that several groups name is where
+    other things can be, too: its fuel is low, but nothing else is in ``low``.
     """
+    groups = [sorted(group) for group in nx.connected_components(nx.compose_all(moves.values()))]
+    exchanged = {fact for group in groups for fact in group}
+    others = {w for f, fact in enumerate(task.facts) if f not in exchanged for w in parts(fact)[1:]}
     ranked = []
-    for group in nx.connected_components(nx.compose_all(moves.values())):
-        facts = sorted(group)
-        start, end = common_ends([parts(task.facts[f]) for f in facts])
+    for facts in groups:
+        words = [parts(task.facts[f]) for f in facts]
+        start, end = common_ends(words)
         shared = start + end
+        met = any(others.issuperset(value[len(start) : len(value) - len(end)]) for value in words)
         for agent, name in enumerate(task.agents):
             named = any(find(spelling, shared) >= 0 for spelling in spellings(name))
             own = moves[agent].subgraph(facts).number_of_edges()
-            if own and len(task.init & group) <= 1 and (named or len(shared) == 1):
-                ranked.append(((named, any(name in word for word in shared), own, -agent), facts))
+            if own and len(task.init.intersection(facts)) <= 1 and (named or len(shared) == 1):
+                inside = any(name in word for word in shared)
+                ranked.append(((named, inside, met, own, -agent), facts))
     chosen: dict[int, list[int]] = {}
     for (*_, agent), facts in sorted(ranked, reverse=True):
         if -agent not in chosen and facts not in chosen.values():
             chosen[-agent] = facts
     return dict(sorted(chosen.items()))
+
+
+def _vehicles(
+    task: Task, moves: "nx.Graph[int]", positions: dict[int, dict[int, str]]
+) -> Iterator[list[int]]:
+    """Facts that tell where something is that agents move, in the words that tell where they are."""
+    known = {fact for places in positions.values() for fact in places}
+    predicates = {parts(task.facts[fact])[0] for fact in known}
+    for group in nx.connected_components(moves):
+        words = [parts(task.facts[fact]) for fact in group]
+        fits = {name[0] for name in words} <= predicates and known.isdisjoint(group)
+        if fits and len(common_ends(words)[0]) > 1 and len(task.init & group) <= 1:
+            yield sorted(group)
 
 
 def _groups(task: Task, moves: "dict[int, nx.Graph[int]]") -> Iterator[Sequence[int]]:
@@ -121,10 +165,10 @@ def _groups(task: Task, moves: "dict[int, nx.Graph[int]]") -> Iterator[Sequence[
             yield sorted(group)
 
 
-def _place_names(task: Task, agent: int, facts: list[int]) -> dict[int, str]:
+def _place_names(task: Task, facts: list[int], agent: str = "") -> dict[int, str]:
     values = [parts(task.facts[f]) for f in facts]
     start, end = map(len, common_ends(values))
-    for name in spellings(task.agents[agent]):
+    for name in spellings(agent) if agent else ():
         at = find(name, values[0])
         if 0 <= at < start:
             start = at + len(name)  # the places' own common beginning belongs to their names
@@ -146,8 +190,7 @@ def _riding(
             if places.keys().isdisjoint(variable.facts):
                 continue
             for fact in variable.facts:
-                words = parts(task.facts[fact])
-                vehicle = next((name for name in objects if find(tuple(name.split()), words) > 0), None)
+                vehicle = _named(task.facts[fact], objects)
                 if fact not in places and vehicle is not None:
                     found.setdefault(agent, {})[fact] = vehicle
     return found
@@ -173,6 +216,18 @@ class _PlaceFinder:
                 if words[start : start + length] in self.places:
                     return words[start : start + length]
         return None
+
+    def add_stops(self, positions: dict[int, dict[int, str]]) -> None:
+        """Add where agents are who got there in a vehicle: facts of theirs like those of who walks."""
+        known = [fact for places in positions.values() for fact in places]
+        predicates = {parts(self.task.facts[fact])[0] for fact in known}
+        for fact, name in enumerate(self.task.facts):
+            words = parts(name)
+            place = self._place(words) if words[0] in predicates else None
+            if place is not None:
+                for spelling, agent in self.agents:
+                    if words[1:] in (spelling + place, place + spelling):
+                        positions.setdefault(agent, {})[fact] = self.places[place]
 
     def object(self, facts: Sequence[int]) -> tuple[str, dict[int, Whereabouts]]:
         """The object whose place or holder some facts tell, and how; an empty name if none."""

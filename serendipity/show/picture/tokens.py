@@ -75,7 +75,7 @@ def tokens(scene: Scene, frame: Frame) -> dict[str, Token]:
 
 
 def _objects(scene: Scene, frame: Frame, layout: Layout) -> dict[str, Token]:
-    """Objects in a row below the agents; those that are held come first, in their holders' order."""
+    """Objects below the agents, in a second row if need be; those that are held first, as their holders."""
     heaps: dict[str, list[tuple[int, int, str, int | None]]] = defaultdict(list)
     for index, (name, where) in enumerate(frame.objects.items()):
         place = where.place if where.holder is None else frame.at.get(where.holder)
@@ -87,8 +87,10 @@ def _objects(scene: Scene, frame: Frame, layout: Layout) -> dict[str, Token]:
         box = layout.boxes[place]
         widest = max(pill(name)[1] for _, _, name, _ in heap)
         heap.sort(key=lambda entry: entry[:2])
-        for (_, index, _, holder), x in zip(heap, _row(box, len(heap), widest + 4), strict=True):
-            found[object_key(index)] = Token((x, box.y + _OBJECTS_AT), holder)
+        first = len(heap) if len(heap) < 3 or len(heap) * widest <= box.width else (len(heap) + 1) // 2
+        for row, part in enumerate((heap[:first], heap[first:])):
+            for (_, index, _, holder), x in zip(part, _row(box, len(part), widest + 4), strict=True):
+                found[object_key(index)] = Token((x, box.y + _OBJECTS_AT + row * PILL_HEIGHT), holder)
     return found
 
 

@@ -13,9 +13,8 @@ from serendipity.show.map.layout import Layout, lay_out
 from serendipity.show.map.names import parts, verb_and_rest, without
 from serendipity.show.map.places import Places, Whereabouts, find_places
 from serendipity.show.scene.changes import Change, find_changes
+from serendipity.show.scene.finder import Finder
 from serendipity.show.scene.replay import Moment, replay, replay_former
-
-NOWHERE: Final = Whereabouts()
 
 MOST_EPOCHS: Final = 2_000
 """Epochs of a picture: a second of work, and a page of a megabyte; nobody looks at more."""
@@ -176,7 +175,7 @@ class _Builder:
 
     def __init__(self, task: Task, result: Result, places: Places) -> None:
         self.task = task
-        self.places = places
+        self.finder = Finder(places)
         self.window = range(0) if result.window is None else range(result.window.start, result.window.end)
         own = result.mode != "assistance"  # there nobody's cost is discounted (semantics 7)
         self.discount = result.options.discount if own else Fraction(0)
@@ -197,9 +196,9 @@ class _Builder:
             frames.append(
                 Frame(
                     epoch=epoch,
-                    at=self._at(state),
-                    objects=self._objects(state),
-                    former_at=self._at(then.state).get(self.task.human),
+                    at=self.finder.agents(state),
+                    objects=self.finder.objects(state),
+                    former_at=self.finder.agents(then.state).get(self.task.human),
                     made=self._facts(state - before),
                     undone=self._facts(before - state),
                     spent=dict(spent),
@@ -222,7 +221,7 @@ class _Builder:
         found = []
         holders: dict[str, int] = {}
         for moment in moments:
-            objects = self._objects(moment.state)
+            objects = self.finder.objects(moment.state)
             joint = [action for action in moment.actions if action.joint]
             passed: dict[str, int] = {}
             for name, where in objects.items():
@@ -239,13 +238,13 @@ class _Builder:
     def _found(self, moment: Moment, name: str, giver: int, taker: int) -> Meeting:
         agents = self.task.agents
         text = f"{agents[taker]} takes {name}, which {agents[giver]} left"
-        return Meeting(moment.epoch, self._at(moment.state).get(taker), (name,), text)
+        return Meeting(moment.epoch, self.finder.agents(moment.state).get(taker), (name,), text)
 
     def _joint(
         self, moment: Moment, action: GroundAction, objects: dict[str, Whereabouts], passed: dict[str, int]
     ) -> Meeting:
         act = self._act(moment.epoch, action)
-        at = self._at(moment.state)
+        at = self.finder.agents(moment.state)
         place = next((at[i] for i in action.participants if i in at), None)
         agents = self.task.agents
         mine = tuple(sorted(name for name in passed if objects[name].holder in action.participants))
@@ -261,7 +260,7 @@ class _Builder:
     def _act(self, epoch: int, action: GroundAction) -> Act:
         verb, detail = verb_and_rest(action.name, [self.task.agents[i] for i in action.participants])
         if not action.joint:
-            places = self.places.positions.get(action.participants[0], {})
+            places = self.finder.places_of(action, action.participants[0])
             reached = [places[f] for f in action.add if f in places]
             verb, detail = ("go to", reached[0]) if reached else (verb, detail)
         if verb != "go to":
@@ -269,30 +268,13 @@ class _Builder:
         return Act(epoch, action.participants, verb, detail, action.name)
 
     def _without_here(self, action: GroundAction, detail: str) -> str:
-        """A detail without the place where the participants are; kept if it is all there is."""
-        positions = [self.places.positions.get(i, {}) for i in action.participants]
-        here = [parts(places[f]) for places in positions for f in action.pre if f in places]
+        """A detail without the place and vehicle that participants are in; kept if it is all there is."""
+        here = []
+        for agent in action.participants:
+            places = self.finder.places_of(action, agent)
+            here += [parts(places[f]) for f in action.pre if f in places]
+            here += [parts(vehicle) for vehicle in self.finder.vehicles(action, agent)]
         return " ".join(without(here, tuple(detail.split()))) or detail
-
-    def _at(self, state: frozenset[int]) -> dict[int, str]:
-        found = {}
-        for agent, places in self.places.positions.items():
-            place = next((place for f, place in places.items() if f in state), None)
-            if place is None and agent in self.places.riding:
-                place = self._vehicle_at(self.places.riding[agent], state)
-            if place is not None:
-                found[agent] = place
-        return found
-
-    def _vehicle_at(self, riding: dict[int, str], state: frozenset[int]) -> str | None:
-        told = next((self.places.objects[name] for f, name in riding.items() if f in state), {})
-        return next((where.place for f, where in told.items() if f in state), None)
-
-    def _objects(self, state: frozenset[int]) -> dict[str, Whereabouts]:
-        return {
-            name: next((where for f, where in told.items() if f in state), NOWHERE)
-            for name, told in self.places.objects.items()
-        }
 
     def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
         return tuple(self.task.facts[f] for f in sorted(ids))
