@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from serendipity.model import Options, Task
 from serendipity.model.answers.result_parts import TiedAnswer
+from tests.support.builders import task as build
+from tests.support.countdown import Countdown
 from tests.support.oracle import Alone as OracleAlone
 from tests.support.oracle.epochs import after
 from tests.support.strategies import tasks
@@ -92,15 +94,27 @@ def test_rules_stand_in_the_order_of_their_claims() -> None:
     assert len({rule.name for rule in RULES}) == len(RULES)
 
 
-@given(tasks(), st.data())
-def test_his_optimal_cost_alone_equals_the_oracle(task: Task, data: st.DataObject) -> None:
-    """From a random state that a few arbitrary actions lead to."""
+@pytest.mark.parametrize("many", [0, 1_000])
+@given(task=tasks(), data=st.data())
+def test_his_optimal_cost_alone_equals_the_oracle(many: int, task: Task, data: st.DataObject) -> None:
+    """From a random state that a few arbitrary actions lead to, whenever it is asked what is in reach."""
     state = task.init
     for _ in range(data.draw(st.integers(0, 3))):
         ready = [action for action in task.actions if action.applicable(state)]
         if ready:
             state = after(state, [data.draw(st.sampled_from(ready))])
-    assert IndividualOptimum(task).optimum(state) == OracleAlone(task).worth(state)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(alone, "_MANY", many)
+        assert IndividualOptimum(task).optimum(state) == OracleAlone(task).worth(state)
+
+
+def test_a_goal_out_of_reach_is_told_without_listing_states() -> None:
+    """All that can be switched was, until there were too many states: ten seconds and 600 MiB."""
+    switches = {f"switch{i} h": f"-> on{i}" for i in range(30)}
+    after_all = {"light h": f"key {' '.join(f'on{i}' for i in range(30))} -> lit", "light r": "-> lit"}
+    built = build(goal="lit", actions=switches | after_all)
+    deadline = Countdown(20_000)
+    assert IndividualOptimum(built, deadline).optimum(built.init) is None
 
 
 def test_what_is_too_hard_for_a_rule_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:

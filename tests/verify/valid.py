@@ -19,6 +19,14 @@ CASE_4_PI_H = (
     "move h d g",
     "conduct_triage h g",
 )
+CASE_4_HELP = {
+    1: "move h a b; pick_up_medkit rob k2 r",
+    2: "move h b c; move rob r c",
+    3: "hand_over rob h k2 c",
+    4: "move h c d",
+    5: "move h d g",
+    6: "conduct_triage h g",
+}
 CASE_2_PI_H = (
     "move h a b",
     "move h b c",
@@ -42,16 +50,8 @@ class Given:
 
 def helped(**options: Any) -> Given:
     """Case 4: handed over in c at epoch 3, cost 6.2."""
-    task = case_4()
-    plan = {
-        1: "move h a b; pick_up_medkit rob k2 r",
-        2: "move h b c; move rob r c",
-        3: "hand_over rob h k2 c",
-        4: "move h c d",
-        5: "move h d g",
-        6: "conduct_triage h g",
-    }
-    return Given(task, result(task, plan, human_plan=CASE_4_PI_H, window=(3, 4), discount="0.9", **options))
+    found = result(case_4(), CASE_4_HELP, human_plan=CASE_4_PI_H, window=(3, 4), discount="0.9", **options)
+    return Given(case_4(), found)
 
 
 def fetched(**options: Any) -> Given:
@@ -79,17 +79,14 @@ def idle() -> Given:
 
 def announced(**options: Any) -> Given:
     """Case 4 in communication mode."""
-    task = case_4()
-    steps = {
-        1: "move h a b; pick_up_medkit rob k2 r",
-        2: "move h b c; move rob r c",
-        3: "hand_over rob h k2 c",
-        4: "move h c d",
-        5: "move h d g",
-        6: "conduct_triage h g",
-    }
     fixed = {"mode": "communication", "discount": "0.9", "communication_weight": "0.5", **options}
-    return Given(task, result(task, steps, human_plan=CASE_4_PI_H, **fixed))
+    return Given(case_4(), result(case_4(), CASE_4_HELP, human_plan=CASE_4_PI_H, **fixed))
+
+
+def endless(**options: Any) -> Given:
+    """Case 4 in composite mode without a horizon, where a limit came before ``pi_H`` was known."""
+    fixed = {"mode": "composite", "discount": "0.9", "horizon": "inf", **options}
+    return Given(case_4(), result(case_4(), CASE_4_HELP, human_plan=None, **fixed))
 
 
 def lifted(**options: Any) -> Given:
@@ -144,6 +141,7 @@ VALID: tuple[Callable[[], Given], ...] = (
     idle,
     announced,
     lambda: announced(communication_weight="0"),
+    endless,
     lambda: helped(preservation="state"),
     lambda: jumping(preservation="state"),
     lifted,

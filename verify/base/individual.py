@@ -13,6 +13,9 @@ from verify.base.undecided import TooManyStatesError, during
 
 _MOST_EXPANSIONS: Final = 200_000
 
+_MANY: Final = 1_000
+"""Expansions after which it is worth asking whether the goal can be reached at all."""
+
 State = frozenset[int]
 
 
@@ -27,7 +30,7 @@ class IndividualOptimum:
     def __init__(self, task: Task, deadline: Deadline | None = None) -> None:
         self._task = task
         self.deadline = deadline or Deadline()
-        self._known: dict[State, tuple[Fraction, int] | None] = {}
+        self._known: dict[int, tuple[Fraction, int] | None] = {}
 
     @cached_property
     def _own(self) -> OwnActions:
@@ -46,22 +49,26 @@ class IndividualOptimum:
         """
         if self._task.goal.holds(state):
             return Fraction(0), 0
-        start = state & self._own.facts
+        start = self._own.bits.of(state)
         if start not in self._known:
             with during("searching for what the human can do alone"):
                 weight = self._search(start)
             self._known[start] = None if weight is None else self._own.split(weight)
         return self._known[start]
 
-    def _search(self, start: State) -> int | None:
+    def _search(self, start: int) -> int | None:
+        own, goal = self._own, self._task.goal
+        wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
         search = PathSearch(start, self._successors, self._projection.bound, self.deadline)
         for expansions, (state, _) in enumerate(search):
-            if self._task.goal.holds(state):
+            if state & wanted == wanted and not state & unwanted:
                 return search.distance[state]
+            if expansions == _MANY and not own.may_reach(start, goal, self.deadline):
+                return None
             if expansions >= _MOST_EXPANSIONS:
                 raise TooManyStatesError
         return None
 
-    def _successors(self, state: State) -> Iterator[tuple[State, int, Operator]]:
+    def _successors(self, state: int) -> Iterator[tuple[int, int, Operator]]:
         for operator in self._own.applicable(state):
-            yield (state - operator.delete) | operator.add, operator.weight, operator
+            yield state & ~operator.delete | operator.add, operator.weight, operator

@@ -6,23 +6,24 @@ from itertools import chain
 from math import lcm
 from typing import Final, NamedTuple
 
-from serendipity.model import Deadline, Task
+from serendipity.model import Condition, Deadline, Task
+from verify.base.fact_bits import FactBits, each_bit
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
 
 
 class Operator(NamedTuple):
-    """An own action reduced to the facts that can matter to the human.
+    """An own action reduced to the facts that can matter to the human, which are bits.
 
     ``weight`` orders plans by cost, then by length: a cost of 1 weighs as much as
     ``_LONGEST`` actions.
     """
 
-    pre: frozenset[int]
-    neg: frozenset[int]
-    add: frozenset[int]
-    delete: frozenset[int]
+    pre: int
+    neg: int
+    add: int
+    delete: int
     weight: int
 
 
@@ -36,6 +37,7 @@ class OwnActions:
     Attributes:
         ids: the actions' ids.
         facts: facts that an own action needs or that their goal names; no other matters to them.
+        bits: these facts as bits.
     """
 
     def __init__(self, task: Task, deadline: Deadline) -> None:
@@ -48,6 +50,7 @@ class OwnActions:
             facts.update(action.pre, action.neg)
             denominators.add(action.cost.denominator)
         self.facts = frozenset(facts)
+        self.bits = FactBits(facts)
         self._unit = lcm(*denominators) * _LONGEST
         self._weights: dict[tuple[int, int], int] = {}
         self._operators: dict[int, Operator] = {}
@@ -66,34 +69,53 @@ class OwnActions:
         length = weight % _LONGEST
         return Fraction(weight - length, self._unit), length
 
-    def applicable(self, state: frozenset[int]) -> list[Operator]:
-        """The operators that are applicable in ``state``, which holds relevant facts only."""
+    def applicable(self, state: int) -> list[Operator]:
+        """The operators that are applicable in a state."""
         found = []
-        for fact in (None, *state):
-            for action in self._watched.get(fact, ()):
+        watched = self._watched
+        for bit in chain((0,), each_bit(state)):
+            for action in watched.get(bit, ()):
                 operator = self._operator(action)
-                if operator.pre <= state and operator.neg.isdisjoint(state):
+                if state & operator.pre == operator.pre and not state & operator.neg:
                     found.append(operator)
         return found
 
-    def _operator(self, action: int) -> Operator:
-        if action not in self._operators:
-            ground = self._task.actions[action]
-            self._operators[action] = Operator(
-                frozenset(ground.pre),
-                frozenset(ground.neg),
-                self.facts.intersection(ground.add),
-                self.facts.intersection(ground.delete),
-                self.weight(action),
-            )
-        return self._operators[action]
+    def may_reach(self, state: int, goal: Condition, deadline: Deadline) -> bool:
+        """Whether a goal can be reached if what has been true, or false, counts as that from then on.
 
-    def _watch(self, deadline: Deadline) -> dict[int | None, list[int]]:
-        """Each action under the precondition that the fewest actions share."""
+        Args:
+            state: where it starts.
+            goal: what has to hold.
+            deadline: polled at each action.
+        """
+        true, false = state, self.bits.all & ~state
+        wanted, unwanted = self.bits.of(goal.positive), self.bits.of(goal.negative)
+        waiting = [self._operator(i) for i in deadline.each(self.ids)]
+        while wanted & ~true or unwanted & ~false:
+            later = [op for op in deadline.each(waiting) if op.pre & ~true or op.neg & ~false]
+            if len(later) == len(waiting):
+                return False
+            for op in deadline.each(waiting):
+                if not (op.pre & ~true or op.neg & ~false):
+                    true, false = true | op.add, false | op.delete
+            waiting = later
+        return True
+
+    def _operator(self, action: int) -> Operator:
+        operator = self._operators.get(action)
+        if operator is None:
+            ground, of = self._task.actions[action], self.bits.of
+            operator = self._operators[action] = Operator(
+                of(ground.pre), of(ground.neg), of(ground.add), of(ground.delete), self.weight(action)
+            )
+        return operator
+
+    def _watch(self, deadline: Deadline) -> dict[int, list[int]]:
+        """Each action under the precondition that the fewest actions share, or under none."""
         actions = self._task.actions
         shared = Counter(chain.from_iterable(actions[i].pre for i in deadline.each(self.ids)))
-        watched: dict[int | None, list[int]] = {}
+        watched: dict[int, list[int]] = {}
         for i in deadline.each(self.ids):
             rarest = min(actions[i].pre, key=shared.__getitem__, default=None)
-            watched.setdefault(rarest, []).append(i)
+            watched.setdefault(0 if rarest is None else self.bits.of((rarest,)), []).append(i)
         return watched

@@ -6,17 +6,18 @@ makes actions applicable more often, so the bound is admissible.
 """
 
 from collections.abc import Iterable
+from itertools import chain
 from typing import Final
 
-from serendipity.model import Condition, Deadline, Task
+from serendipity.model import Deadline, Task
+from verify.base.fact_bits import each_bit
 from verify.base.operators import OwnActions
 from verify.base.shortest_paths import dijkstra
 
 _MOST_STATES: Final = 20_000
 
-Projected = frozenset[int]
-_Move = tuple[Projected, Projected, Projected, Projected]
-"""Precondition, forbidden facts, adds, deletes."""
+_Move = tuple[int, int, int, int]
+"""Precondition, forbidden facts, adds, deletes, as bits (:class:`.FactBits`) of the human's own facts."""
 
 
 class ProjectedCosts:
@@ -30,31 +31,32 @@ class ProjectedCosts:
 
     def __init__(self, task: Task, own: OwnActions, deadline: Deadline) -> None:
         self._deadline = deadline
-        self.kept = _private_facts(task, own, deadline)
-        self._goal = _restricted(task.goal, self.kept)
-        self._by_need: dict[int | None, list[tuple[_Move, int]]] = {}
-        for move, weight in _moves(task, own, self.kept, deadline).items():
-            self._by_need.setdefault(min(move[0], default=None), []).append((move, weight))
-        self._distance: dict[Projected, int] = {}
-        self._seen: set[Projected] = set()
+        self._kept = own.bits.of(_private_facts(task, own, deadline))
+        self._wanted = own.bits.of(task.goal.positive) & self._kept
+        self._unwanted = own.bits.of(task.goal.negative) & self._kept
+        self._by_need: dict[int, list[tuple[_Move, int]]] = {}
+        for move, weight in _moves(task, own, self._kept, deadline).items():
+            self._by_need.setdefault(move[0] & -move[0], []).append((move, weight))
+        self._distance: dict[int, int] = {}
+        self._seen: set[int] = set()
 
-    def bound(self, state: frozenset[int]) -> int | None:
+    def bound(self, state: int) -> int | None:
         """Least weight of a plan from ``state`` in the projection; None: there is no plan at all."""
-        projected = state & self.kept
+        projected = state & self._kept
         if projected not in self._seen and len(self._seen) <= _MOST_STATES:
             self._explore(projected)
         if len(self._seen) > _MOST_STATES:
             return 0
         return self._distance.get(projected)
 
-    def _explore(self, start: Projected) -> None:
+    def _explore(self, start: int) -> None:
         """Everything reachable from ``start``, then one Dijkstra backward over what is new."""
         new, stack = {start}, [start]
-        edges: dict[Projected, list[tuple[Projected, int]]] = {}
+        edges: dict[int, list[tuple[int, int]]] = {}
         while stack and len(self._seen) + len(new) <= _MOST_STATES:
             self._deadline.tick()
             state = stack.pop()
-            if self._goal.holds(state):
+            if self._is_goal(state):
                 continue  # no cheapest plan goes on from here
             for successor, weight in self._successors(state):
                 edges.setdefault(successor, []).append((state, weight))
@@ -62,15 +64,18 @@ class ProjectedCosts:
                     new.add(successor)
                     stack.append(successor)
         known = [(state, self._distance[state]) for state in edges if state in self._distance]
-        goals = [(state, 0) for state in new if self._goal.holds(state)]
+        goals = [(state, 0) for state in new if self._is_goal(state)]
         self._distance |= dijkstra(known + goals, lambda state: edges.get(state, ()), self._deadline)
         self._seen |= new
 
-    def _successors(self, state: Projected) -> Iterable[tuple[Projected, int]]:
-        for fact in (None, *state):
-            for (pre, neg, add, delete), weight in self._by_need.get(fact, ()):
-                if pre <= state and neg.isdisjoint(state):
-                    yield (state - delete) | add, weight
+    def _is_goal(self, state: int) -> bool:
+        return state & self._wanted == self._wanted and not state & self._unwanted
+
+    def _successors(self, state: int) -> Iterable[tuple[int, int]]:
+        for bit in chain((0,), each_bit(state)):
+            for (pre, neg, add, delete), weight in self._by_need.get(bit, ()):
+                if state & pre == pre and not state & neg:
+                    yield state & ~delete | add, weight
 
 
 def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset[int]:
@@ -90,20 +95,15 @@ def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset
     return frozenset(kept)
 
 
-def _moves(task: Task, own: OwnActions, kept: frozenset[int], deadline: Deadline) -> dict[_Move, int]:
+def _moves(task: Task, own: OwnActions, kept: int, deadline: Deadline) -> dict[_Move, int]:
     """The distinct projected actions that change anything, each at its least weight."""
     moves: dict[_Move, int] = {}
+    of = own.bits.of
     for i in deadline.each(own.ids):
         action = task.actions[i]
-        add, delete = kept.intersection(action.add), kept.intersection(action.delete)
+        add, delete = of(action.add) & kept, of(action.delete) & kept
         if add or delete:
-            move = (kept.intersection(action.pre), kept.intersection(action.neg), add, delete)
+            move = of(action.pre) & kept, of(action.neg) & kept, add, delete
             weight = own.weight(i)
             moves[move] = min(weight, moves.get(move, weight))
     return moves
-
-
-def _restricted(goal: Condition, kept: frozenset[int]) -> Condition:
-    return Condition(
-        tuple(f for f in goal.positive if f in kept), tuple(f for f in goal.negative if f in kept)
-    )

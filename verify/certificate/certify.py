@@ -123,7 +123,6 @@ class _Certifier:
     def _claims(self) -> Iterator[Claim]:
         report = self.checker.check(self.result)
         yield from self._rule_claims(report)
-        yield from self._realised(report)
         wanted = [name for name in needed(self.result) if name not in (*BY_RULES, "realised")]
         if report.stopped is not None:
             yield from (Claim(name, "undecided", report.stopped) for name in wanted)
@@ -133,6 +132,7 @@ class _Certifier:
             refuted = {violation.claim for violation in report.violations}
             out = (name for name in wanted if name not in refuted)
             yield from (Claim(name, "not_in_scope", wording.RESULT_BREAKS_RULE) for name in out)
+        yield from self._realised(report)  # last: whom it is about decides nothing else
 
     def _realised(self, report: RuleReport) -> Iterator[Claim]:
         """The verdicts on humans who replan: the plan is played again."""
@@ -161,7 +161,8 @@ class _Certifier:
             return ""
 
     def _kind_of_pi_h(self) -> str:
-        names, canonical = self.result.human_plan, self.plans.canonical()
+        names = self.result.human_plan
+        canonical = None if names is None else self.plans.canonical()
         if names is None or canonical is None:
             return ""
         if names == tuple(self.task.actions[i].name for i in canonical):
@@ -246,7 +247,9 @@ class _Certifier:
             return "proved" if right else "refuted", wording.NOT_ALONE
         least = float(worth[0])
         right = result.lower_bound is None or result.lower_bound <= least
-        if result.status != "unknown":
+        if result.status == "feasible":
+            right = right and result.cost is not None and result.cost >= least
+        elif result.status != "unknown":
             right = right and result.cost == least
             if result.human_plan is not None:
                 given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))

@@ -6,8 +6,8 @@ same time or after its end.  A clock that stops at that end is part of the state
 
 from collections.abc import Iterator
 
-from verify.base.execution import State, sets_beside
-from verify.base.relevance import relevant_part
+from verify.base.execution import sets_beside
+from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
 from verify.exhaustive.uniform_cost import Bundle, JointSearch
@@ -31,48 +31,49 @@ def cheapest_following(question: Subproblem) -> Minimum:
     return search.run()
 
 
-def _clock(epoch: int) -> int:
-    """The clock's value as a fact that no task has."""
-    return -2 - epoch
-
-
 class _Following(JointSearch):
-    """Joint search under a timetable for the human."""
+    """Joint search under a timetable for the human; the bits above those of facts are the clock."""
 
-    @property
-    def start(self) -> State:
-        return super().start | {_clock(0)}
+    def __init__(self, question: Subproblem, part: Relevant) -> None:
+        super().__init__(question, part)
+        self._facts = self.bits.all
+        self._single = {i: self.bundle((i,)) for i in self.deadline.each(part.actions)}
 
-    def is_goal(self, state: State) -> bool:
-        return _clock(len(self.question.human_plan)) in state and super().is_goal(state)
+    def _epoch(self, state: int) -> int:
+        return state >> self._facts.bit_length()
 
-    def estimate(self, state: State) -> int:
+    def _clock(self, epoch: int) -> int:
+        return epoch << self._facts.bit_length()
+
+    def is_goal(self, state: int) -> bool:
+        return self._epoch(state) == len(self.question.human_plan) and super().is_goal(state)
+
+    def estimate(self, state: int) -> int:
         rest = self.question.human_plan[self._epoch(state) :]
         return sum(self.question.prices.team[i] for i in rest)
 
-    def applicable(self, state: State) -> Iterator[Bundle]:
+    def applicable(self, state: int) -> Iterator[Bundle]:
         epoch, plan = self._epoch(state), self.question.human_plan
         human = self.task.human
+        facts = state & self._facts
         if epoch == len(plan):
-            for bundle in super().applicable(state):
+            for bundle in super().applicable(facts):
                 if all(human not in self.task.actions[i].participants for i in bundle.actions):
                     yield bundle
             return
-        if not self._fits(plan[epoch], state):
+        if not self._fits(plan[epoch], facts):
             return
         robots = [
             i
             for i in self.deadline.each(self.part.actions)
-            if human not in self.task.actions[i].participants and self._fits(i, state)
+            if human not in self.task.actions[i].participants and self._fits(i, facts)
         ]
         strict = self.question.options.strict
         for chosen in sets_beside(self.task, (plan[epoch],), robots, self.deadline, strict=strict):
             bundle = self.bundle(chosen)
-            tick, tock = frozenset((_clock(epoch),)), frozenset((_clock(epoch + 1),))
+            tick, tock = self._clock(epoch), self._clock(epoch + 1)
             yield Bundle(chosen, bundle.pre, bundle.neg, bundle.add | tock, bundle.delete | tick, bundle.cost)
 
-    def _epoch(self, state: State) -> int:
-        return -2 - min(state)
-
-    def _fits(self, i: int, state: State) -> bool:
-        return state.issuperset(self.part.pre[i]) and state.isdisjoint(self.part.neg[i])
+    def _fits(self, i: int, facts: int) -> bool:
+        bundle = self._single[i]
+        return facts & bundle.pre == bundle.pre and not facts & bundle.neg

@@ -7,11 +7,13 @@ Only sets in which actions disable each other in a circle have to stay together.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import Final
 
 from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, Task
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import State, fits
+from verify.base.fact_bits import FactBits, each_bit
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.shortest_paths import PathSearch
 from verify.base.subproblem import Solution, Subproblem
@@ -25,13 +27,13 @@ MOST_STATES: Final = 500_000
 
 @dataclass(frozen=True, slots=True)
 class Bundle:
-    """Actions that are executed together, and what they need and do."""
+    """Actions that are executed together, and what they need and do, as bits."""
 
     actions: tuple[int, ...]
-    pre: State
-    neg: State
-    add: State
-    delete: State
+    pre: int
+    neg: int
+    add: int
+    delete: int
     cost: int
 
 
@@ -56,6 +58,10 @@ class LeastLeft:
     """A lower bound on what is left to pay, in units: distances in the human's automaton.
 
     Robots' costs are only left out, so it holds whatever they do.
+
+    Attributes:
+        facts: of the automaton.
+        by_state: the distances.
     """
 
     def __init__(self, question: Subproblem, part: Relevant) -> None:
@@ -64,12 +70,12 @@ class LeastLeft:
         machine = automata(question.task, part, groups, deadline)[question.task.human]
         weights = list(question.prices.team)
         left = distances(machine, weights, goal_states(question, machine), deadline)[0]
-        self._facts = machine.facts
-        self._left = dict(zip(machine.states, left, strict=True))
+        self.facts = machine.facts
+        self.by_state = dict(zip(machine.states, left, strict=True))
 
     def __call__(self, state: State) -> int:
         """The bound in a state."""
-        return self._left.get(state & self._facts, 0)
+        return self.by_state.get(state & self.facts, 0)
 
 
 class JointSearch:
@@ -80,14 +86,16 @@ class JointSearch:
         self.task = question.task
         self.deadline = question.deadline
         self.part = part
-        self.facts = part.facts
+        self.bits = FactBits(part.facts)
         self.table: dict[int, list[Bundle]] = {}
         for bundle in self.deadline.each(self._bundles(part)):
-            self.table.setdefault(min(bundle.pre, default=-1), []).append(bundle)
+            self.table.setdefault(bundle.pre & -bundle.pre, []).append(bundle)
         conditions = [self.task.goal, *([self.task.robot_goal] if question.robots_goal else [])]
-        self.wanted = part.facts.intersection([f for c in conditions for f in c.positive])
-        self.unwanted = part.facts.intersection([f for c in conditions for f in c.negative])
-        self.left = LeastLeft(question, part)
+        self.wanted = self.bits.of(f for c in conditions for f in c.positive)
+        self.unwanted = self.bits.of(f for c in conditions for f in c.negative)
+        left = LeastLeft(question, part)
+        self._human = self.bits.of(left.facts)
+        self._left = {self.bits.of(state): least for state, least in left.by_state.items()}
         self.closed = 0
         self.bound: int | None = None
 
@@ -111,18 +119,18 @@ class JointSearch:
                 return Minimum("undecided", bound=self.bound, reason=f"more than {MOST_STATES} joint states")
         return Minimum("none")
 
-    def _successors(self, state: State) -> Iterator[tuple[State, int, Bundle]]:
+    def _successors(self, state: int) -> Iterator[tuple[int, int, Bundle]]:
         for bundle in self.applicable(state):
-            yield (state - bundle.delete) | bundle.add, bundle.cost, bundle
+            yield state & ~bundle.delete | bundle.add, bundle.cost, bundle
 
     @property
-    def start(self) -> State:
+    def start(self) -> int:
         """The initial state."""
-        return self.task.init & self.facts
+        return self.bits.of(self.task.init)
 
-    def is_goal(self, state: State) -> bool:
+    def is_goal(self, state: int) -> bool:
         """Whether the goals hold."""
-        return self.wanted <= state and self.unwanted.isdisjoint(state)
+        return state & self.wanted == self.wanted and not state & self.unwanted
 
     def _most(self) -> int:
         limits = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
@@ -133,16 +141,16 @@ class JointSearch:
         steps = tuple(Step(epoch, i) for epoch, bundle in epochs for i in bundle.actions)
         return Minimum("found", Solution(steps, None, cost, cost), cost)
 
-    def applicable(self, state: State) -> Iterator[Bundle]:
+    def applicable(self, state: int) -> Iterator[Bundle]:
         """What can be done next."""
-        for f in (-1, *state):
-            for bundle in self.table.get(f, ()):
-                if bundle.pre <= state and bundle.neg.isdisjoint(state):
+        for bit in chain((0,), each_bit(state)):
+            for bundle in self.table.get(bit, ()):
+                if state & bundle.pre == bundle.pre and not state & bundle.neg:
                     yield bundle
 
-    def estimate(self, state: State) -> int:
+    def estimate(self, state: int) -> int:
         """A lower bound on the cost that is left."""
-        return self.left(state)
+        return self._left.get(state & self._human, 0)
 
     def _bundles(self, part: Relevant) -> Iterator[Bundle]:
         for i in part.actions:
@@ -157,10 +165,10 @@ class JointSearch:
         chosen = [self.task.actions[i] for i in ids]
         return Bundle(
             ids,
-            self.facts.intersection([f for action in chosen for f in action.pre]),
-            self.facts.intersection([f for action in chosen for f in action.neg]),
-            self.facts.intersection([f for action in chosen for f in action.add]),
-            self.facts.intersection([f for action in chosen for f in action.delete]),
+            self.bits.of(f for action in chosen for f in action.pre),
+            self.bits.of(f for action in chosen for f in action.neg),
+            self.bits.of(f for action in chosen for f in action.add),
+            self.bits.of(f for action in chosen for f in action.delete),
             sum(self.question.prices.team[i] for i in ids),
         )
 

@@ -34,16 +34,24 @@ def mode_and_human(case: Case) -> Found | None:
 
 
 def human_plan_valid(case: Case) -> Found | None:
-    """``pi_H`` is a plan of the human alone; it is missing only if they have none."""
+    """``pi_H`` is a plan of the human alone; it is missing only if they have none, or nothing rests on it."""
     if isinstance(case.human_plan, PlanError):
         return Found(f"pi_H: {case.human_plan.message}")
     if case.human_plan is not None:
         return None
-    bound = case.result.lower_bound
-    if case.result.status == "unknown" and (bound is None or case.result.mode == "composite"):
-        return None  # it may not have been known when the limit came, and nothing rests on it
+    if _unknown_to_search(case):
+        return None
     optimum = case.alone.optimum(case.task.init)
     return None if optimum is None else Found("no pi_H is reported, but the human has a plan alone")
+
+
+def _unknown_to_search(case: Case) -> bool:
+    """Whether ``pi_H`` may be missing since a limit came before it was known: nothing rests on it."""
+    result, options = case.result, case.result.options
+    if result.status == "unknown":
+        return result.lower_bound is None or result.mode == "composite"
+    endless = result.mode == "composite" and options.horizon == INFINITE
+    return endless and options.max_cost is None and not case.robots_goal
 
 
 def horizon(case: Case) -> Found | None:

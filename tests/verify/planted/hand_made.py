@@ -32,6 +32,8 @@ def _epochs() -> Iterator[PlanCall]:
             {"mode": "serendipity", "window_weight": "0"},
         ):
             yield PlanCall(build(init="p q", goal="a b", actions=actions), options)
+    at_once = {"do h": "-> a b @ 9", "help r": "-> a", "lift h r": "-> b"}
+    yield PlanCall(build(goal="a b", actions=at_once), {"mode": "composite", "horizon": "inf"})
     two_robots = {"go h": "-> g @ 5", "end h": "x y -> g", "one r": "-> x", "two s": "-> y"}
     yield PlanCall(build(agents="h r s", goal="g", actions=two_robots), {"horizon": "2"})
 
@@ -86,6 +88,13 @@ def _suffixes() -> Iterator[PlanCall]:
     }
     for options in ({"preservation": "state"}, {"suffix": "subplan"}, {}):
         yield PlanCall(build(init="a", goal="d", actions=actions), options)
+    new = {"do h": "-> g @ 9", "open r": "-> o", "quick h": "o -> g @ 2"}
+    told = {"mode": "communication", "communication_weight": "1", "keep_prefix": "true", "horizon": "2"}
+    yield PlanCall(build(goal="g", actions=new), told)
+    # Alone, a human who replans takes the first of two ways into the middle.
+    ways = {"far h": "-> m @ 9", "end h": "m -> g", "a h": "-> n", "b h": "-> n", "c h": "n -> g @ 8"}
+    ways |= {"open r": "-> o", "quick h": "n o -> g"}
+    yield PlanCall(build(goal="g", actions=ways), {"human_model": "observant"}, ("far h", "end h"))
 
 
 def _goals() -> Iterator[PlanCall]:
