@@ -4,7 +4,7 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 :class:`PreparedTask`, which its caller makes, holds and moves.
 """
 
-from search.human.individual_planner import PlanGraph
+from search.human.plan_graph import PlanGraph
 from search.planner import optimal_human_plans, solve
 from search.prepared_task import PreparedTask, prepare
 from search.tie_bound import least_over_ties

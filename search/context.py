@@ -1,12 +1,18 @@
 """What every search of one call shares: packed task, key weights, bounds, the human alone."""
 
+from collections.abc import Callable
+from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
+from search.classical.problem import NO_PLAN
+from search.heuristics.first_interaction import no_team_bound
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
-from search.human.individual_planner import HumanOptimum, IndividualPlanner, PlanGraph, PricedPlanner
-from search.human.pattern_database import PatternDatabase, in_keys
-from search.packed.cost_vector import Weights
+from search.human.individual_planner import HumanOptimum, IndividualPlanner, OptimalPlan, PricedPlanner
+from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_keys
+from search.human.plan_graph import PlanGraph
+from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
 from search.packed.packings import human_facts
@@ -17,6 +23,9 @@ from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import HumanPlan, Task
+
+if TYPE_CHECKING:
+    from search.classical.team import Team
 
 
 class SearchContext:
@@ -83,11 +92,25 @@ class SearchContext:
         return self.tables.human.steps(self.deadline)
 
     @cached_property
+    def _has_kernel(self) -> bool:
+        """Whether the kernel knows more of the human alone than private distances, which can take seconds."""
+        if not self.is_shared:
+            return False
+        from search.kernel.library import library  # only here: most calls come by without it
+
+        return library() is not None
+
+    @property
+    def relevant(self) -> int:
+        """The fields that matter to the human alone, or to a goal."""
+        return self.packed.own_mask | self.packed.goal.mask | self.packed.robot_goal.mask
+
+    @cached_property
     def alone(self) -> HumanOptimum:
         """The human alone, to ``G_H``."""
         if not self.weights.announces:
             human = self.tables.human
-            bound = human.projection(self.deadline)
+            bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
             return PricedPlanner(self.packed, bound, human.memory(), self.weights, self.deadline)
         return IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, self.deadline)
 
@@ -137,10 +160,58 @@ class SearchContext:
             self.packed, walks, self.weights.team, self.deadline, strict=self.options.strict
         )
 
+    @cached_property
+    def is_shared(self) -> bool:
+        """Whether the goal asks for what others change too: then private distances say little of it."""
+        return bool((self.packed.goal.mask | self.packed.robot_goal.mask) & self.packed.outside)
+
+    @cached_property
+    def team(self) -> "Team | None":
+        """The team where epochs don't count; None without a kernel that could tell.
+
+        A call has its own: what an earlier one has learnt would decide between plans of equal rank.
+        """
+        from search.classical.team import team_planner  # only here: most calls come by without it
+
+        goal = self.packed.condition(_both(self.task)) if self.task.robot_goal else self.packed.goal
+        return team_planner(self.packed, goal, self.weights, self.deadline, strict=self.options.strict)
+
+    @cached_property
+    def team_bound(self) -> Callable[[int], int]:
+        """Bound on what the team pays from a packed state; 0 where private distances say enough."""
+        team = self.team if self.is_shared else None
+        if team is None:
+            return no_team_bound
+        planner, known = team.planner, dict[int, int]()
+
+        def bound(state: int) -> int:
+            found = known.get(state)
+            if found is None:
+                found = known[state] = self.amount_key(planner.bound(state, self.deadline))
+            return found
+
+        return bound
+
+    def under(self, deadline: Deadline) -> "SearchContext":
+        """The same call with another deadline."""
+        return SearchContext(self.prepared, self.options, deadline, tables=self.tables)
+
+    def amount_key(self, amount: int) -> int:
+        """An amount of the team's as a key."""
+        return self.weights.key_of(amount) if amount < NO_PLAN else INFINITE_KEY
+
+    def team_cost(self, action: int) -> Fraction:
+        """What an action costs the team, communication left out."""
+        return Fraction(self.weights.scaled_cost(self.packed.op(action)), self.keys.scale)
+
     @property
     def goals(self) -> tuple[PackedGoal, ...]:
         """``G_H`` and ``G_R``, packed."""
         return self.packed.goal, self.packed.robot_goal
+
+    def canonical_plan(self) -> OptimalPlan | None:
+        """The human's canonical plan from ``I``, or None where they have none."""
+        return self.alone.canonical(self.packed.init)
 
     def optimal_plans(self) -> PlanGraph | None:
         """The human's optimal plans from ``I``, or None where they have none."""

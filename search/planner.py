@@ -1,27 +1,50 @@
 """From a task and options to answers: which space, from which incumbent (semantics 3)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any, Final
 
+from search.classical.problem import NO_PLAN
+from search.composite import CompositeCall, team_for
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
 from search.engine.dominance import ParetoFront
 from search.engine.paths import path_sets, path_steps, plan_steps
-from search.human.individual_planner import PlanGraph
+from search.heuristics.first_interaction import no_team_bound
+from search.human.plan_graph import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
+from search.prediction import Prediction, individual_answers, predicted
 from search.prepared_task import PreparedTask
 from search.spaces.factory import free_bounds, no_worse, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.spaces.from_composite import as_incumbent
+from search.spaces.stepwise import Stepwise
 from search.spaces.unrestricted import Unrestricted
 from serendipity.model.answers.answer import Answer, saved
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans import Step, Window
 from serendipity.model.task.task import HumanPlan
+
+_TEAM_SHARE: Final = 0.4
+"""What of the time that is left the joint optimum without a horizon may take, where it may be the answer."""
+
+_SOON: Final = 0.2
+"""The same for a greedy search, for the sake of an answer on the way."""
+
+_FEW: Final = 1_000
+"""Nodes for the sake of a better window for the same objective."""
+
+_GREED: Final = 5
+"""What its bound counts for."""
+
+_LITTLE: Final = 0.05
+"""The same where it only bounds the answer."""
 
 
 def solve(
@@ -45,14 +68,18 @@ def solve(
     deadline = deadline or Deadline(options.time_limit)
     try:
         context = SearchContext(prepared, options, deadline)
-        predicted = context.optimal_plans() if human_plan is None else None
-        plan = human_plan if predicted is None else predicted.canonical()
-        if plan is None and (options.mode in ("individual", "serendipity") or options.keep_prefix):
+        team = team_for(context)
+        if team is not None:
+            yield from CompositeCall(context, team, human_plan).answers()
+            return
+        if options.mode == "individual":
+            yield from individual_answers(context, human_plan)
+            return
+        expected = predicted(context) if human_plan is None else Prediction(human_plan, optimal=False)
+        if expected is None and (options.mode == "serendipity" or options.keep_prefix):
             answers = iter((Answer("infeasible", reason="no-human-plan"),))
-        elif plan is not None and options.mode == "individual":
-            answers = iter((_individual(context, plan),))
         else:
-            answers = _Call(context, plan, given=human_plan is not None).answers()
+            answers = _Call(context, expected, given=human_plan is not None).answers()
     except LIMITS as limit:
         answers = iter((Answer("unknown", reason=limit_reason(limit)),))
     yield from answers
@@ -65,6 +92,16 @@ def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None
         LimitReachedError: the deadline ran out.
     """
     return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
+
+
+def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPlan | None:
+    """The canonical plan of the human alone (semantics 1), or None where they have none.
+
+    Raises:
+        LimitReachedError: the deadline ran out.
+    """
+    optimal = SearchContext(prepared, Options(), deadline).canonical_plan()
+    return None if optimal is None else optimal.actions
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,37 +130,13 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
         LimitReachedError: the deadline ran out.
     """
-    graph = context.optimal_plans() if human_plan is None else None
-    plan = human_plan if graph is None else graph.canonical()
-    if plan is None:
+    expected = predicted(context) if human_plan is None else Prediction(human_plan, optimal=False)
+    if expected is None:
         return None
-    call = _Call(context, plan, given=human_plan is not None)
+    call = _Call(context, expected, given=human_plan is not None)
     call.leave_alone()
     key = call.baseline.key
-    return LeftAlone(plan, int(call.horizon), call.keys.cost(key) if key < INFINITE_KEY else None)
-
-
-def _individual(context: SearchContext, plan: HumanPlan) -> Answer:
-    """The human alone, optimally, whatever plan of theirs is given."""
-    graph = context.optimal_plans()
-    assert graph is not None, "a plan that reaches the goal was given or found"
-    best = graph.canonical()
-    cost, given = context.task.cost_of(best), context.task.cost_of(plan)
-    answer = plan if cost == given else best
-    return Answer(
-        "optimal",
-        human_plan=plan,
-        horizon=max(len(plan), len(answer)),
-        steps=plan_steps(answer),
-        cost=cost,
-        objective=cost,
-        lower_bound=cost,
-        baseline=given,
-        saving=Fraction(0),
-        saving_alone=given - cost,
-        expanded=graph.expanded,
-        generated=graph.generated,
-    )
+    return LeftAlone(expected.actions, int(call.horizon), call.keys.cost(key) if key < INFINITE_KEY else None)
 
 
 class _Call:
@@ -134,7 +147,8 @@ class _Call:
     to beat that, too; ``best`` is the incumbent over everything.
     """
 
-    def __init__(self, context: SearchContext, plan: HumanPlan | None, *, given: bool) -> None:
+    def __init__(self, context: SearchContext, expected: Prediction | None, *, given: bool) -> None:
+        plan = None if expected is None else expected.actions
         self.task = context.task
         self.options = context.options
         self.deadline = context.deadline
@@ -149,7 +163,7 @@ class _Call:
         self.idle = Incumbent(INFINITE_KEY)
         self.unaided = Incumbent(INFINITE_KEY)
         self.best = Incumbent(INFINITE_KEY)
-        self.settled = not given
+        self.settled = not given and (expected is None or expected.optimal)
         """Whether it is known what the human gains alone."""
         self.improvable = False
         """Whether a given plan costs more than an optimal one."""
@@ -164,14 +178,127 @@ class _Call:
             if self._answer().key < INFINITE_KEY:
                 yield self._outcome("feasible")
             if self.epochs != 0 or self._answer().key == INFINITE_KEY:
-                for _ in best_first(self._space(), self.best, self.progress, self.deadline):
+                for _ in self._improvements():
                     yield self._outcome(self._unfinished())
             self.progress.bound = self.best.key
-            status = "optimal" if self._answer().key < INFINITE_KEY else "infeasible"
+            status = "infeasible"
+            if self._answer().key < INFINITE_KEY:
+                status = "optimal" if self.settled else "feasible"
         except LIMITS as limit:
             self.limit = limit_reason(limit)
-            status = self._unfinished()
+            status = "optimal" if self.settled and self._is_settled() else self._unfinished()
         yield self._outcome(status)
+
+    def _improvements(self) -> Iterator[Incumbent]:
+        """Each better incumbent, and now and then the same one; on return it is optimal."""
+        if self.context.is_shared:
+            self._ask_team()
+            yield self.best
+            if not self._is_settled() and self._composite_decides():
+                yield from self._by_composite()
+            if self._is_settled():
+                yield from self._settle_ties()
+                return
+        for _ in best_first(self._space(), self.best, self.progress, self.deadline):
+            yield self.best
+            if self._is_settled():
+                return
+
+    def _ask_team(self) -> None:
+        """The joint optimum without a horizon bounds every mode's answer, and may be it."""
+        team, left = self.context.team, self.deadline.left()
+        if team is None:
+            return
+        share = _TEAM_SHARE if self._composite_decides() else _LITTLE
+        part = self.deadline if left is None else self.deadline.within(share * left)
+        try:
+            first = team.first_plan(self.context.packed.init, part)
+            if first is not None:
+                self._offer(schedule(self.task, first))
+            best = team.best_plan(self.context.packed.init, part, self._raise)
+        except LimitReachedError:
+            self.deadline.check()
+            return
+        if best is None:
+            self._raise(NO_PLAN)
+            return
+        self._raise(team.planner.cheapest(self.context.packed.init, self.deadline))
+        self._offer(schedule(self.task, best))
+
+    def _settle_ties(self) -> Iterator[Incumbent]:
+        """Better windows and fewer actions for the same objective, if they come soon."""
+        yield from best_first(self._space(), self.best, Progress(), self.deadline, _FEW)
+
+    def _raise(self, amount: int) -> None:
+        """No composite plan costs the team less than an amount."""
+        self._raise_key(self.context.amount_key(amount))
+
+    def _raise_key(self, key: int) -> None:
+        window = self.keys.epoch_weight if self.options.windowed and self.plan else 0
+        self.progress.bound = max(self.progress.bound, min(key + window, INFINITE_KEY))
+
+    def _composite_decides(self) -> bool:
+        """Whether every composite plan within ``T`` keeps the mode's rules, and its objective is its cost."""
+        options = self.options
+        if self.epochs is None or options.max_cost is not None or self.context.weights.announces:
+            return False
+        if not options.windowed:
+            return True
+        free = options.suffix == "replan" and options.preservation == "kernel" and not options.keep_prefix
+        return free and not options.window_weight and options.max_window is None and not self.task.robot_goal
+
+    def _by_composite(self) -> Iterator[Incumbent]:
+        """The best composite plan within ``T``, which is the answer but for its window."""
+        joint = Incumbent(min(self.baseline.key, self.best.key)) if self.options.windowed else self.best
+        left = self.deadline.left()
+        part = self.deadline if left is None else self.deadline.within(_SOON * left)
+        if left is not None:
+            with suppress(LimitReachedError):
+                for _ in best_first(self._composite_space(joint.key, _GREED), joint, Progress(), part):
+                    self._offer_joint(joint)
+                    yield self.best
+        self.deadline.check()
+        progress = Progress(self.progress.bound, told_at=self.deadline.elapsed())
+        for _ in best_first(self._composite_space(joint.key), joint, progress, self.deadline):
+            self.progress.expanded, self.progress.generated = progress.expanded, progress.generated
+            self._raise_key(progress.bound)
+            self._offer_joint(joint)
+            yield self.best
+            if self._is_settled():
+                return
+        self._raise_key(joint.key)
+
+    def _offer_joint(self, joint: Incumbent) -> None:
+        if joint is not self.best and joint.node is not None:
+            self._offer(path_steps(joint.node))
+
+    def _composite_space(self, limit: int, greed: int = 1) -> Space[Any, Incumbent]:
+        assert self.epochs is not None, "only with a horizon"
+        if self.context.team is None:
+            return self._unrestricted(limit)
+        return Stepwise(
+            initial=self.context.packed.init,
+            horizon=self.epochs,
+            goals=self.context.goals,
+            successors=self.context.successors(),
+            bounds=free_bounds(self.context, self.epochs, limit, idle=False),
+            labels=ParetoFront(),
+            greed=greed,
+        )
+
+    def _offer(self, steps: Sequence[Step]) -> None:
+        """A composite plan, which may be the best so far in this mode."""
+        if not self._composite_decides() or self.epochs is None:
+            return
+        found = as_incumbent(self.context, steps, self.plan or (), self.epochs)
+        if found is not None and found.key < self.best.key:
+            self.best.key, self.best.node = found.key, found.node
+            self.best.end, self.best.tail = found.end, found.tail
+
+    def _is_settled(self) -> bool:
+        """Whether the incumbent's objective can't be beaten."""
+        best, bound = self.best.key, self.progress.bound
+        return best < INFINITE_KEY and self.keys.objective(best) <= self.keys.objective(bound)
 
     def _unfinished(self) -> str:
         """The status while nothing is proved; an infinite bound is a proof."""
@@ -217,7 +344,9 @@ class _Call:
     def _least(self) -> int:
         """A first bound, before there is any of the robots: what the human has to do themselves."""
         window = self.keys.epoch_weight if self._window_of_nothing() else 0
-        return self.context.bound(self.context.packed.init) + window
+        context, init = self.context, self.context.packed.init
+        team = context.team_bound
+        return (context.bound(init) if team is no_team_bound else team(init)) + window
 
     def _improve_alone(self) -> None:
         """A given plan may not be optimal: what the human gains alone (semantics 1)."""
@@ -236,10 +365,14 @@ class _Call:
         self.settled = True
 
     def _space(self, *, idle: bool = False) -> Space[Node, Incumbent]:
-        most_cost = self._most_cost()
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
+            most_cost = self._most_cost()
             return window_space(self.context, self.plan, self.epochs, most_cost, self.best.key, idle=idle)
+        return self._unrestricted(self.best.key, idle=idle)
+
+    def _unrestricted(self, limit: int, *, idle: bool = False) -> Space[Node, Incumbent]:
+        most_cost = self._most_cost()
         # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
         announces = self.context.weights.announces
         compared = no_worse(self.keys, self.options, most_cost) if announces else None
@@ -250,7 +383,7 @@ class _Call:
             goals=self.context.goals,
             keys=self.keys,
             successors=self.context.successors(idle=idle),
-            bounds=free_bounds(self.context, self.epochs, self.best.key, idle=idle),
+            bounds=free_bounds(self.context, self.epochs, limit, idle=idle),
             labels=ParetoFront(compared),
         )
 
@@ -260,8 +393,11 @@ class _Call:
 
     def _helps(self) -> bool:
         """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""
-        if self.best.key == INFINITE_KEY or self.plan is None or not self.settled:
+        if self.best.key == INFINITE_KEY or self.plan is None:
             return False
+        if not self.settled:  # then at least what is known of the human alone decides
+            alone = INFINITE_KEY if self.given else self.context.alone.least(self.context.packed.init)
+            return alone < INFINITE_KEY and self.keys.cost(self.best.key) < self.keys.cost(alone)
         if self.unaided.key < INFINITE_KEY and self._score(self.best) >= self._score(self.unaided):
             return False
         return self.idle.key == INFINITE_KEY or self.keys.cost(self.best.key) < self.keys.cost(self.idle.key)

@@ -11,9 +11,9 @@ from fractions import Fraction
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.dominance import ParetoFront
-from search.heuristics.first_interaction import Bounds, no_bound
-from search.human.individual_planner import PlanGraph
+from search.heuristics.first_interaction import Bounds, no_bound, no_team_bound
 from search.human.pattern_database import PatternDatabase
+from search.human.plan_graph import PlanGraph
 from search.packed.cost_vector import CostLayout
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import JointAction
@@ -79,10 +79,11 @@ def _by_windows(
         most_cost=None,
         keys=context.keys,
         successors=context.successors(),
-        bounds=Bounds(context.bound, context.steps, no_bound, context.interactions),
+        bounds=Bounds(context.bound, context.steps, no_bound, context.interactions, no_team_bound),
         prefix=_AnyOptimal(steps, context.bound, context.keys, horizon),
         suffix=suffix_rule(context, plan),
         labels=ParetoFront(no_worse(context.keys, free, None)),
+        relevant=context.relevant,
     )
     best = Incumbent(sum(option.weight for _, option in context.followed(plan)))
     for _ in best_first(space, best, Progress(), deadline):

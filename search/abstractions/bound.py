@@ -11,8 +11,8 @@ from typing import Final
 import numpy as np
 
 from search.abstractions.cost_partitioning import CostPartitioning
-from search.abstractions.patterns import patterns
-from search.abstractions.projection import FAR, Field, Projection
+from search.abstractions.patterns import Field, patterns
+from search.abstractions.projection import FAR, Projection
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup

@@ -1,10 +1,10 @@
 """Which fields to keep together: what the goal asks for, and what its changers ask for in turn."""
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import chain, combinations
 from math import prod
+from typing import NamedTuple
 
-from search.abstractions.projection import Field
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
 
@@ -12,10 +12,24 @@ Neighbours = list[dict[int, int]]
 """Per field those that its changers ask for or set as well, and how many of them do."""
 
 
+class Field(NamedTuple):
+    """A field of the packed task.
+
+    Attributes:
+        mask: its bits.
+        shift: the place of the lowest of them.
+        size: how many values it has; their codes are ``0 .. size - 1``.
+    """
+
+    mask: int
+    shift: int
+    size: int
+
+
 def patterns(
     fields: Sequence[Field], operators: Sequence[Operator], goal: PackedGoal, most_states: int
-) -> list[tuple[Field, ...]]:
-    """Sets of fields that have something to say of the goal, none twice.
+) -> Iterator[tuple[Field, ...]]:
+    """Sets of fields that have something to say of the goal, none twice; each is worked out when asked for.
 
     One is grown from each field of the goal; besides there are all single ones and pairs that can
     say more than their parts (Pommerening, Roeger and Helmert 2013).
@@ -30,7 +44,11 @@ def patterns(
     goals = [i for i, field in enumerate(fields) if field.mask & goal.mask]
     grown = (_grown(start, fields, asked, most_states) for start in goals)
     small = (chosen for chosen in _small(goals, asked) if _size(chosen, fields) <= most_states)
-    return [tuple(fields[i] for i in sorted(chosen)) for chosen in dict.fromkeys([*grown, *small])]
+    seen = set()
+    for chosen in chain(grown, small):
+        if chosen not in seen:
+            seen.add(chosen)
+            yield tuple(fields[i] for i in sorted(chosen))
 
 
 def _neighbours(fields: Sequence[Field], operators: Sequence[Operator]) -> Neighbours:
@@ -50,20 +68,21 @@ def _neighbours(fields: Sequence[Field], operators: Sequence[Operator]) -> Neigh
 
 def _grown(start: int, fields: Sequence[Field], asked: Neighbours, most_states: int) -> frozenset[int]:
     """A field, and of those near it again and again the one that most changers ask for."""
-    chosen, refused = {start}, set[int]()
-    while True:
-        near: dict[int, int] = {}
-        for i in chosen:
-            for j, count in asked[i].items():
-                if j not in chosen and j not in refused:
-                    near[j] = near.get(j, 0) + count
-        if not near:
-            return frozenset(chosen)
+    chosen, size = {start}, fields[start].size
+    near = dict(asked[start])
+    done = {start}  # chosen, or too large
+    while near:
         best = max(near, key=lambda j: (near[j], -j))
-        if _size({*chosen, best}, fields) > most_states:
-            refused.add(best)
-        else:
-            chosen.add(best)
+        del near[best]
+        done.add(best)
+        if size * fields[best].size > most_states:
+            continue
+        chosen.add(best)
+        size *= fields[best].size
+        for j, count in asked[best].items():
+            if j not in done:
+                near[j] = near.get(j, 0) + count
+    return frozenset(chosen)
 
 
 def _small(goals: Sequence[int], asked: Neighbours) -> Iterator[frozenset[int]]:

@@ -6,11 +6,12 @@ an operator costs is said anew for each table, so that several patterns can shar
 """
 
 from collections.abc import Iterable, Sequence
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from search.abstractions.patterns import Field
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
 from serendipity.model.resources.deadline import Deadline
@@ -23,20 +24,6 @@ FAR: Final = 1 << 60
 
 Codes = dict[int, int]
 """Codes by the place of their field in the pattern."""
-
-
-class Field(NamedTuple):
-    """A field of the packed task.
-
-    Attributes:
-        mask: its bits.
-        shift: the place of the lowest of them.
-        size: how many values it has; their codes are ``0 .. size - 1``.
-    """
-
-    mask: int
-    shift: int
-    size: int
 
 
 class Projection:

@@ -68,6 +68,15 @@ class LevelQueue(Generic[Item]):
         distance = heappop(self._distances)
         return distance, self.levels.pop(distance)
 
+    def pop_latest(self) -> Item:
+        """Take the item out of the queue, which is not empty, that came last to the least distance."""
+        distance = self._distances[0]
+        level = self.levels[distance]
+        item = level.pop()
+        if not level:
+            self.pop()
+        return item
+
     def __iter__(self) -> Iterator[tuple[int, list[Item]]]:
         distances, levels = self._distances, self.levels
         while distances:

@@ -82,6 +82,9 @@ def _without_his_optimum(game: Game, limit: str) -> Iterator[Answer]:
     if limit == "memory-limit":
         game.forget_own()
     lower = _bound_without_search(game, game.deadline)
+    if lower is None:
+        yield _no_plan(game)
+        return
     try:
         upper = upper_bound_alone(game)
     except LIMITS:
@@ -97,7 +100,10 @@ def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None
     known = Solution(None, None) if search is None else search.solution(floors=False)
     if search is not None and known.upper is not None and known.lower == known.upper:
         return _answer(writer, search, "optimal")
-    lower = max(_bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE)), known.lower or ZERO)
+    least = _bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE))
+    if least is None:
+        return _no_plan(game)
+    lower = max(least, known.lower or ZERO)
     if search is not None and known.upper is not None:
         bounds = PolicyBounds(lower, known.upper)
         status = "optimal" if lower == known.upper else "feasible"
@@ -117,12 +123,18 @@ def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None
     )
 
 
-def _bound_without_search(game: Game, deadline: Deadline) -> Costs:
-    """A lower bound from the initial state alone; nothing where there is no time even for that."""
+def _bound_without_search(game: Game, deadline: Deadline) -> Costs | None:
+    """A lower bound from the initial state alone, 0 where there is no time even for that; None: no plan."""
     try:
-        return game.pair(min(joint_lower_bound(game, deadline), INFINITE - 1))
+        value = joint_lower_bound(game, deadline)
     except LIMITS:
         return ZERO
+    return None if value >= INFINITE else game.pair(value)
+
+
+def _no_plan(game: Game) -> Answer:
+    """Not even both together reach the goal."""
+    return _said(game.task, "infeasible", PolicyBounds(ZERO, None), reason="no-plan")
 
 
 def _search(game: Game, options: Options) -> CheapestRun | LaoStar:

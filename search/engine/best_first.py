@@ -6,10 +6,9 @@ start and length at once, so the first proof is already the answer of semantics 
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from heapq import heappop, heappush
-from itertools import count
 from typing import NamedTuple, Protocol, TypeVar
 
+from search.algorithms.shortest_paths import LevelQueue
 from serendipity.model.resources.deadline import Deadline
 
 _PATIENCE = 1.25
@@ -97,32 +96,38 @@ class Space(Protocol[N, Improved]):
         """Bounded successors; complete plans met on the way are offered to ``best``."""
 
 
-def best_first(space: Space[N, Best], best: Best, progress: Progress, deadline: Deadline) -> Iterator[Best]:
+def best_first(
+    space: Space[N, Best], best: Best, progress: Progress, deadline: Deadline, most: int | None = None
+) -> Iterator[Best]:
     """Yield each better incumbent, and now and then the same one where the bound has risen.
 
     Of nodes with equal bounds the latest comes first.  On return ``best`` is optimal and the bound is
-    its key.
+    its key, unless ``most`` nodes have been expanded.
 
     Raises:
         LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
     """
-    tie = count()
-    queue: list[tuple[int, int, N]] = []
-    for bound, node in space.roots():
-        heappush(queue, (bound, -next(tie), node))
+    queue = LevelQueue(space.roots())
+    levels = queue.levels
     known = best.key
-    while queue and queue[0][0] < best.key:
-        bound, _, node = heappop(queue)
+    while (bound := queue.least) is not None and bound < best.key:
+        node = queue.pop_latest()
         progress.bound = max(progress.bound, bound)
         if not space.alive(node):
             continue
         deadline.check()
+        if progress.expanded == most:
+            return
         progress.expanded += 1
         for child_bound, child in space.expand(node, best):
             deadline.tick()
             progress.generated += 1
             if child_bound < best.key:
-                heappush(queue, (child_bound, -next(tie), child))
+                level = levels.get(child_bound)  # not push alone: a call for each node would show
+                if level is None:
+                    queue.push(child_bound, child)
+                else:
+                    level.append(child)
         if best.key < known or progress.due(deadline):
             known = best.key
             yield best

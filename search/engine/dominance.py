@@ -19,27 +19,31 @@ class ParetoFront:
     """
 
     def __init__(self, no_worse: Callable[[int, int], bool] | None = None) -> None:
-        self._labels: dict[Hashable, list[Label]] = {}
+        self._labels: dict[Hashable, Label | list[Label]] = {}  # most states have but one
         self._no_worse = no_worse
 
     def add(self, state: Hashable, epoch: int, key: int, idle: tuple[int, ...] = ()) -> bool:
         """Record a label unless one already there dominates it; whether it was recorded."""
-        labels = self._labels.get(state)
-        if labels is None:
-            self._labels[state] = [(epoch, key, idle)]
+        label = epoch, key, idle
+        known = self._labels.get(state)
+        if known is None:
+            self._labels[state] = label
             return True
+        labels = [known] if isinstance(known, tuple) else known
         if self._covered(labels, epoch, key, idle):
             return False
         if self._no_worse is None:
-            labels[:] = [
+            labels = [
                 (t, k, rest) for t, k, rest in labels if t < epoch or k < key or not all(map(ge, idle, rest))
             ]
-        labels.append((epoch, key, idle))
+        self._labels[state] = [*labels, label] if labels else label
         return True
 
     def alive(self, state: Hashable, epoch: int, key: int, idle: tuple[int, ...] = ()) -> bool:
         """Whether a recorded label has not been superseded since."""
-        return (epoch, key, idle) in self._labels[state]
+        known = self._labels[state]
+        label = epoch, key, idle
+        return known == label if isinstance(known, tuple) else label in known
 
     def _covered(self, labels: list[Label], epoch: int, key: int, idle: tuple[int, ...]) -> bool:
         no_worse = self._no_worse

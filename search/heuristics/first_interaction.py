@@ -172,6 +172,11 @@ def no_bound(_epoch: int, _state: int, _spent: int, _idle: Idle = (), /) -> int:
     return 0
 
 
+def no_team_bound(_state: int, /) -> int:
+    """The bound on the team that is always right."""
+    return 0
+
+
 class Bounds:
     """Which bound holds at a node.
 
@@ -182,17 +187,26 @@ class Bounds:
         private: distances in the human's private fields.
         steps: the same, counting actions.
         untouched: bound before the first touch.
-        touches: tells which actions are touches.
+        interactions: tells which actions are touches; None where no bound asks for that.
+        team: bound on what the team pays from a packed state, without a look at epochs.
     """
 
     def __init__(
-        self, private: PatternDatabase, steps: PatternDatabase, untouched: Timed, interactions: Interactions
+        self,
+        private: PatternDatabase,
+        steps: PatternDatabase,
+        untouched: Timed,
+        interactions: Interactions | None,
+        team: Callable[[int], int],
     ) -> None:
         self.private = private
         self.steps = steps
         self.untouched = untouched
-        self._is_touch = interactions.is_interaction
+        self.team = team
+        self._interactions = interactions
 
     def interactions(self, actions: Sequence[int]) -> bool:
         """Whether the human's part of an epoch (at most one action) is a touch."""
-        return bool(actions) and self._is_touch(actions[0])
+        return (
+            bool(actions) and self._interactions is not None and self._interactions.is_interaction(actions[0])
+        )

@@ -1,12 +1,16 @@
 """The bound while the human follows ``pi_H``, by when the window opens (see :mod:`.first_interaction`)."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import accumulate
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from search.heuristics.achievers import Provided
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.state_cache import StateCache
 from search.packed.successor_generator import Idle
+
+_MOST_KEPT: Final = 1_000_000
+"""Offers in the lists that are kept: some 10 MiB."""
 
 
 class PrefixBounds:
@@ -111,7 +115,9 @@ class FirstInteractionOnTheWay:
         self._spent = spent
         self._needs = needs
         self._outside = outside
-        self._offers: dict[int, list[Offer]] = {}
+        self._offers: StateCache[list[Offer]] = StateCache(_MOST_KEPT)
+        self._known: dict[Offer, Offer] = {}  # of equal ones, lists hold the same
+        self._too_dear = max(openings.without, default=0)
         for need in needs:
             if need not in openings.later:
                 openings.refine(need, 0, [openings.least[need]] * len(spent))
@@ -152,14 +158,15 @@ class FirstInteractionOnTheWay:
         at = state & self._outside
         offers = self._offers.get(at)
         if offers is None:
-            offers = self._offers[at] = sorted(
-                self._offer(need, provided, state) for need, provided in self._needs.items()
-            )
+            offers = sorted(self._that_may_pay(state))
+            self._offers.keep(at, offers, len(offers))
         return offers
 
-    def _offer(self, need: int, provided: Provided | None, state: int) -> Offer:
-        least = self._openings.later[need][0]
-        if provided is None:
-            return Offer(least, 0, (0,), need)
-        cost = provided.cost(state)
-        return Offer(least + cost, cost, provided.each(state), need)
+    def _that_may_pay(self, state: int) -> Iterator[Offer]:
+        """What robots can do from a packed state that may be better than to do without."""
+        for need, provided in self._needs.items():
+            least = self._openings.later[need][0]
+            cost = 0 if provided is None else provided.cost(state)
+            if least + cost < self._too_dear:
+                offer = Offer(least + cost, cost, (0,) if provided is None else provided.each(state), need)
+                yield self._known.setdefault(offer, offer)

@@ -5,11 +5,13 @@ Costs are cached on the facts that their own actions mention, so a state costs o
 search per projection, and a search also fills in the states along its result.
 """
 
-from collections.abc import Callable, Iterator
-from typing import Final, Protocol
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from search.algorithms.astar import AStar
+from search.classical.problem import NO_PLAN
 from search.human.pattern_database import PatternDatabase
+from search.human.plan_graph import PlanGraph, edges_into
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
@@ -17,84 +19,20 @@ from search.packed.successor_generator import Lookup
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
+if TYPE_CHECKING:
+    from search.classical.planner import ClassicalPlanner
+
 _MANY: Final = 2_000
 """States after which a better bound is worth its tables."""
+
+_ENOUGH: Final = 200
+"""States after which the kernel is worth its preparation, where there is one."""
 
 _A_WHILE: Final = 0.5
 """Seconds without which they are not begun: loading what makes them takes some of that already."""
 
 _SHARE: Final = 0.25
 """What of the time that is left they may take."""
-
-Edges = dict[int, list[tuple[int, int]]]
-"""Per state the actions that continue an optimal plan, ascending, with their successors."""
-
-
-class PlanGraph:
-    """The optimal plans from a state as a graph: they share prefixes and suffixes.
-
-    Args:
-        start: the packed state that they start from.
-        edges: the steps that lie on an optimal plan.
-        expanded: states that the search for them expanded.
-        generated: steps that it looked at.
-    """
-
-    def __init__(self, start: int, edges: Edges, expanded: int, generated: int) -> None:
-        self._start = start
-        self._edges = edges
-        self.expanded = expanded
-        self.generated = generated
-
-    def canonical(self) -> tuple[int, ...]:
-        """The plan that takes the smallest action at each step (semantics 1)."""
-        return next(self.plans())
-
-    def plans(self) -> Iterator[tuple[int, ...]]:
-        """All of them, in string order, lazily."""
-        path: list[int] = []
-        open_steps = [iter(self._edges.get(self._start, ()))]
-        if self._start not in self._edges:
-            yield ()
-            return
-        while open_steps:
-            step = next(open_steps[-1], None)
-            if step is None:
-                open_steps.pop()
-                if path:
-                    path.pop()
-                continue
-            action, after = step
-            path.append(action)
-            if after in self._edges:
-                open_steps.append(iter(self._edges[after]))
-            else:
-                yield tuple(path)
-                path.pop()
-
-    def layers(self) -> list[set[int]]:
-        """Per step the actions that some optimal plan does then."""
-        found: list[set[int]] = []
-        layer = {self._start}
-        while steps := [step for state in layer for step in self._edges.get(state, ())]:
-            found.append({action for action, _ in steps})
-            layer = {after for _, after in steps}
-        return found
-
-    def count(self) -> int:
-        """How many there are, without listing them."""
-        counts: dict[int, int] = {}
-        pending = [self._start]
-        while pending:
-            state = pending[-1]
-            after = [successor for _, successor in self._edges.get(state, ())]
-            missing = [successor for successor in after if successor not in counts]
-            if missing:
-                pending.extend(missing)
-            else:
-                counts[state] = sum(counts[successor] for successor in after) if after else 1
-                pending.pop()
-        return counts[self._start]
 
 
 class Memory:
@@ -106,6 +44,7 @@ class Memory:
         at_least: what optimal keys are not below.
         expanded: how many states have come up, until the bound was refined.
         refined: a better bound than the projection onto private fields, once there is one.
+        classical: the kernel on the same question, once it has taken over.
         plans: the optimal plans from the state that was asked about last.
     """
 
@@ -115,7 +54,26 @@ class Memory:
         self.at_least: dict[int, int] = {}
         self.expanded = 0
         self.refined: Callable[[int], int] | None = None
+        self.classical: ClassicalPlanner | None = None
         self.plans: tuple[int, PlanGraph | None] | None = None
+
+
+class OptimalPlan(NamedTuple):
+    """The canonical optimal plan of the human alone.
+
+    Attributes:
+        actions: its actions.
+        expanded: states that the search for it expanded.
+        generated: steps that it looked at.
+    """
+
+    actions: tuple[int, ...]
+    expanded: int
+    generated: int
+
+
+class _TakenOverError(Exception):
+    """The kernel goes on."""
 
 
 class HumanOptimum(Protocol):
@@ -124,7 +82,16 @@ class HumanOptimum(Protocol):
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The optimal key alone from a packed state; from ``limit`` (a key) on any value says "not below"."""
 
-    def plans(self, state: int) -> "PlanGraph | None":
+    def canonical(self, state: int) -> OptimalPlan | None:
+        """The canonical optimal plan (semantics 1) from a packed state; None if there is no plan."""
+
+    def first_plan(self, state: int) -> tuple[int, ...] | None:
+        """Some plan from a packed state, soon; None where there is none, or no way to find one soon."""
+
+    def least(self, state: int) -> int:
+        """What is known so far that no key from a packed state is below."""
+
+    def plans(self, state: int) -> PlanGraph | None:
         """All the human's optimal plans from a packed state; None if there is none."""
 
 
@@ -138,6 +105,7 @@ class IndividualPlanner:
         bound: admissible lower bound to ``goal``.
         deadline: polled at each state that comes up.
         memory: what earlier calls have found with the same goal and weights.
+        own_unit: whether weights are in the unit of :func:`.own_weights`, which the kernel knows.
     """
 
     def __init__(
@@ -148,6 +116,8 @@ class IndividualPlanner:
         bound: PatternDatabase,
         deadline: Deadline,
         memory: Memory | None = None,
+        *,
+        own_unit: bool = False,
     ) -> None:
         self._packed = packed
         self._goal = goal
@@ -159,6 +129,8 @@ class IndividualPlanner:
         self._lookup = self._memory.lookup
         self._known = self._memory.known
         self._at_least = self._memory.at_least
+        self._own_unit = own_unit
+        self._blind = bool(goal.mask & ~bound.mask)
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """See :class:`HumanOptimum`."""
@@ -169,7 +141,26 @@ class IndividualPlanner:
         floor = self._at_least.get(state, 0)
         if floor >= limit:
             return floor
-        return self._search(state, limit)
+        if self._memory.classical is None:
+            try:
+                return self._search(state, limit)
+            except _TakenOverError:
+                pass
+        return self._by_kernel(state, limit)
+
+    def _by_kernel(self, state: int, limit: int) -> int:
+        classical = self._memory.classical
+        assert classical is not None, "it has taken over"
+        try:
+            found = classical.cheapest(state, self._deadline, min(limit, NO_PLAN))
+        except LimitReachedError:
+            self._at_least[state] = max(classical.least, self._at_least.get(state, 0))
+            raise
+        if found >= limit:
+            self._at_least[state] = max(found, self._at_least.get(state, 0))
+            return found if found < NO_PLAN else INFINITE_KEY
+        self._known[state] = found if found < NO_PLAN else INFINITE_KEY
+        return self._known[state]
 
     def _search(self, start: int, limit: int) -> int:
         """A*; exact below ``limit``.
@@ -203,17 +194,27 @@ class IndividualPlanner:
 
     def _bound(self, state: int) -> int:
         """Lower bound of the optimal key from a packed state."""
-        projected, refined = self._projection(state), self._memory.refined
-        return projected if refined is None else max(projected, refined(state))
+        projected, memory = self._projection(state), self._memory
+        if memory.classical is not None:
+            known = memory.classical.bound(state, self._deadline)
+            return max(projected, known if known < NO_PLAN else INFINITE_KEY)
+        return projected if memory.refined is None else max(projected, memory.refined(state))
 
     def _refines(self, start: int) -> bool:
         """Whether so many states have come up that the bound has been refined: a search begins anew then.
 
         Args:
             start: where it began; that nothing leads to a goal from there may show.
+
+        Raises:
+            _TakenOverError: the kernel has been made ready to go on.
         """
         memory = self._memory
         memory.expanded += 1
+        if memory.expanded == (1 if self._blind else _ENOUGH):
+            self._take_over()
+            if memory.classical is not None:
+                raise _TakenOverError
         if memory.expanded != _MANY:
             return False
         left = self._deadline.left()
@@ -233,6 +234,13 @@ class IndividualPlanner:
         except LimitReachedError:
             self._deadline.check()
         return memory.refined is not None
+
+    def _take_over(self) -> None:
+        """Make the kernel ready to go on, where it can."""
+        if self._own_unit and self._memory.classical is None:
+            from search.human.own_problem import own_planner  # only here, as above
+
+            self._memory.classical = own_planner(self._packed, self._goal, self._mask, self._deadline)
 
     def _rest(self, state: int) -> int | None:
         """The human's optimal key where it is known or a goal is reached; else None."""
@@ -254,11 +262,66 @@ class IndividualPlanner:
             self._known[state] = rest
         return rest
 
-    def plans(self, state: int) -> "PlanGraph | None":
+    def canonical(self, state: int) -> OptimalPlan | None:
         """See :class:`HumanOptimum`."""
         start = state & self._mask
+        if self._memory.classical is None:
+            try:
+                graph = self._graph(start)
+            except _TakenOverError:
+                pass
+            else:
+                if graph is None:
+                    return None
+                return OptimalPlan(graph.canonical(), graph.expanded, graph.generated)
+        plan = self._first_steps(start)
+        assert self._memory.classical is not None, "it has taken over"
+        expanded, generated, _ = self._memory.classical.counts()
+        return None if plan is None else OptimalPlan(plan, self._memory.expanded + expanded, generated)
+
+    def _first_steps(self, state: int) -> tuple[int, ...] | None:
+        """The canonical plan: at each step the first action after which the rest is as cheap as it can be."""
+        plan: list[int] = []
+        rest = self.key(state)
+        if rest >= INFINITE_KEY:
+            return None
+        while rest:
+            for option in sorted(self._lookup.options(state), key=lambda option: option.actions):
+                after, left = (state & option.keep | option.put) & self._mask, rest - option.weight
+                if left >= 0 and self.key(after, left + 1) == left:
+                    break
+            plan.append(option.actions[0])
+            state, rest = after, left
+        return tuple(plan)
+
+    def first_plan(self, state: int) -> tuple[int, ...] | None:
+        """See :class:`HumanOptimum`."""
+        self._take_over()
+        classical = self._memory.classical
+        if classical is None:
+            return None
+        numbers = classical.first_plan(state & self._mask, self._deadline)
+        return None if numbers is None else tuple(self._packed.own[number].action for number in numbers)
+
+    def least(self, state: int) -> int:
+        """See :class:`HumanOptimum`."""
+        state &= self._mask
+        floor = max(self._known.get(state, 0), self._at_least.get(state, 0))
+        return min(max(floor, self._bound(state)), INFINITE_KEY)
+
+    def plans(self, state: int) -> PlanGraph | None:
+        """See :class:`HumanOptimum`."""
+        start = state & self._mask
+        try:
+            return self._graph(start)
+        except _TakenOverError:
+            return self._graph(start)
+
+    def _graph(self, start: int) -> PlanGraph | None:
         last = self._memory.plans
         if last is None or last[0] != start:
+            if self._memory.classical is not None:
+                self.key(start)
             last = self._memory.plans = start, self._optimal(start)
         return last[1]
 
@@ -291,7 +354,7 @@ class IndividualPlanner:
             self._known[start] = INFINITE_KEY
             return None
         distance, optimum = search.spent, search.spent[goals[0]]
-        edges = _edges_into(goals, expanded, distance, self._deadline)
+        edges = edges_into(goals, expanded, distance, self._deadline)
         for state, onward in edges.items():
             edges[state] = self._one_a_name(onward)
         for state in (*edges, *goals):
@@ -319,7 +382,9 @@ class PricedPlanner:
         self, packed: PackedTask, bound: PatternDatabase, memory: Memory, weights: Weights, deadline: Deadline
     ) -> None:
         own = own_weights(packed)
-        self._alone = IndividualPlanner(packed, packed.goal, lambda op: own[op.cost], bound, deadline, memory)
+        self._alone = IndividualPlanner(
+            packed, packed.goal, lambda op: own[op.cost], bound, deadline, memory, own_unit=True
+        )
         self._weights = weights
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
@@ -328,6 +393,19 @@ class PricedPlanner:
             found = self._alone.key(state)
         else:
             found = self._alone.key(state, self._weights.own_limit(limit))
+        return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
+
+    def canonical(self, state: int) -> OptimalPlan | None:
+        """See :class:`HumanOptimum`."""
+        return self._alone.canonical(state)
+
+    def first_plan(self, state: int) -> tuple[int, ...] | None:
+        """See :class:`HumanOptimum`."""
+        return self._alone.first_plan(state)
+
+    def least(self, state: int) -> int:
+        """See :class:`HumanOptimum`."""
+        found = self._alone.least(state)
         return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
 
     def plans(self, state: int) -> PlanGraph | None:
@@ -343,32 +421,6 @@ def own_memory(packed: PackedTask) -> Memory:
 
 def canonical(alone: HumanOptimum, state: int) -> tuple[int, ...]:
     """The canonical optimal plan (semantics 1) from a packed state that has one."""
-    graph = alone.plans(state)
-    assert graph is not None, "asked for plans where there are none"
-    return graph.canonical()
-
-
-def _edges_into(
-    goals: list[int],
-    expanded: dict[int, list[tuple[int, int, int]]],
-    distance: dict[int, int],
-    deadline: Deadline,
-) -> Edges:
-    tight: dict[int, list[tuple[int, int]]] = {}
-    for state, steps in expanded.items():
-        deadline.tick()
-        for action, after, cost in steps:
-            if distance.get(after) == cost:
-                tight.setdefault(after, []).append((action, state))
-    edges: Edges = {}
-    pending, seen = list(goals), set(goals)
-    while pending:
-        after = pending.pop()
-        for action, state in tight.get(after, ()):
-            edges.setdefault(state, []).append((action, after))
-            if state not in seen:
-                seen.add(state)
-                pending.append(state)
-    for onward in edges.values():
-        onward.sort()
-    return edges
+    plan = alone.canonical(state)
+    assert plan is not None, "asked for plans where there are none"
+    return plan.actions

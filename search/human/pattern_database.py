@@ -11,7 +11,9 @@ its keys.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from itertools import accumulate
+from operator import mul
+from typing import Final, NamedTuple
 
 from search.algorithms.shortest_paths import backward
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_weights
@@ -20,7 +22,10 @@ from search.packed.operators import Signature, set_by
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.resources.deadline import Deadline
 
-_MAX_STATES = 50_000
+_MAX_STATES: Final = 50_000
+
+_FEW_STATES: Final = 5_000
+"""States after which all private fields together are given up, where they could have more than the most."""
 
 Literals = tuple[tuple[int, int], ...]
 """Fields, and values that they must not have."""
@@ -47,6 +52,10 @@ class PatternDatabase:
     def __call__(self, state: int) -> int:
         """Lower bound of the key increment from a packed state; ``INFINITE_KEY`` if none."""
         return self.distances.get(state & self.mask, INFINITE_KEY)
+
+
+NOTHING_KNOWN: Final = PatternDatabase(0, {0: 0})
+"""The bound that is always right."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,21 +115,28 @@ def private_fields(packed: PackedTask) -> list[int]:
 
 
 def human_graph(packed: PackedTask, deadline: Deadline) -> Projected:
-    """The human's graph over all their private fields, or over as many as stay tractable."""
+    """The human's graph over all their private fields, or over as many as stay tractable.
+
+    By how many values they have, that is: which of them can be reached together is tried for all of
+    them only, and not for long.
+    """
     private = private_fields(packed)
     goal_first = sorted(private, key=lambda field: (not field & packed.goal.mask, field))
     weights = own_weights(packed)
     # The cheapest last, so that it stays where forms look alike.
     dearest_first = sorted((*packed.own_forms, *packed.joint_forms), key=lambda form: -form.cost)
     weighed = [(form, weights[form.cost], packed.is_interaction(form)) for form in dearest_first]
-    for count in range(len(private), 0, -1):
-        fields = goal_first[:count]
+
+    def graph(fields: Sequence[int], most: int) -> Projected | None:
         mask = sum(fields)
-        steps = _transitions(fields, weighed, deadline)
-        graph = _explore(mask, packed.init & mask, steps, deadline)
-        if graph is not None:
-            return graph
-    return Projected(0, {0: []}, {0: []})
+        return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)
+
+    sizes = accumulate((len(packed.values(field)) for field in goal_first), mul)
+    tractable = [field for field, size in zip(goal_first, sizes, strict=True) if size <= _MAX_STATES]
+    found = None if tractable == goal_first else graph(goal_first, _FEW_STATES)
+    found = found or graph(tractable, _MAX_STATES)
+    assert found is not None, "there are no more states than values together"
+    return found
 
 
 def _satisfying(graph: Projected, goal: PackedGoal) -> list[int]:
@@ -145,24 +161,30 @@ class Transition(NamedTuple):
     interaction: bool
 
 
-def _explore(mask: int, start: int, steps: OperatorIndex[Transition], deadline: Deadline) -> Projected | None:
-    """What leads from ``start`` to each projected state; None if they are too many."""
+def _explore(
+    mask: int, start: int, steps: OperatorIndex[Transition], most: int, deadline: Deadline
+) -> Projected | None:
+    """What leads from ``start`` to each projected state; None if they are more than ``most``."""
     moves: Predecessors = {start: []}
     interactions: Predecessors = {start: []}
     pending = [start]
     while pending:
         state = pending.pop()
         deadline.tick()
+        edges: dict[int, tuple[int, int]] = {}  # of equal ones, what they lead to keeps the same
         for need_mask, need, keep, put, forbidden, weight, interaction in steps.candidates(state):
             after = state & keep | put
             if state & need_mask != need or after == state or (forbidden and _holds_any(forbidden, state)):
                 continue
             if after not in moves:
-                if len(moves) >= _MAX_STATES:
+                if len(moves) >= most:
                     return None
                 moves[after], interactions[after] = [], []
                 pending.append(after)
-            (interactions if interaction else moves)[after].append((weight, state))
+            edge = edges.get(weight)
+            if edge is None:
+                edge = edges[weight] = weight, state
+            (interactions if interaction else moves)[after].append(edge)
     return Projected(mask, moves, interactions)
 
 

@@ -167,6 +167,17 @@ class Weights:
             weight += self._announced[op.cost] << self.keys.objective_shift
         return weight
 
+    def scaled_cost(self, op: Operator) -> int:
+        """What an op costs the team, communication left out, times the scale."""
+        weight = (self.human if op.agents & self._human_bit else self.robots)[op.cost]
+        return self.keys.scaled_cost(weight)
+
+    def key_of(self, amount: int) -> int:
+        """Key of a scaled cost and a number of actions, put together as by :func:`own_weights`."""
+        cost, keys = amount >> _ACTIONS_BITS, self.keys
+        increment = (cost << keys.cost_shift) + (cost << keys.objective_shift)
+        return increment + ((amount & _ACTIONS) << keys.action_shift)
+
     def of_own(self, costs: Mapping[int, int]) -> dict[int, int]:
         """Key increments of costs in the unit of :func:`own_weights`, by whatever they are listed."""
         per_cost, action = self._per_cost, self.keys.action_shift
@@ -250,8 +261,13 @@ def own_weights(packed: PackedTask) -> list[int]:
     Cost (in the least unit of the task's costs) and number of actions are the two fields of
     an int: what the human prefers alone (semantics 1).  :meth:`Weights.of_own` makes keys of sums.
     """
+    return [(cost << _ACTIONS_BITS) + 1 for cost in own_costs(packed)]
+
+
+def own_costs(packed: PackedTask) -> list[int]:
+    """Undiscounted costs by their index, in the least unit of the task's costs."""
     scale = _own_scale(packed.costs)
-    return [(int(cost * scale) << _ACTIONS_BITS) + 1 for cost in packed.costs]
+    return [int(cost * scale) for cost in packed.costs]
 
 
 def own_actions(cost: int) -> int:

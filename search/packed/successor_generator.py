@@ -6,11 +6,12 @@ of the leader's actions ask for (a position, as a rule).
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from search.packed.operator_index import OperatorIndex
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
+from search.packed.state_cache import StateCache
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import disables
 
@@ -35,6 +36,9 @@ Idle = tuple[int, ...]
 NOTHING = JointAction(0, -1, 0, (), 0)
 """Everybody waits."""
 
+
+MOST_KEPT: Final = 50_000
+"""Options that are kept for states: some 10 MiB, and more than the search for a building asks for."""
 
 _MANY = 1023
 """All ones in binary: sets of actions between two looks at the deadline, less one."""
@@ -98,7 +102,8 @@ class Successors:
         self._own = Lookup(packed.own_index, weight)
         self._joint = Lookup(packed.joint_index, weight) if packed.joint and not idle else None
         self._led = [] if idle else [Lookup(index, weight) for index in packed.robot_indices]
-        self._busy: dict[int, list[JointAction]] = {}
+        self._busy: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
+        self._changing: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
 
     def human(self, state: int) -> list[JointAction]:
         """What the human can do alone in a packed state, cheapest first (not: wait)."""
@@ -116,12 +121,24 @@ class Successors:
             for lookup in self._led:
                 found += list(self._extend(found, lookup.options(state)))
             found.sort(key=lambda option: option.weight)
-            self._busy[state] = found
+            self._busy.keep(state, found, len(found))
         return found
 
     def with_robots(self, first: JointAction, state: int) -> Iterator[JointAction]:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
         return self._combine(first, self.robots(state))
+
+    def with_changers(self, first: JointAction, state: int, fields: int) -> Iterator[JointAction]:
+        """The same, of robots' actions only those that set some of the fields."""
+        found = self._changing.get(state)
+        if found is None:
+            found = [NOTHING]
+            for lookup in self._led:
+                setting = [option for option in lookup.options(state) if ~option.keep & fields]
+                found += list(self._extend(found, setting))
+            found.sort(key=lambda option: option.weight)
+            self._changing.keep(state, found, len(found))
+        return self._combine(first, found)
 
     def beside(
         self, first: JointAction, state: int, idle: Idle, promising: Callable[[JointAction], bool]
@@ -146,13 +163,24 @@ class Successors:
         """
         return ()
 
+    def groups(self, state: int) -> list[list[JointAction]]:
+        """Applicable actions by who leads them: the human, alone or jointly, then each robot."""
+        return [[*self.human(state), *self.joint(state)], *(lookup.options(state) for lookup in self._led)]
+
+    def beside_others(self, chosen: JointAction, option: JointAction) -> JointAction | None:
+        """A set with one more action (or none); None where it does not fit."""
+        if not option.actions:
+            return chosen
+        if chosen.agents & option.agents or not self._fits(option, chosen):
+            return None
+        return together(chosen, option)
+
     def in_turn(self, state: int) -> Iterator[tuple[JointAction, JointAction]]:
         """What can happen next where epochs don't count: one action, or a set that needs one epoch.
 
         The human's part comes first, then the whole.
         """
-        groups = [[*self.human(state), *self.joint(state)]]
-        groups += [lookup.options(state) for lookup in self._led]
+        groups = self.groups(state)
         for part in groups[0]:
             yield part, part
         for option in chain.from_iterable(groups[1:]):

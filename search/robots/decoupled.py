@@ -19,7 +19,8 @@ from search.engine.best_first import Node
 from search.packed.operator_index import LiteralIndex
 from search.packed.operators import Operator, Signature
 from search.packed.packed_task import PackedTask
-from search.packed.successor_generator import Idle, JointAction, Successors, in_time, together
+from search.packed.state_cache import StateCache
+from search.packed.successor_generator import MOST_KEPT, Idle, JointAction, Successors, in_time, together
 from search.robots.transition_graphs import PositionVariables
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.plans import Step
@@ -226,7 +227,8 @@ class DecoupledSuccessors(Successors):
         self._walks = walks
         self._weight = weight
         self._step = walks.weights(weight)
-        self._possible: dict[int, tuple[list[JointAction], list[list[JointAction]]]] = {}
+        self._possible: StateCache[tuple[list[JointAction], list[list[JointAction]]]] = StateCache(MOST_KEPT)
+        self._rests: dict[Idle, Idle] = {}  # of equal ones, nodes keep the same
         self._latest: tuple[int, Idle, list[list[JointAction]]] = (-1, (), [])
 
     def joint(self, state: int) -> list[JointAction]:
@@ -259,10 +261,11 @@ class DecoupledSuccessors(Successors):
         """See :class:`Successors`."""
         busy = {slot for slot, _ in option.due}
         walks = self._walks
-        return tuple(
+        rests = tuple(
             0 if slot in busy else min(epochs + 1, walks.farthest(slot, state & walks.fields[slot]))
             for slot, epochs in enumerate(idle)
         )
+        return self._rests.setdefault(rests, rests)
 
     def _in_time(self, state: int, idle: Idle) -> list[list[JointAction]]:
         """Deeds to which the robots that lead them can have walked by now."""
@@ -275,7 +278,8 @@ class DecoupledSuccessors(Successors):
         found = self._possible.get(state)
         if found is None:
             led = [self._options(index, state) for index in self._walks.led]
-            found = self._possible[state] = self._options(self._walks.joint, state), led
+            found = self._options(self._walks.joint, state), led
+            self._possible.keep(state, found, len(found[0]) + sum(map(len, led)))
         return found
 
     def _options(self, index: CenterActionIndex, state: int) -> list[JointAction]:

@@ -6,7 +6,7 @@ from fractions import Fraction
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
-from search.planner import optimal_human_plans
+from search.planner import canonical_human_plan
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
 from search.simulation.space import Reactive
@@ -47,11 +47,11 @@ def solve_for_human(
     """
     task, deadline = prepared.task, deadline or Deadline(options.time_limit)
     try:
-        predicted = optimal_human_plans(prepared, deadline) if human_plan is None else None
+        predicted = canonical_human_plan(prepared, deadline) if human_plan is None else None
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit))
         return
-    plan = human_plan if predicted is None else predicted.canonical()
+    plan = human_plan if predicted is None else predicted
     if plan is None:
         yield Answer("infeasible", reason="no-human-plan")
         return

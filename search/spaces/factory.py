@@ -6,15 +6,23 @@ from dataclasses import dataclass
 from search.context import SearchContext
 from search.engine.dominance import ParetoFront
 from search.heuristics.achievers import Achievers, Provided
-from search.heuristics.first_interaction import Bounds, FirstInteraction, Timed, no_bound, survivors
+from search.heuristics.first_interaction import (
+    Bounds,
+    FirstInteraction,
+    Timed,
+    no_bound,
+    no_team_bound,
+    survivors,
+)
 from search.heuristics.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
 from search.heuristics.private_distances import NEVER, Corridor
+from search.human.pattern_database import NOTHING_KNOWN
 from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.operators import Operator
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction
-from search.spaces.windowed import AnyOfPlan, Prefix, Timetable, Windowed
+from search.spaces.windowed import AnyOfPlan, Followed, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
 from serendipity.model.task.task import HumanPlan
 
@@ -33,12 +41,19 @@ def window_space(
         idle: robots do nothing.
     """
     options = context.options
-    walks = None if idle else context.walks(plan)
+    team = context.team_bound
+    is_private = team is no_team_bound
+    walks = None if idle or not is_private else context.walks(plan)
     successors = context.successors(idle=idle) if walks is None else context.folded(walks)
     prefix: Prefix
+    private, steps = (context.bound, context.steps) if is_private else (NOTHING_KNOWN, NOTHING_KNOWN)
+    touches = context.interactions if is_private else None
     if options.keep_prefix:
         untouched: Timed = no_bound
-        prefix = AnyOfPlan(successors, context.task, plan, context.bound, context.keys, horizon)
+        prefix = AnyOfPlan(successors, context.task, plan, private, context.keys, horizon)
+    elif not is_private:
+        untouched = no_bound
+        prefix = Followed(context.followed(plan), private, context.keys, horizon)
     else:
         keys = context.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
@@ -53,10 +68,11 @@ def window_space(
         most_cost=most_cost,
         keys=context.keys,
         successors=successors,
-        bounds=Bounds(context.bound, context.steps, untouched, context.interactions),
+        bounds=Bounds(private, steps, untouched, touches, team),
         prefix=prefix,
         suffix=suffix_rule(context, plan),
         labels=ParetoFront(no_worse(context.keys, options, most_cost)),
+        relevant=context.relevant,
     )
 
 
@@ -234,7 +250,10 @@ def _reach(context: SearchContext, horizon: int, limit: int) -> int:
 def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle: bool) -> Bounds:
     """Bounds where the human is free from the start."""
     untouched: Timed = no_bound
+    team = context.team_bound
     last = NEVER if horizon is None else horizon
+    if team is not no_team_bound:
+        return Bounds(NOTHING_KNOWN, NOTHING_KNOWN, untouched, None, team)
     if not idle:
         ways = context.ways
         providers = _achievers(context, context.weights.robots, ())
@@ -257,7 +276,7 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
             provided = providers.provided(paying, last, slack, latest)
             needs = [(need, provided[need], total(need, costs[need])) for need in paying]
             untouched = FirstInteraction(context.bound, ways, needs, last)
-    return Bounds(context.bound, context.steps, untouched, context.interactions)
+    return Bounds(context.bound, context.steps, untouched, context.interactions, team)
 
 
 def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:

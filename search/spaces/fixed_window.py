@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.heuristics.first_interaction import Bounds, Choice, no_bound
+from search.heuristics.first_interaction import Bounds, Choice, no_bound, no_team_bound
 from search.heuristics.prefix_bounds import FirstInteractionOnTheWay
 from search.human.suffix_rules import Suffix
 from search.packed.operators import Operator, applicable
@@ -46,7 +46,7 @@ class Weighed:
         along = bounds_along(context, plan, horizon, limit, opened, robots, idle=False)
         self.on_the_way: FirstInteractionOnTheWay = along.on_the_way
         self._helped = along.off_plan
-        self.bounds = Bounds(context.bound, context.steps, no_bound, context.interactions)
+        self.bounds = Bounds(context.bound, context.steps, no_bound, context.interactions, no_team_bound)
         self._choices: dict[int, list[Choice]] = {}
 
     def untouched(self, epoch: int, state: int, until: int) -> int:

@@ -76,8 +76,9 @@ class Unrestricted:
             touched = node.phase == TOUCHED or bounds.interactions(part.actions)
             if not touched:
                 bound = max(bound, key + bounds.untouched(epoch, after, key))
-                if bound >= best.key:
-                    continue
+            bound = max(bound, key + bounds.team(after))
+            if bound >= best.key:
+                continue
             if self._labels.add(after, epoch, key):
                 child = Node(key, epoch, after, TOUCHED if touched else UNTOUCHED, 0, node, option.actions)
                 if not self._offer(child, best):

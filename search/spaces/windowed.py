@@ -97,6 +97,32 @@ class Unscheduled:
         return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
 
 
+class Followed(Unscheduled):
+    """Rule 1 as in :class:`Timetable`, for tasks in which the team's bound says more.
+
+    Args:
+        steps: the human's packed actions and what they do, in order.
+        bound: their private distances to the goal.
+        keys: layout of keys.
+        horizon: number of epochs.
+    """
+
+    def __init__(
+        self,
+        steps: list[tuple[Operator, JointAction]],
+        bound: PatternDatabase,
+        keys: CostLayout,
+        horizon: int,
+    ) -> None:
+        super().__init__(len(steps), bound, keys, horizon)
+        self._steps = steps
+
+    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
+        """See :class:`Prefix`."""
+        op, option = self._steps[epoch - 1]
+        return (option,) if applicable(op, state) else ()
+
+
 class AnyOfPlan(Unscheduled):
     """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (semantics 3.4)."""
 
@@ -151,6 +177,8 @@ class Windowed:
         prefix: rule 1.
         suffix: rule 3.
         labels: dominance among nodes of the window.
+        relevant: the fields that matter to the human alone, and to goals: what robots do in the last epoch
+            of a window changes one of them, or it is in vain.
     """
 
     def __init__(
@@ -167,7 +195,9 @@ class Windowed:
         prefix: Prefix,
         suffix: Suffix,
         labels: ParetoFront,
+        relevant: int,
     ) -> None:
+        self._relevant = relevant
         self._initial = initial
         self._idle = idle
         self._horizon = horizon
@@ -207,6 +237,7 @@ class Windowed:
         start = node.epoch + 1
         key = node.key + self._keys.of_start(start, self._horizon)
         bound = node.key + self._prefix.opening(node.epoch, node.state, node.idle)
+        bound = max(bound, key + self._keys.epoch_weight + self._bounds.team(node.state))
         if not self._keys.exceeds(bound, self._most_cost) and self._labels.add(
             node.state, node.epoch, key, node.idle
         ):
@@ -228,7 +259,8 @@ class Windowed:
                 bound = key + self._prefix.bound(epoch, state, idle)
                 if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
                     continue
-                if self._followed.add((epoch, state), epoch, key, idle):
+                bound = max(bound, key + self._keys.epoch_weight + self._bounds.team(state))
+                if bound < best.key and self._followed.add((epoch, state), epoch, key, idle):
                     yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions, idle)
 
     def _inside(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
@@ -237,12 +269,15 @@ class Windowed:
             return
         successors, state = self._successors, node.state
         sooner = _sooner(node.idle)
-        for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+        is_last = not node.idle and not self._goes_on_from(node, best)
+        for part in (*successors.human(state), *successors.joint(state), NOTHING):
             judged = self._judge(node, part, best)
             if judged is None:
                 continue
             promising = partial(self._promising, judged, sooner, best)
-            for option in successors.beside(part, state, node.idle, promising):
+            every = successors.beside(part, state, node.idle, promising)
+            sets = successors.with_changers(part, state, self._relevant) if is_last else every
+            for option in sets:
                 bound = judged.spent + option.weight + judged.rest
                 if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
                     break
@@ -284,14 +319,21 @@ class Windowed:
         """Least key of a plan that goes on with an option; ``idle``: how long robots have been, after it."""
         node, spent, rest, touched = judged
         key = spent + option.weight
+        after = node.state & option.keep | option.put
+        rest = max(rest, self._bounds.team(after))
         if touched:
             return key + rest
-        after = node.state & option.keep | option.put
         return key + max(rest, self._bounds.untouched(node.epoch + 1, after, key, idle))
 
     def _promising(self, judged: _Judged, sooner: Idle, best: Incumbent, option: JointAction) -> bool:
         """Whether the human's part and what one robot does may still pay."""
         return self._least(judged, option, sooner) < best.key
+
+    def _goes_on_from(self, node: Node, best: Incumbent) -> bool:
+        """Whether the window may have two more epochs than it has at a node, and still pay."""
+        if node.epoch + 1 >= self._horizon or node.epoch - node.start + 2 >= self._max_window:
+            return False
+        return node.key + 2 * self._keys.epoch_weight + self._bounds.private(node.state) < best.key
 
     def _goes_on(self, child: Node, bound: int, best: Incumbent) -> bool:
         """Whether the window may have another epoch, and a plan with it may still pay."""

@@ -12,12 +12,13 @@ import serendipity
 from search import PreparedTask, least_over_ties, optimal_human_plans, solve
 from serendipity import UsageError
 from serendipity.facade.ties import combined, until_settled
-from serendipity.model import Condition, Task, Window
+from serendipity.model import Condition, Options, Task, Window
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.deadline import Deadline
 from tests.support.builders import task as build
 from tests.support.builders import usar
 from tests.support.cases import case_4
+from tests.support.oracle import best
 from tests.support.strategies import Call, calls
 
 
@@ -257,3 +258,15 @@ def test_where_doing_nothing_is_no_answer_a_human_who_replans_is_helped(ties: st
     answer = serendipity.plan(task, human_model="observant", ties=ties)
     assert (answer.status, answer.opportunity, answer.saving) == ("optimal", True, None)
     assert serendipity.verify(task, answer).verdict == "proved"
+
+
+def test_composite_mode_counts_savings_from_the_canonical_plan() -> None:
+    """Brute force took the mean over both: only beside the canonical one has the robot time for its goal."""
+    task = build(
+        goal="a b",
+        robot_goal="c",
+        actions={"one h": "-> a", "two h": "-> b", "see r": "a -> c @ 1", "both h r": "-> a b @ 0.5"},
+    )
+    options = Options(mode="composite", ties="expected")
+    answer, optimum = serendipity.plan(task, mode="composite", ties="expected"), best(task, options)
+    assert (answer.cost, answer.saving) == (optimum.cost, optimum.saving) == (1.5, 1.5)

@@ -13,7 +13,7 @@ from serendipity.facade.planning import plan
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from tests.support.builders import task, usar
-from tests.support.strategies import strips_tasks, tasks
+from tests.support.strategies import family_tasks, strips_tasks, tasks
 
 _DISCOUNTED = Options(mode="composite", discount="0.9", horizon="inf")  # type: ignore[arg-type]
 
@@ -96,7 +96,7 @@ def test_bound_holds_where_kits_are_passed_on(number: int, over: int | None) -> 
 
 @pytest.mark.parametrize("discount", ["0", "0.9", "1"])
 def test_bound_holds_on_random_tasks(discount: str) -> None:
-    @given(tasks() | strips_tasks())
+    @given(tasks() | strips_tasks() | family_tasks())
     def law(task: Task) -> None:
         options = _DISCOUNTED.but(discount=discount)
         for over in (None, 1):

@@ -5,11 +5,12 @@ from fractions import Fraction
 
 import pytest
 from hypothesis import given
+from hypothesis.strategies import SearchStrategy
 
 import serendipity
-from serendipity import Result, UsageError
+from serendipity import Result, Task, UsageError
 from tests.support.oracle import Optimum, best
-from tests.support.strategies import Call, calls
+from tests.support.strategies import Call, calls, family_tasks, tasks
 
 
 def _answer(call: Call) -> Result | str:
@@ -59,9 +60,10 @@ def _rounded(value: Fraction | None) -> Fraction | None:
     return None if value is None else Fraction(str(float(value)))
 
 
+@pytest.mark.parametrize("of", [tasks, family_tasks])
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite", "individual"])
-def test_search_equals_brute_force(mode: str) -> None:
-    @given(calls(modes=(mode,)))
+def test_search_equals_brute_force(mode: str, of: Callable[[], SearchStrategy[Task]]) -> None:
+    @given(calls(modes=(mode,), of=of()))
     def law(call: Call) -> None:
         result, optimum = _answer(call), _expected(call)
         if isinstance(result, str) or isinstance(optimum, str):

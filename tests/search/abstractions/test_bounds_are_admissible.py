@@ -16,7 +16,7 @@ from search.packed.successor_generator import Lookup
 from serendipity import Task, plan
 from serendipity.model.resources.deadline import Deadline
 from tests.support.builders import task as build
-from tests.support.strategies import tasks
+from tests.support.strategies import family_tasks, tasks
 
 
 def packed_of(task: Task) -> PackedTask:
@@ -47,7 +47,7 @@ def exact(packed: PackedTask) -> dict[int, int]:
     return found
 
 
-@given(tasks())
+@given(tasks() | family_tasks())
 def test_bounds_never_exceed_and_are_consistent(task: Task) -> None:
     packed = packed_of(task)
     weights, costs = own_weights(packed), exact(packed)
@@ -62,7 +62,7 @@ def test_bounds_never_exceed_and_are_consistent(task: Task) -> None:
                 assert bound(state) <= weights[op.cost] + bound(state & op.keep | op.put)
 
 
-@given(tasks())
+@given(tasks() | family_tasks())
 def test_what_the_relaxation_can_not_reach_is_out_of_reach(task: Task) -> None:
     packed = packed_of(task)
     for state, cost in exact(packed).items():
@@ -70,7 +70,7 @@ def test_what_the_relaxation_can_not_reach_is_out_of_reach(task: Task) -> None:
             assert cost >= INFINITE_KEY
 
 
-@given(tasks())
+@given(tasks() | family_tasks())
 def test_refining_at_once_changes_no_answer(task: Task) -> None:
     expected = plan(task, mode="individual")
     with pytest.MonkeyPatch.context() as patch:

@@ -40,3 +40,11 @@ def test_what_is_added_to_the_level_in_hand_comes_next() -> None:
                 queue.push(2, "c")
                 queue.push(1, "b")
     assert met == [(1, "a"), (1, "b"), (2, "c"), (3, "d")]
+
+
+@given(items=st.lists(st.integers(0, 5), min_size=1))
+def test_of_equal_distances_the_latest_comes_first(items: list[int]) -> None:
+    queue = LevelQueue(((distance, number) for number, distance in enumerate(items)))
+    order = sorted(range(len(items)), key=lambda number: (items[number], -number))
+    assert [queue.pop_latest() for _ in items] == order
+    assert queue.least is None

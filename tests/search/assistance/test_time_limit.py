@@ -82,3 +82,15 @@ def test_relaxed_bounds_enclose_the_optimum(case) -> None:
     optimum = by_rounds(explore(case(), fixed=False, no_block=False), min)
     assert game.pair(joint_lower_bound(game, Deadline())) <= optimum
     assert game.pair(upper_bound_alone(game)) >= (2, 0)
+
+
+def test_a_goal_out_of_reach_has_no_bound() -> None:
+    """The bound on it was taken for a cost, and was too large to be written down."""
+    steps = {f"do{i} h": f"-> f{i}" for i in range(6)} | {"help r": "-> f0"}
+    game = task(goal="never", actions={**steps, "give up h": "never -> f1"})
+    statuses = set()
+    for looks in range(300):
+        answer = serendipity.plan(game, mode="assistance", deadline=Countdown(looks, once=True))
+        assert answer.cost is None
+        statuses.add((answer.status, answer.reason, answer.lower_bound))
+    assert statuses == {("unknown", "time-limit", 0.0), ("infeasible", "no-plan", None)}

@@ -1,0 +1,112 @@
+"""Sets of actions that need one epoch: each disables another of them, in a circle (semantics 2).
+
+Where epochs don't count, every other set of actions can be done one after another.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
+from serendipity.model.resources.deadline import Deadline
+
+_MOST: Final = 20_000
+"""Steps of the search for circles."""
+
+_MOST_PAIRS: Final = 5_000_000
+"""Pairs that it may start from."""
+
+
+class TooManyError(Exception):
+    """There may be more circles than can be listed."""
+
+
+def circles(
+    packed: PackedTask, operators: Sequence[Operator], deadline: Deadline
+) -> Iterator[tuple[Operator, ...]]:
+    """Every circle of operators that some state may allow.
+
+    Args:
+        packed: the packed task.
+        operators: what may be done.
+        deadline: polled.
+
+    Raises:
+        TooManyError: they are too many to be looked for.
+    """
+    disabled = _disabled(packed, operators, deadline)
+    steps = 0
+    for first in sorted(disabled):
+        ways: list[tuple[int, ...]] = [(first,)]
+        while ways:
+            deadline.tick()
+            steps += 1
+            if steps > _MOST:
+                raise TooManyError
+            way = ways.pop()
+            for after in disabled.get(way[-1], ()):
+                if after == first and len(way) > 1:
+                    yield tuple(operators[i] for i in way)
+                elif after > first and after not in way and _fits(packed, operators, way, after):
+                    ways.append((*way, after))
+
+
+Asking = dict[tuple[int, int], dict[int, list[int]]]
+"""Operators that ask for a field's value, by field and value, and by their agents."""
+
+
+def _disabled(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> dict[int, list[int]]:
+    """Per operator those of others that it may disable and share an epoch with."""
+    needing, forbidding = _asking(packed, operators, deadline)
+    found: dict[int, list[int]] = {}
+    pairs = 0
+    for number, op in enumerate(operators):
+        deadline.tick()
+        for field in packed.fields:
+            if not field & ~op.keep:
+                continue
+            put = op.put & field
+            asked = [op.need & field] if op.need_mask & field else packed.values(field)
+            groups = [needing.get((field, value), {}) for value in asked if value != put]
+            groups.append(forbidding.get((field, put), {}))
+            for group in groups:
+                for agents, others in group.items():
+                    if agents & op.agents:
+                        continue
+                    for other in others:
+                        deadline.tick()
+                        pairs += 1
+                        if pairs > _MOST_PAIRS:
+                            raise TooManyError
+                        if _fits(packed, operators, (number,), other):
+                            found.setdefault(number, []).append(other)
+    return found
+
+
+def _asking(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> tuple[Asking, Asking]:
+    """Who needs what, and who must not have it."""
+    needing: Asking = {}
+    forbidding: Asking = {}
+    for number, op in enumerate(operators):
+        deadline.tick()
+        for field in packed.fields:
+            # Two may both make true what both need to be false: adding a fact twice is no conflict.
+            if op.need_mask & field and (op.keep & field or not op.need & field):
+                by_agents = needing.setdefault((field, op.need & field), {})
+                by_agents.setdefault(op.agents, []).append(number)
+        for field, value in op.forbidden:
+            forbidding.setdefault((field, value), {}).setdefault(op.agents, []).append(number)
+    return needing, forbidding
+
+
+def _fits(packed: PackedTask, operators: Sequence[Operator], way: tuple[int, ...], after: int) -> bool:
+    """Whether an operator may share an epoch with others, as far as can be told without a state."""
+    op = operators[after]
+    for number in way:
+        other = operators[number]
+        both = op.need_mask & other.need_mask
+        if op.agents & other.agents or op.need & both != other.need & both:
+            return False
+        if not packed.compatible(other.action, op.action, strict=False):
+            return False
+    return True

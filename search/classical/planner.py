@@ -1,0 +1,284 @@
+"""The kernel on one classical problem: optimal costs, lower bounds, a first plan.
+
+What it learns of states serves later questions: exact costs along plans, and of every state that was
+expanded that it costs no less than what was left then (Koenig and Likhachev 2005).  It begins with LM-cut
+alone; tables of projections follow once a question turns out to be worth them.
+"""
+
+import ctypes
+from array import array
+from collections.abc import Callable, Iterator, Sequence
+from ctypes import c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
+from typing import Final
+
+from search.abstractions.patterns import Field, patterns
+from search.classical.problem import NO_PLAN, ClassicalProblem
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
+
+_SLICE: Final = 0.004
+"""Seconds between two looks at the deadline."""
+
+_ROOM: Final = 1 << 24
+"""Bytes that may be allocated before memory is asked for again."""
+
+_MANY: Final = 2_000
+"""Evaluations after which tables are worth their time."""
+
+_SHARE: Final = 0.25
+"""What of the time that is left they may take."""
+
+_MOST_STATES: Final = 10_000
+_MOST_TRANSITIONS: Final = 3_000_000
+_MOST_ORDERS: Final = 10
+_SAMPLES: Final = 50
+
+_RUNNING, _FOUND, _NOT_BELOW, _HOPELESS, _MEMORY = range(5)
+
+
+class _Spec(ctypes.Structure):
+    _fields_ = (
+        *(
+            (name, c_int32)
+            for name in ("words", "n_ops", "n_fields", "n_facts", "n_forbidden", "n_goal_forbidden")
+        ),
+        *((name, c_char_p) for name in ("need_mask", "need", "keep", "put")),
+        ("forbidding", c_void_p),
+        ("forbidden", c_char_p),
+        ("weight", c_void_p),
+        ("fields", c_void_p),
+        *((name, c_char_p) for name in ("goal_mask", "goal", "goal_forbidden")),
+    )
+
+
+_SIGNATURES: Final = {
+    "planner_new": (c_void_p, [c_void_p]),
+    "planner_free": (None, [c_void_p]),
+    "planner_begin": (c_int, [c_void_p, c_char_p, c_int64, c_size_t]),
+    "planner_run": (c_int, [c_void_p, c_double, c_size_t]),
+    "planner_begin_greedy": (c_int, [c_void_p, c_char_p, c_size_t]),
+    "planner_run_greedy": (c_int, [c_void_p, c_double, c_size_t]),
+    "planner_bound": (c_int64, [c_void_p, c_char_p, c_size_t]),
+    "planner_least": (c_int64, [c_void_p]),
+    "planner_wanted": (c_size_t, [c_void_p]),
+    "planner_counts": (None, [c_void_p, c_void_p]),
+    "planner_way": (c_int32, [c_void_p, c_int, c_void_p, c_int32]),
+    "planner_pattern": (c_int64, [c_void_p, c_void_p, c_int32, c_int64]),
+    "planner_samples": (c_int, [c_void_p, c_int32]),
+    "planner_order": (c_int, [c_void_p, c_int32]),
+}
+
+
+class ClassicalPlanner:
+    """What the kernel knows of one problem.
+
+    Args:
+        library: the compiled kernel.
+        problem: what it is about.
+        deadline: asked for memory.
+
+    Attributes:
+        problem: what it is about.
+
+    Raises:
+        LimitReachedError: there is not enough memory.
+    """
+
+    def __init__(self, library: ctypes.CDLL, problem: ClassicalProblem, deadline: Deadline) -> None:
+        for name, (result, arguments) in _SIGNATURES.items():
+            function = getattr(library, name)
+            function.restype, function.argtypes = result, arguments
+        self.problem = problem
+        self._kernel = library
+        self._mask = problem.mask
+        self._size = 8 * max(1, -(-self._mask.bit_length() // 64))
+        deadline.require(20 * self._size * len(problem.operators))
+        self._data = self._spec()
+        self._planner: int | None = None
+        self._start()
+
+    def __del__(self) -> None:
+        if getattr(self, "_planner", None):
+            self._kernel.planner_free(self._planner)
+
+    def _start(self) -> None:
+        if self._planner:
+            self._kernel.planner_free(self._planner)
+        self._planner = self._kernel.planner_new(ctypes.byref(self._data))
+        if not self._planner:
+            raise LimitReachedError("memory-limit")
+        self._tables = self._met = False
+
+    def _spec(self) -> _Spec:
+        problem, goal = self.problem, self.problem.goal
+        operators, full = problem.operators, (1 << 8 * self._size) - 1
+        literals = [(number, pair) for number, op in enumerate(operators) for pair in op.forbidden]
+        shapes, facts = array("i"), 0
+        for field, values in problem.fields:
+            shapes.extend(((field & -field).bit_length() - 1, field.bit_count(), facts))
+            facts += values
+        forbidding = array("i", [number for number, _ in literals])
+        weights = array("q", problem.weights)
+        self._held = shapes, forbidding, weights  # by address below
+        return _Spec(
+            *(self._size // 8, len(operators), len(problem.fields), facts, len(literals)),
+            len(goal.forbidden),
+            self._rows(op.need_mask for op in operators),
+            self._rows(op.need for op in operators),
+            self._rows(op.keep & full for op in operators),
+            self._rows(op.put & self._mask for op in operators),
+            forbidding.buffer_info()[0],
+            self._rows(word for _, pair in literals for word in pair),
+            weights.buffer_info()[0],
+            shapes.buffer_info()[0],
+            self._rows([goal.need_mask]),
+            self._rows([goal.need]),
+            self._rows(word for pair in goal.forbidden for word in pair),
+        )
+
+    def _rows(self, numbers: "Iterator[int] | Sequence[int]") -> bytes:
+        return b"".join([number.to_bytes(self._size, "little") for number in numbers])
+
+    def _row(self, state: int) -> bytes:
+        return (state & self._mask).to_bytes(self._size, "little")
+
+    # -- questions
+
+    def cheapest(
+        self,
+        state: int,
+        deadline: Deadline,
+        limit: int = NO_PLAN,
+        on_bound: Callable[[int], None] | None = None,
+    ) -> int:
+        """The amount of a cheapest plan from a packed state; any value from ``limit`` on means "not below".
+
+        Args:
+            state: the packed state.
+            deadline: polled.
+            limit: what is dearer does not matter.
+            on_bound: told now and then what no plan is cheaper than.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        kernel, planner = self._kernel, self._planner
+        row, most = self._row(state), self.problem.limit(limit)
+        self._met = True
+        self._allowed(lambda room: kernel.planner_begin(planner, row, most, room), deadline)
+        while self._allowed(lambda room: kernel.planner_run(planner, _SLICE, room), deadline) == _RUNNING:
+            deadline.check()
+            if on_bound is not None:
+                on_bound(self.least)
+            if not self._tables and self.counts()[2] >= _MANY:
+                self._make_tables(deadline)
+        return self.least
+
+    @property
+    def least(self) -> int:
+        """The amount that no plan from the state of the last :meth:`cheapest` is below, finished or not."""
+        return self.problem.amount(self._kernel.planner_least(self._planner))
+
+    def bound(self, state: int, deadline: Deadline) -> int:
+        """An amount that no plan from a packed state is below; ``NO_PLAN`` where it shows that there is none.
+
+        Raises:
+            LimitReachedError: there is not enough memory.
+        """
+        kernel, planner, row = self._kernel, self._planner, self._row(state)
+        self._met = True
+        found = kernel.planner_bound(planner, row, _ROOM)
+        if found < 0:
+            deadline.require(kernel.planner_wanted(planner))
+            found = kernel.planner_bound(planner, row, kernel.planner_wanted(planner))
+        return self.problem.amount(found)
+
+    def first_plan(self, state: int, deadline: Deadline) -> list[int] | None:
+        """Some plan from a packed state, by numbers of operators, or None where there is none.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        kernel, planner, row = self._kernel, self._planner, self._row(state)
+        self._allowed(lambda room: kernel.planner_begin_greedy(planner, row, room), deadline)
+        outcome = _RUNNING
+        while outcome == _RUNNING:
+            deadline.check()
+            outcome = self._allowed(lambda room: kernel.planner_run_greedy(planner, _SLICE, room), deadline)
+        return self._way(greedy=True) if outcome == _FOUND else None
+
+    def cheapest_plan(
+        self, state: int, deadline: Deadline, on_bound: Callable[[int], None] | None = None
+    ) -> list[int] | None:
+        """A cheapest plan from a packed state, by numbers of operators, or None where there is none.
+
+        Which of several does not depend on what was asked before: all that was learnt is forgotten.
+
+        Args:
+            state: the packed state.
+            deadline: polled.
+            on_bound: as for :meth:`cheapest`.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        if self._met:
+            self._start()
+        if self.cheapest(state, deadline, on_bound=on_bound) >= NO_PLAN:
+            return None
+        return self._way(greedy=False)
+
+    def counts(self) -> tuple[int, int, int]:
+        """How many states were expanded, generated and evaluated so far."""
+        found = array("q", (0, 0, 0))
+        self._kernel.planner_counts(self._planner, found.buffer_info()[0])
+        return found[0], found[1], found[2]
+
+    def _way(self, *, greedy: bool) -> list[int]:
+        length = self._kernel.planner_way(self._planner, greedy, None, 0)
+        numbers = array("i", bytes(4 * max(length, 1)))
+        self._kernel.planner_way(self._planner, greedy, numbers.buffer_info()[0], length)
+        return list(reversed(numbers[:length]))
+
+    def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
+        """Call the kernel, with as much memory as it wants if there is that much."""
+        outcome = call(_ROOM)
+        while outcome == _MEMORY:
+            wanted = self._kernel.planner_wanted(self._planner)
+            deadline.require(wanted)
+            outcome = call(wanted)
+        return outcome
+
+    # -- tables
+
+    def _make_tables(self, deadline: Deadline) -> None:
+        """Projections that add up, as many as there is time for."""
+        self._tables = True
+        kernel, planner = self._kernel, self._planner
+        left = deadline.left()
+        part = deadline if left is None else deadline.within(left * _SHARE)
+        room, made = _MOST_TRANSITIONS, 0
+        try:
+            for pattern in self._patterns():
+                part.check()
+                part.require(_MOST_TRANSITIONS)
+                numbers = array("i", pattern)
+                taken = kernel.planner_pattern(planner, numbers.buffer_info()[0], len(pattern), room)
+                if taken >= 0:
+                    room, made = room - taken, made + 1
+            if made and (samples := kernel.planner_samples(planner, _SAMPLES)) > 0:
+                orders = 0
+                for sample in range(samples):
+                    part.check()
+                    orders += max(0, kernel.planner_order(planner, sample))
+                    if orders >= _MOST_ORDERS:
+                        break
+        except LimitReachedError:
+            deadline.check()
+
+    def _patterns(self) -> Iterator[list[int]]:
+        problem = self.problem
+        fields = [Field(field, (field & -field).bit_length() - 1, values) for field, values in problem.fields]
+        places = {field: place for place, field in enumerate(fields)}
+        chosen = patterns(fields, problem.operators, problem.goal, _MOST_STATES)
+        return ([places[field] for field in pattern] for pattern in chosen)

@@ -1,0 +1,104 @@
+"""What all agents do together where epochs don't count, as the kernel's problem."""
+
+from collections.abc import Callable
+from functools import reduce
+
+from search.classical.circles import TooManyError, circles
+from search.classical.planner import ClassicalPlanner
+from search.classical.problem import classical_problem
+from search.kernel.library import library
+from search.packed.cost_vector import Weights
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedGoal, PackedTask
+from serendipity.model.resources.deadline import Deadline
+
+Sets = list[tuple[int, ...]]
+"""Sets of actions, one after another."""
+
+
+class Team:
+    """The cheapest plans of the team, from any state, as long as all agents may do what they like.
+
+    Args:
+        planner: the kernel on the team's problem.
+        actions: per operator of the problem its actions.
+
+    Attributes:
+        planner: the same.
+    """
+
+    def __init__(self, planner: ClassicalPlanner, actions: list[tuple[int, ...]]) -> None:
+        self.planner = planner
+        self._actions = actions
+
+    def first_plan(self, state: int, deadline: Deadline) -> Sets | None:
+        """Some plan from a packed state, as sets of actions; None where there is none.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        return self._sets(self.planner.first_plan(state, deadline))
+
+    def best_plan(
+        self, state: int, deadline: Deadline, on_bound: Callable[[int], None] | None = None
+    ) -> Sets | None:
+        """A cheapest one.
+
+        Args:
+            state: the packed state.
+            deadline: polled.
+            on_bound: told now and then what no plan is cheaper than.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        return self._sets(self.planner.cheapest_plan(state, deadline, on_bound))
+
+    def _sets(self, numbers: list[int] | None) -> Sets | None:
+        return None if numbers is None else [self._actions[number] for number in numbers]
+
+
+def team_planner(
+    packed: PackedTask, goal: PackedGoal, weights: Weights, deadline: Deadline, *, strict: bool
+) -> Team | None:
+    """The team's problem in the kernel; None without a kernel that could.
+
+    Amounts are in the unit of :meth:`.Weights.key_of`.
+
+    Args:
+        packed: the packed task.
+        goal: what has to hold at the end.
+        weights: what actions cost the team; communication is left out.
+        deadline: polled.
+        strict: strict interference, which keeps apart what could be in a circle.
+    """
+    kernel = library()
+    if kernel is None:
+        return None
+    operators = [*packed.own, *packed.joint, *packed.others]
+    try:
+        together = [] if strict else list(circles(packed, operators, deadline))
+    except TooManyError:
+        return None
+    costs = [weights.scaled_cost(op) for op in operators]
+    cost = dict(zip(operators, costs, strict=True))
+    costs += [sum(map(cost.__getitem__, circle)) for circle in together]
+    actions: list[tuple[int, ...]] = [(op.action,) for op in operators]
+    actions += [tuple(op.action for op in circle) for circle in together]
+    operators += [reduce(_both, circle) for circle in together]
+    fields = [(field, len(packed.values(field))) for field in packed.fields]
+    problem = classical_problem(fields, operators, costs, goal)
+    return None if problem is None else Team(ClassicalPlanner(kernel, problem, deadline), actions)
+
+
+def _both(a: Operator, b: Operator) -> Operator:
+    return Operator(
+        a.need_mask | b.need_mask,
+        a.need | b.need,
+        a.keep & b.keep,
+        a.put | b.put,
+        (*a.forbidden, *b.forbidden),
+        a.action,
+        a.agents | b.agents,
+        a.cost,
+    )

@@ -1,0 +1,109 @@
+"""All optimal plans of the human alone, as a graph."""
+
+from collections.abc import Iterator
+
+from serendipity.model.resources.deadline import Deadline
+
+Edges = dict[int, list[tuple[int, int]]]
+"""Per state the actions that continue an optimal plan, ascending, with their successors."""
+
+
+class PlanGraph:
+    """The optimal plans from a state as a graph: they share prefixes and suffixes.
+
+    Args:
+        start: the packed state that they start from.
+        edges: the steps that lie on an optimal plan.
+        expanded: states that the search for them expanded.
+        generated: steps that it looked at.
+    """
+
+    def __init__(self, start: int, edges: Edges, expanded: int, generated: int) -> None:
+        self._start = start
+        self._edges = edges
+        self.expanded = expanded
+        self.generated = generated
+
+    def canonical(self) -> tuple[int, ...]:
+        """The plan that takes the smallest action at each step (semantics 1)."""
+        return next(self.plans())
+
+    def plans(self) -> Iterator[tuple[int, ...]]:
+        """All of them, in string order, lazily."""
+        path: list[int] = []
+        open_steps = [iter(self._edges.get(self._start, ()))]
+        if self._start not in self._edges:
+            yield ()
+            return
+        while open_steps:
+            step = next(open_steps[-1], None)
+            if step is None:
+                open_steps.pop()
+                if path:
+                    path.pop()
+                continue
+            action, after = step
+            path.append(action)
+            if after in self._edges:
+                open_steps.append(iter(self._edges[after]))
+            else:
+                yield tuple(path)
+                path.pop()
+
+    def layers(self) -> list[set[int]]:
+        """Per step the actions that some optimal plan does then."""
+        found: list[set[int]] = []
+        layer = {self._start}
+        while steps := [step for state in layer for step in self._edges.get(state, ())]:
+            found.append({action for action, _ in steps})
+            layer = {after for _, after in steps}
+        return found
+
+    def count(self) -> int:
+        """How many there are, without listing them."""
+        counts: dict[int, int] = {}
+        pending = [self._start]
+        while pending:
+            state = pending[-1]
+            after = [successor for _, successor in self._edges.get(state, ())]
+            missing = [successor for successor in after if successor not in counts]
+            if missing:
+                pending.extend(missing)
+            else:
+                counts[state] = sum(counts[successor] for successor in after) if after else 1
+                pending.pop()
+        return counts[self._start]
+
+
+def edges_into(
+    goals: list[int],
+    expanded: dict[int, list[tuple[int, int, int]]],
+    distance: dict[int, int],
+    deadline: Deadline,
+) -> Edges:
+    """The steps on some way to a goal along which distances add up.
+
+    Args:
+        goals: states where an optimal plan ends.
+        expanded: per state its steps: action, successor, what has been spent by then.
+        distance: per state what has to be spent to get there.
+        deadline: polled at each state.
+    """
+    tight: dict[int, list[tuple[int, int]]] = {}
+    for state, steps in expanded.items():
+        deadline.tick()
+        for action, after, cost in steps:
+            if distance.get(after) == cost:
+                tight.setdefault(after, []).append((action, state))
+    edges: Edges = {}
+    pending, seen = list(goals), set(goals)
+    while pending:
+        after = pending.pop()
+        for action, state in tight.get(after, ()):
+            edges.setdefault(state, []).append((action, after))
+            if state not in seen:
+                seen.add(state)
+                pending.append(state)
+    for onward in edges.values():
+        onward.sort()
+    return edges

@@ -1,0 +1,26 @@
+"""What has been worked out for states, as long as it is not too much."""
+
+from typing import TypeVar
+
+T = TypeVar("T")
+
+
+class StateCache(dict[int, T]):
+    """By packed state; it is emptied when it holds too much.
+
+    Args:
+        most: entries of all that it holds.
+    """
+
+    def __init__(self, most: int) -> None:
+        super().__init__()
+        self._most = most
+        self._size = 0
+
+    def keep(self, state: int, found: T, size: int) -> None:
+        """Keep something that has ``size`` entries."""
+        self._size += size
+        if self._size > self._most:
+            self.clear()
+            self._size = size
+        self[state] = found

@@ -1,0 +1,117 @@
+"""``pi_H`` as it is predicted: the canonical optimal plan, or soon some plan where that takes too long."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Final, NamedTuple
+
+from search.context import SearchContext
+from search.engine.paths import plan_steps
+from serendipity.model.answers.answer import Answer
+from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
+from serendipity.model.task.task import HumanPlan
+
+_SHARE: Final = 0.4
+"""What of the time that is left the optimal plan may take, where other plans are at hand."""
+
+
+class Prediction(NamedTuple):
+    """A plan of the human's.
+
+    Attributes:
+        actions: its actions.
+        optimal: whether it is proved to cost least; unless a limit came it is the canonical one then.
+    """
+
+    actions: HumanPlan
+    optimal: bool
+
+
+def predicted(context: SearchContext) -> Prediction | None:
+    """The canonical plan; another one where the deadline is near; None where the human has none.
+
+    Raises:
+        LimitReachedError: the deadline came before any plan.
+    """
+    first = context.alone.first_plan(context.packed.init) if context.is_shared else None
+    if first is None:
+        optimal = context.canonical_plan()
+        return None if optimal is None else Prediction(optimal.actions, optimal=True)
+    left = context.deadline.left()
+    part = context.deadline if left is None else context.deadline.within(_SHARE * left)
+    try:
+        optimal = context.under(part).canonical_plan()
+    except LimitReachedError:
+        context.deadline.check()
+        return Prediction(first, optimal=context.task.cost_of(first) <= _least(context))
+    assert optimal is not None, "there is a plan"
+    return Prediction(optimal.actions, optimal=True)
+
+
+def individual_answers(context: SearchContext, human_plan: HumanPlan | None) -> Iterator[Answer]:
+    """The human alone, whatever plan of theirs is given: some plan soon, and then an optimal one.
+
+    Args:
+        context: of the call.
+        human_plan: ``pi_H``, already replayed, or None to predict it.
+    """
+    known: Answer | None = None
+    try:
+        first = human_plan
+        if first is None and context.is_shared:
+            first = context.alone.first_plan(context.packed.init)
+        if first is not None:
+            known = _some(context, first, proved=False)
+            yield known
+        yield _optimal(context, human_plan)
+    except LIMITS as limit:
+        reason = limit_reason(limit)
+        if known is None:
+            yield Answer("unknown", reason=reason)
+        else:
+            plan = known.human_plan or ()
+            yield _some(context, plan, proved=_least(context) >= context.task.cost_of(plan))
+
+
+def _some(context: SearchContext, plan: HumanPlan, *, proved: bool) -> Answer:
+    cost, bound = context.task.cost_of(plan), _least(context)
+    return Answer(
+        "optimal" if proved else "feasible",
+        human_plan=plan,
+        horizon=len(plan),
+        steps=plan_steps(plan),
+        cost=cost,
+        objective=cost,
+        lower_bound=min(bound, cost),
+        baseline=cost,
+        saving=Fraction(0),
+        saving_alone=Fraction(0) if proved else None,
+    )
+
+
+def _least(context: SearchContext) -> Fraction:
+    """No plan of the human's alone costs less."""
+    return context.keys.objective(context.alone.least(context.packed.init))
+
+
+def _optimal(context: SearchContext, human_plan: HumanPlan | None) -> Answer:
+    optimal = context.canonical_plan()
+    if optimal is None:
+        return Answer("infeasible", reason="no-human-plan")
+    best = optimal.actions
+    plan = best if human_plan is None else human_plan
+    cost, given = context.task.cost_of(best), context.task.cost_of(plan)
+    answer = plan if cost == given else best
+    return Answer(
+        "optimal",
+        human_plan=plan,
+        horizon=max(len(plan), len(answer)),
+        steps=plan_steps(answer),
+        cost=cost,
+        objective=cost,
+        lower_bound=cost,
+        baseline=given,
+        saving=Fraction(0),
+        saving_alone=given - cost,
+        expanded=optimal.expanded,
+        generated=optimal.generated,
+    )

@@ -1,0 +1,155 @@
+"""The kernel on the human's own problem: admissible bounds, costs as by brute force, plans that are plans."""
+
+from collections.abc import Iterator
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from search.classical import planner as planner_module
+from search.classical.planner import ClassicalPlanner
+from search.classical.problem import NO_PLAN
+from search.human.own_problem import own_planner
+from search.kernel.library import library
+from search.packed.cost_vector import INFINITE_KEY, own_weights
+from search.packed.operators import applicable
+from search.packed.packed_task import PackedTask
+from serendipity import Task, plan
+from serendipity.model import Deadline, LimitReachedError
+from tests.search.abstractions.test_bounds_are_admissible import exact, packed_of
+from tests.support.builders import usar
+from tests.support.strategies import tasks
+
+pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
+
+
+def planner_of(packed: PackedTask) -> ClassicalPlanner:
+    planner = own_planner(packed, packed.goal, sum(packed.fields), Deadline())
+    assert planner is not None
+    return planner
+
+
+def amounts(packed: PackedTask) -> dict[int, int]:
+    """The cheapest amount from each state that the human can reach alone, by brute force."""
+    return {state: NO_PLAN if key >= INFINITE_KEY else key for state, key in exact(packed).items()}
+
+
+def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> int:
+    """Replay operators; what they weigh."""
+    weights, total = own_weights(packed), 0
+    for number in numbers:
+        op = packed.own[number]
+        assert applicable(op, state)
+        state, total = state & op.keep | op.put, total + weights[op.cost]
+    assert packed.goal.holds(state)
+    return total
+
+
+@given(tasks())
+def test_bounds_never_exceed(task: Task) -> None:
+    packed = packed_of(task)
+    planner, costs = planner_of(packed), amounts(packed)
+    for state, cost in costs.items():
+        assert planner.bound(state, Deadline()) <= cost
+    # All ways to break ties, and what follows from one state for the next.
+    planner.cheapest(packed.init, Deadline())
+    for state, cost in costs.items():
+        assert planner.bound(state, Deadline()) <= cost
+
+
+@given(tasks())
+def test_tables_never_exceed(task: Task) -> None:
+    packed = packed_of(task)
+    planner, costs = planner_of(packed), amounts(packed)
+    planner.cheapest(packed.init, Deadline(), limit=1)  # the start is a sample
+    planner._make_tables(Deadline())
+    for state, cost in costs.items():
+        assert planner.bound(state, Deadline()) <= cost
+        assert planner.cheapest(state, Deadline()) == cost
+
+
+@given(tasks())
+def test_a_new_planner_finds_the_optimum(task: Task) -> None:
+    packed = packed_of(task)
+    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    assert planner.cheapest(packed.init, Deadline()) == cost
+    found = planner.cheapest_plan(packed.init, Deadline())
+    assert (found is None) == (cost == NO_PLAN)
+    if found is not None:
+        assert assert_leads_to_goal(packed, packed.init, found) == cost
+
+
+@given(tasks(), st.integers(0, 2**32))
+def test_what_was_learnt_changes_no_answer(task: Task, seed: int) -> None:
+    packed = packed_of(task)
+    planner, costs, random = planner_of(packed), amounts(packed), Random(seed)
+    weights = sorted({*costs.values()} - {NO_PLAN}) or [1]
+    for _ in range(3 * len(costs)):
+        state, cost = random.choice([*costs.items()])
+        limit = random.choice([NO_PLAN, NO_PLAN, random.choice(weights), random.choice(weights) + 1])
+        found = planner.cheapest(state, Deadline(), limit)
+        assert found == cost if cost < limit else found >= limit
+        some = random.choice([*costs])
+        assert planner.bound(some, Deadline()) <= costs[some]
+
+
+@given(tasks())
+def test_a_first_plan_is_a_plan(task: Task) -> None:
+    packed = packed_of(task)
+    planner, costs = planner_of(packed), amounts(packed)
+    for state, cost in costs.items():
+        found = planner.first_plan(state, Deadline())
+        assert (found is None) == (cost == NO_PLAN)
+        if found is not None:
+            assert assert_leads_to_goal(packed, state, found) >= cost
+
+
+class Refusing(Deadline):
+    """Has so many bytes."""
+
+    def __init__(self, size: float) -> None:
+        super().__init__()
+        self.left_over = size
+
+    def require(self, size: float) -> None:
+        """See :class:`Deadline`."""
+        if size > self.left_over:
+            raise LimitReachedError("memory-limit")
+        self.left_over -= size
+
+
+@pytest.fixture
+def frugal(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Memory is asked for before anything is allocated."""
+    monkeypatch.setattr(planner_module, "_ROOM", 0)
+    return
+
+
+@pytest.mark.usefixtures("frugal")
+def test_memory_is_asked_for() -> None:
+    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
+    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    for ask in (planner.cheapest, planner.first_plan, planner.bound):
+        with pytest.raises(LimitReachedError):
+            ask(packed.init, Refusing(1000))
+    assert planner.cheapest(packed.init, Refusing(1e8)) == cost
+    assert planner.bound(packed.init, Refusing(0)) == cost
+
+
+@given(task=tasks())
+def test_answers_are_those_of_python(task: Task) -> None:
+    def ask() -> list[object]:
+        fresh = Task(**{name: getattr(task, name) for name in FIELDS})
+        alone = plan(fresh, mode="individual")
+        team = plan(fresh, mode="composite", horizon="inf")
+        return [alone.status, alone.cost, alone.human_plan, team.status, team.cost, team.saving]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("search.human.individual_planner._ENOUGH", 1)
+        compiled = ask()
+        patch.setenv("SERENDIPITY_KERNEL", "off")
+        assert ask() == compiled
+
+
+FIELDS = ("name", "agents", "human", "facts", "init", "goal", "actions", "robot_goal", "disjunctions")

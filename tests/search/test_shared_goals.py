@@ -1,0 +1,93 @@
+"""Where goals speak of what robots change, too: the kernel's bounds, and where it has none."""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+
+import search.classical.team
+import serendipity
+from serendipity.model import Options, UsageError
+from tests.support.builders import task as build
+from tests.support.oracle import best
+from tests.support.strategies import Call, calls, family_tasks
+
+
+@pytest.mark.parametrize("mode", ["individual", "serendipity", "communication", "composite"])
+def test_goals_that_exclude_each_other(mode: str) -> None:
+    """The kernel was given a goal that asks for two values of one variable, which it can't write down."""
+    task = build(
+        init="on_c_a",
+        goal="clear_a",
+        robot_goal="on_b_a",
+        actions={"put r": "clear_a -> on_b_a !clear_a @ 2.5", "lift h": "on_c_a -> clear_a !on_c_a @ 3"},
+    )
+    answer = serendipity.plan(task, mode=mode)
+    assert answer.status == best(task, Options(mode=mode)).status  # type: ignore[arg-type]
+
+
+def test_what_the_human_gains_alone() -> None:
+    """No way of theirs was found while robots are idle, so that what they gain alone was taken for help."""
+    task = build(
+        init="at_b_p2",
+        goal="at_b_p1",
+        actions={
+            "drive h": "-> at_h_p1 @ 0.1",
+            "back h": "-> !at_h_p1 @ 0.1",
+            "load h": "at_b_p2 -> in_b_h !at_b_p2 @ 3",
+            "unload h": "in_b_h -> at_b_p1 !in_b_h @ 0.1",
+            "unload r": "-> at_b_p1 @ 3",
+        },
+    )
+    answer = serendipity.plan(task, human_plan=["drive h", "back h", "drive h", "load h", "unload h"])
+    assert (answer.cost, answer.saving_alone, answer.saving) == (3.0, 0.3, 0.4)
+    assert serendipity.verify(task, answer).verdict == "proved"
+
+
+@pytest.mark.parametrize("earlier", [{"window_weight": "0.75"}, {"communication_weight": "0.25"}])
+def test_an_earlier_call_in_a_smaller_unit(earlier: dict[str, str]) -> None:
+    """The team of an earlier call was taken, whose costs stood for others."""
+    task = build(
+        agents="h r",
+        goal="a b",
+        actions={"go h": "-> p", "back h": "p -> a !p", "end h": "p -> b", "end r": "-> b @ 3"},
+    )
+    call = {"mode": "communication", "discount": "1/3"}
+    given = ["go h", "back h", "go h", "end h", "back h"]
+    expected = serendipity.plan(replace(task), human_plan=given, **call)  # type: ignore[arg-type]
+    serendipity.plan(task, **call, **earlier)  # type: ignore[arg-type]
+    answer = serendipity.plan(task, human_plan=given, **call)  # type: ignore[arg-type]
+    assert (answer.cost, answer.saving, answer.saving_alone) == (
+        expected.cost,
+        expected.saving,
+        expected.saving_alone,
+    )
+
+
+def test_where_the_kernel_has_no_bound_on_the_team(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Then there was no bound at all on the human's way to the goal but that there is none."""
+    monkeypatch.setattr(search.classical.team, "team_planner", lambda *_, **__: None)
+
+    @given(calls(modes=("serendipity", "communication", "composite"), ties=False, of=family_tasks()))
+    def law(call: Call) -> None:
+        try:
+            optimum = best(call.task, call.options, call.human_plan)
+        except UsageError:
+            return
+        options = {name: getattr(call.options, name) for name in call.options.to_dict()}
+        answer = serendipity.plan(call.task, human_plan=call.human_plan_names, **options)
+        expected = None if optimum.cost is None else float(optimum.cost)
+        assert (answer.status, answer.cost) == (optimum.status, expected)
+
+    law()
+
+
+def test_a_fact_that_two_must_add_at_once() -> None:
+    """Both need it to be false and make it true, which is no conflict: a circle that was missed."""
+    task = build(
+        init="",
+        goal="a b",
+        actions={"left h": "!c -> a c @ 1", "right r": "!c -> b c @ 1"},
+    )
+    answer = serendipity.plan(task, mode="composite", horizon="inf")
+    assert (answer.status, answer.cost) == ("optimal", 2)
