@@ -1,40 +1,36 @@
 """How well every command keeps ``--time-limit`` and ``--memory-limit``, as a process.
 
-    python -m benchmarks.limits [--codmap FOLDER] [--commands plan,...] [--csv FILE]
+    python -m benchmarks.limits [--no-own] [--suite FOLDER [--stride N]] [--limits 0.1,1,10]
+        [--memory MIB] [--commands plan,...] [--csv FILE] [--processor]
 
-Tasks: a building of 2,100 rooms and 10 medkits, one of 840 and 2, ten of the multi-agent competition
-of 2015 (``--codmap``: a folder for each of its domains), and two files of 46 objects and one action
-of four parameters, which has 4.5 million ground actions: of two agents, and of 46.
+Tasks are those of ``benchmarks.limit_tasks``.
 
 A command starts when the interpreter and its modules are loaded; how long that takes is measured
 by the same command with a limit of 0, and taken off.  What is left over the limit is the *overrun*; a limit
 is *kept* if that is at most 10 % of it and 50 ms.  ``reproduce`` has the limit twice: for reading,
 and for its row.  A process that is late by 15 s is killed.  On a busy machine the deadline also counts what
 others do: the overrun in processor time, told beside it, is at least what the process did too much.
+With ``--processor`` deadlines are in processor time, solvers' processes apart, and only that is looked at.
 
-Then the same with a limit on memory, 40 MiB above what the process has when it starts: how far the peak
-is above the limit, in percent.
+Then the same with a limit on memory: 40 MiB above what the process has when it starts, on every
+task, or ``--memory``, on the ten largest.  The table says how far the peak is above the limit, in
+percent, and how many runs had an answer.
 """
 
 import argparse
 import csv
-import json
 import os
-import subprocess
-import sys
 import tempfile
-import time
-from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
 from dataclasses import astuple, dataclass, fields
-from multiprocessing import get_context
 from pathlib import Path
+from string import Formatter
+from typing import NamedTuple
 
-import serendipity
-from serendipity import Task
+from benchmarks.limit_tasks import Named, own_tasks, tasks_of_suite, with_files
+from benchmarks.limited_process import PROCESSOR, USUAL, Ended, Runner
 
-LIMITS = (0.05, 0.5, 2.0)
+LIMITS = "0.05,0.5,2"
 """Seconds."""
 
 SHARE, EXTRA = 0.1, 0.05
@@ -46,28 +42,23 @@ PATIENCE = 15.0
 ABOVE = 40
 """MiB that a process may add to what it has when it starts."""
 
-CODMAP = {
-    "blocksworld 9-0": ("blocksworld", "probBLOCKS-9-0.pddl", "a1 a2 a3"),
-    "blocksworld 16-2": ("blocksworld", "probBLOCKS-16-2.pddl", "a1 a2 a3"),
-    "driverlog 7": ("driverlog", "pfile7.pddl", "driver1 driver2 driver3"),
-    "driverlog 19": ("driverlog", "pfile19.pddl", "driver1 driver2 driver3"),
-    "rovers 10": ("rovers", "p10.pddl", "rover0 rover1 rover2"),
-    "rovers 28": ("rovers", "p28.pddl", "rover0 rover1 rover2"),
-    "satellites 5": ("satellites", "p05-pfile5.pddl", "satellite0 satellite1 satellite2"),
-    "satellites 20": ("satellites", "p20-pfile20.pddl", "satellite0 satellite1 satellite2"),
-    "zenotravel 7": ("zenotravel", "pfile7.pddl", "plane1 plane2"),
-    "zenotravel 22": ("zenotravel", "pfile22.pddl", "plane1 plane2 plane3"),
-}
-"""Tasks of the competition: domain, problem, and its agents, the human first."""
+LARGEST = 10
+"""Tasks that ``--memory`` is measured on."""
+
+CONFINED_FOR = 20.0
+"""Seconds with a limit on memory."""
 
 COMMANDS = {
     "plan": "plan {task} --discount 0.9",
+    "plan individual": "plan {task} --mode individual",
     "plan K=0": "plan {task} --discount 0.9 --window-weight 0",
     "plan communication": "plan {task} --discount 0.9 --mode communication --format json",
     "plan composite": "plan {task} --discount 0.9 --mode composite --horizon inf",
     "plan local": "plan {task} --discount 0.9 --human-model local",
     "plan ties": "plan {task} --discount 0.9 --ties robust --max-ties 1000000",
     "plan goals": "plan {task} --discount 0.9 --goals {goals}",
+    "individual verify": "plan {task} --mode individual --verify",
+    "composite verify": "plan {task} --discount 0.9 --mode composite --horizon inf --verify",
     "plan verify": "plan {task} --discount 0.9 --verify",
     "plan assistance": "plan {alone} --mode assistance",
     "assistance robust": "plan {alone} --mode assistance --ties robust --format json",
@@ -77,6 +68,8 @@ COMMANDS = {
     "recognise": "recognise {task} --goals {goals}",
     "simulate": "simulate {task} {result}",
     "verify": "verify {task} {result}",
+    "verify individual": "verify {task} {individual_result}",
+    "verify composite": "verify {task} {composite_result}",
     "solve": "solve {task} --discount 0.9",
     "reproduce": "reproduce {suite} --modes serendipity --discounts 0.9",
 }
@@ -84,39 +77,6 @@ COMMANDS = {
 
 READ_FIRST = ("reproduce",)
 """Commands whose limit holds for reading, and then again."""
-
-LARGE_DOMAIN = """
-(define (domain large) (:requirements :strips)
-  (:predicates (clean ?x) (mixed ?x ?y) (done ?x))
-  (:action mix :parameters (?a ?b ?c ?d)
-    :precondition (and (clean ?a) (clean ?b) (clean ?c) (clean ?d))
-    :effect (and (mixed ?a ?b) (done ?d))))
-"""
-
-
-@dataclass(frozen=True, slots=True)
-class Named:
-    """A task, and the words that name it and what belongs to it on a command line."""
-
-    name: str
-    words: dict[str, str]
-
-
-@dataclass(frozen=True, slots=True)
-class Ended:
-    """How a process ended.
-
-    Attributes:
-        code: its exit code; None where it was killed.
-        seconds: from its start.
-        processor: seconds of processor time.
-        peak: most memory, in MiB.
-    """
-
-    code: int | None
-    seconds: float
-    processor: float
-    peak: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +107,11 @@ class Row:
         return self.over <= SHARE * self.time_limit + EXTRA
 
     @property
+    def answered(self) -> bool:
+        """Whether there was an answer, or a proof that there is none."""
+        return self.code in (0, 3)
+
+    @property
     def memory_over(self) -> float:
         """Share of the memory limit by which the peak is above it."""
         return 0.0 if self.memory_limit is None else self.peak / self.memory_limit - 1
@@ -154,100 +119,67 @@ class Row:
 
 def main() -> None:
     """Measure and print tables."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--codmap", type=Path, default=None, help="folder of the competition's domains")
-    parser.add_argument("--commands", default=",".join(COMMANDS), help="some of the table's commands")
-    parser.add_argument("--tasks", default="", help="only tasks whose names begin so")
-    parser.add_argument("--csv", type=Path, default=None, help="write rows here")
-    arguments = parser.parse_args()
+    arguments = _arguments()
     commands = {name: COMMANDS[name] for name in arguments.commands.split(",")}
+    words = {word for command in commands.values() for _, word, *_ in Formatter().parse(command) if word}
     with tempfile.TemporaryDirectory() as scratch:
-        found = _tasks(Path(scratch), arguments.codmap)
-        tasks = [task for task in found if task.name.startswith(tuple(arguments.tasks.split(",")))]
-        rows = list(_measured(commands, tasks, Path(scratch)))
+        folder = Path(scratch)
+        tasks = [] if arguments.no_own else [*own_tasks(folder)]
+        if arguments.suite is not None:
+            tasks += tasks_of_suite(arguments.suite, arguments.stride)
+        tasks = [task for task in tasks if task.name.startswith(tuple(arguments.tasks.split(",")))]
+        tasks = [with_files(task, words, folder / f"files{i}") for i, task in enumerate(tasks)]
+        seconds = [float(limit) for limit in arguments.limits.split(",") if limit]
+        limits = Limits(seconds, arguments.memory, processor=arguments.processor)
+        rows = list(_written(_measured(commands, tasks, limits, folder), arguments.csv))
     _table_of_times(rows)
     _table_of_memory(rows)
-    if arguments.csv is not None:
-        with arguments.csv.open("w", newline="", encoding="utf-8") as text:
-            writer = csv.writer(text)
-            writer.writerow([field.name for field in fields(Row)])
-            writer.writerows(astuple(row) for row in rows)
 
 
-# -- tasks
+def _written(rows: Iterator[Row], file: Path | None) -> Iterator[Row]:
+    """The rows, each in the file at once."""
+    with Path(file or os.devnull).open("w", buffering=1, newline="", encoding="utf-8") as text:
+        writer = csv.writer(text)
+        writer.writerow([field.name for field in fields(Row)])
+        for row in rows:
+            writer.writerow(astuple(row))
+            yield row
 
 
-def _tasks(scratch: Path, codmap: Path | None) -> Iterator[Named]:
-    for rooms, medkits in ((2100, 10), (840, 2)):
-        suite = scratch / f"rooms{rooms}"
-        serendipity.generate_usar(suite / "test1", rooms=rooms, medkits=medkits)
-        words = {"task": str(suite / "test1"), "alone": str(suite / "test1"), "suite": str(suite)}
-        yield _with_files(f"{rooms} rooms", words, suite)
-    if codmap is not None:
-        for name, (domain, problem, agents) in CODMAP.items():
-            files = f"{codmap / domain / 'domain.pddl'} {codmap / domain / problem}"
-            words = _of_agents(files, agents.split())
-            yield _with_files(name, words, scratch / name.replace(" ", ""))
-    files = _large(scratch / "large")
-    for count in (2, 46):
-        objects = [f"o{i}" for i in range(count)]
-        yield Named(f"4.5 million, {count} agents", _of_agents(files, objects))
-
-
-def _of_agents(files: str, agents: list[str]) -> dict[str, str]:
-    human, *robots = agents
-    words = f"{files} --human {human}"
-    return {
-        "task": words + "".join(f" --robot {robot}" for robot in robots),
-        "alone": f"{words} --robot {robots[0]}",
-    }
-
-
-def _large(folder: Path) -> str:
-    folder.mkdir()
-    objects = " ".join(f"o{i}" for i in range(46))
-    clean = " ".join(f"(clean o{i})" for i in range(46))
-    problem = f"(define (problem p) (:domain large) (:objects {objects}) (:init {clean}) (:goal (done o1)))"
-    (folder / "domain.pddl").write_text(LARGE_DOMAIN)
-    (folder / "problem.pddl").write_text(problem)
-    return f"{folder / 'domain.pddl'} {folder / 'problem.pddl'}"
-
-
-def _with_files(name: str, words: dict[str, str], folder: Path) -> Named:
-    """A task with goals to recognise and an answer to check, where it can be read and answered."""
-    folder.mkdir(exist_ok=True)
-    # In a process of its own: what a process has at most counts from what its parent has.
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as apart:
-        found = apart.submit(_write_files, words["task"].split(), folder).result()
-    return Named(name, {**words, **found})
-
-
-def _write_files(words: list[str], folder: Path) -> dict[str, str]:
-    found = {}
-    with suppress(serendipity.SerendipityError):
-        task = _loaded(words)
-        goals, result = folder / "goals.json", folder / "result.json"
-        listed = [task.facts[fact] for fact in task.goal.positive][:3]
-        goals.write_text(json.dumps([{"goal": [fact]} for fact in listed]))
-        found["goals"] = str(goals)
-        answer = serendipity.plan(task, discount="0.9", time_limit=5)
-        if answer.plan is not None:
-            result.write_text(json.dumps(answer.to_dict()))
-            found["result"] = str(result)
-    return found
-
-
-def _loaded(words: list[str]) -> Task:
-    if len(words) == 1:
-        return serendipity.load(words[0])
-    domain, problem, _, human, *robots = words
-    return serendipity.load_pddl(domain, problem, human, robots[1::2])
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--no-own", action="store_true", help="no buildings, nor millions of actions")
+    parser.add_argument("--suite", type=Path, default=None, help="folder of domains in MA-PDDL")
+    parser.add_argument("--stride", type=int, default=8, help="take every N-th task of each domain")
+    parser.add_argument("--tasks", default="", help="only tasks whose names begin so")
+    parser.add_argument("--commands", default=",".join(COMMANDS), help="some of the table's commands")
+    parser.add_argument("--limits", default=LIMITS, help="seconds, or none")
+    parser.add_argument("--memory", type=float, default=None, help="MiB, on the ten largest tasks; 0: none")
+    parser.add_argument("--processor", action="store_true", help="limits are on processor time")
+    parser.add_argument("--csv", type=Path, default=None, help="write rows here")
+    return parser.parse_args()
 
 
 # -- processes
 
 
-def _measured(commands: dict[str, str], tasks: list[Named], folder: Path) -> Iterator[Row]:
+class Limits(NamedTuple):
+    """What is measured.
+
+    Attributes:
+        seconds: limits on time.
+        memory: MiB for the ten largest tasks; None for little, and all of them; 0 for none.
+        processor: whether time is processor time.
+    """
+
+    seconds: list[float]
+    memory: float | None
+    processor: bool
+
+
+def _measured(commands: dict[str, str], tasks: list[Named], limits: Limits, folder: Path) -> Iterator[Row]:
+    largest = sorted(tasks, key=lambda task: task.size)[-LARGEST:]
+    run = Runner(PROCESSOR if limits.processor else USUAL, folder)
     for name, words in commands.items():
         start: Ended | None = None
         for task in tasks:
@@ -255,90 +187,63 @@ def _measured(commands: dict[str, str], tasks: list[Named], folder: Path) -> Ite
                 command = words.format(**task.words).split()
             except KeyError:  # no answer to check, say
                 continue
-            start = start or _started(command, folder)
+            start = start or run.started(command, PATIENCE)
             late = False
-            for limit in LIMITS:
+            for limit in limits.seconds:
                 allowed = limit * (2 if name in READ_FIRST else 1)
-                yield (row := _timed(name, task, command, limit, allowed, start, folder))
-                late = late or row.code is None
-            if not late:
-                yield _confined(name, task, command, start, folder)
-
-
-def _started(command: list[str], folder: Path) -> Ended:
-    """A command that starts, loads its modules, and ends at once: the quickest of some."""
-    runs = [_run([*command, "--time-limit", "0"], folder, PATIENCE) for _ in range(5)]
-    return min(runs, key=lambda ended: ended.seconds)
-
-
-def _timed(
-    name: str, task: Named, command: list[str], limit: float, allowed: float, start: Ended, folder: Path
-) -> Row:
-    ended = _run([*command, "--time-limit", f"{limit:g}"], folder, allowed + PATIENCE)
-    over = ended.seconds - start.seconds - allowed
-    processor = ended.processor - start.processor - allowed
-    return Row(name, task.name, limit, None, ended.code, over, processor, ended.peak)
-
-
-def _confined(name: str, task: Named, command: list[str], start: Ended, folder: Path) -> Row:
-    """With little memory, and 20 s."""
-    most = round(start.peak + ABOVE)
-    words = [*command, "--time-limit", "20", "--memory-limit", str(most)]
-    ended = _run(words, folder, 40 + PATIENCE)
-    return Row(name, task.name, 20.0, most, ended.code, 0.0, 0.0, ended.peak)
-
-
-def _run(words: list[str], folder: Path, patience: float) -> Ended:
-    started = time.perf_counter()
-    process = subprocess.Popen(
-        [sys.executable, "-m", "serendipity", *words, "--quiet"],
-        cwd=folder,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    while True:
-        pid, status, used = os.wait4(process.pid, os.WNOHANG)
-        seconds = time.perf_counter() - started
-        if pid:
-            break
-        if seconds > patience:
-            process.kill()
-            _, status, used = os.wait4(process.pid, 0)
-            break
-        time.sleep(0.001)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    code = None if process.returncode < 0 else process.returncode
-    return Ended(code, seconds, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+                ended = run([*command, "--time-limit", f"{limit:g}"], allowed + PATIENCE)
+                over = ended.processor - start.processor - allowed
+                total = over if limits.processor else ended.seconds - start.seconds - allowed
+                yield Row(name, task.name, limit, None, ended.code, total, over, ended.peak)
+                late = late or ended.code is None
+            if not late and (limits.memory is None or (limits.memory and task in largest)):
+                most = limits.memory or round(start.peak + ABOVE)
+                words_of_both = ["--time-limit", f"{CONFINED_FOR:g}", "--memory-limit", f"{most:g}"]
+                ended = run([*command, *words_of_both], 2 * CONFINED_FOR + PATIENCE)
+                yield Row(name, task.name, CONFINED_FOR, most, ended.code, 0.0, 0.0, ended.peak)
 
 
 # -- tables
 
 
 def _table_of_times(rows: list[Row]) -> None:
-    print(f"{'command':20}{'runs':>6}{'kept':>6}   greatest overrun, ms (processor time), by limit")
-    for command in dict.fromkeys(row.command for row in rows):
-        timed = [row for row in rows if row.command == command and row.memory_limit is None]
-        cells = []
-        for limit in LIMITS:
-            worst = max((row for row in timed if row.time_limit == limit), key=lambda row: row.over)
-            shown = "killed" if worst.code is None else f"{worst.over * 1000:.0f}"
-            cells.append(f"{limit:g} s: {shown} ({worst.processor_over * 1000:.0f}), {worst.task}")
-        print(f"{command:20}{len(timed):>6}{sum(row.kept for row in timed):>6}   {'; '.join(cells)}")
-    print("\nnot kept:")
-    for row in rows:
-        if row.memory_limit is None and not row.kept:
-            over = f"{row.over * 1000:.0f} ms ({row.processor_over * 1000:.0f}), exit {row.code}"
-            print(f"  {row.command}, {row.task}, {row.time_limit:g} s: {over}, {row.peak:.0f} MiB")
+    timed = [row for row in rows if row.memory_limit is None]
+    print(f"{'command':20}{'limit':>6}{'runs':>6}{'kept':>6}{'with answer':>13}   most over, ms (processor)")
+    for command, limit in dict.fromkeys((row.command, row.time_limit) for row in timed):
+        members = [row for row in timed if (row.command, row.time_limit) == (command, limit)]
+        worst = max(members, key=lambda row: row.over)
+        shown = "killed" if worst.code is None else f"{worst.over * 1000:.0f}"
+        counts = f"{len(members):>6}{_count(row.kept for row in members):>6}"
+        counts += f"{_count(row.answered for row in members):>13}"
+        print(
+            f"{command:20}{limit:>4g} s{counts}   {shown} ({worst.processor_over * 1000:.0f}), {worst.task}"
+        )
+    odd = [row for row in rows if row.code not in (0, 3, 4, None)]
+    for row in odd:  # 2: a horizon is missing where the human has no plan alone
+        print(f"exit {row.code}: {row.command}, {row.task}, {row.time_limit:g} s")
+    late = [row for row in timed if not row.kept]
+    print(f"\nnot kept: {len(late)} of {len(timed)}")
+    for row in late:
+        over = f"{row.over * 1000:.0f} ms ({row.processor_over * 1000:.0f}), exit {row.code}"
+        print(f"  {row.command}, {row.task}, {row.time_limit:g} s: {over}, {row.peak:.0f} MiB")
 
 
 def _table_of_memory(rows: list[Row]) -> None:
-    print(f"\n{'command':20}{'runs':>6}   highest peak, of the memory limit")
+    print(f"\n{'command':20}{'runs':>6}{'with answer':>13}   highest peak, of the memory limit")
     confined = [row for row in rows if row.memory_limit is not None]
     for command in dict.fromkeys(row.command for row in confined):
         members = [row for row in confined if row.command == command]
         worst = max(members, key=lambda row: row.memory_over)
         shown = f"{worst.memory_over:+.0%} ({worst.peak:.0f} of {worst.memory_limit:.0f} MiB), {worst.task}"
-        print(f"{command:20}{len(members):>6}   {shown}, exit {worst.code}")
+        answered = _count(row.answered for row in members)
+        print(f"{command:20}{len(members):>6}{answered:>13}   {shown}, exit {worst.code}")
+        unanswered = ", ".join(row.task for row in members if not row.answered)
+        if unanswered:
+            print(f"{'':20}without: {unanswered}")
+
+
+def _count(flags: Iterable[bool]) -> int:
+    return sum(flags)
 
 
 if __name__ == "__main__":

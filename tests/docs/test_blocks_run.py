@@ -33,8 +33,9 @@ def test_blocks_run(page: Path, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", pages_with(slow=True), ids=name)
-def test_slow_blocks_run(page: Path, usar200: Path, tmp_path: Path) -> None:
+def test_slow_blocks_run(page: Path, usar200: Path, codmap15: Path, tmp_path: Path) -> None:
     (tmp_path / "usar200").symlink_to(usar200)
+    (tmp_path / "codmap15").symlink_to(codmap15)
     (tmp_path / "benchmarks").symlink_to(ROOT / "benchmarks")
     for block in blocks(page):
         if block.slow:
