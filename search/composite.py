@@ -91,13 +91,11 @@ class CompositeCall:
         steps = schedule(task, self._sets)
         cost = sum((context.team_cost(i) for chosen in self._sets for i in chosen), Fraction(0))
         baseline = None if self._human_plan is None else task.cost_of(self._human_plan)
-        known = baseline if self._alone is None else self._alone
-        helps = known is not None and self._alone is not None and cost < known
+        helps = self._alone is not None and cost < self._alone
         bound = min(keys.objective(self._bound), cost) if status == "feasible" else cost
         if self._given is not None and self._alone is None:
             status = "feasible"  # whether it is an opportunity is not known
-        if known is not None and status == "optimal":
-            assert cost <= known, "robots need not act"
+        assert status != "optimal" or self._alone is None or cost <= self._alone, "robots need not act"
         return Answer(
             status,
             human_plan=self._human_plan,

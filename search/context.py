@@ -9,9 +9,10 @@ from search.classical.problem import NO_PLAN
 from search.heuristics.first_interaction import no_team_bound
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
-from search.human.individual_planner import HumanOptimum, IndividualPlanner, OptimalPlan, PricedPlanner
+from search.human.individual_planner import HumanOptimum, IndividualPlanner, OptimalPlan
 from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_keys
 from search.human.plan_graph import PlanGraph
+from search.human.priced_planner import PricedPlanner
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal

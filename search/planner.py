@@ -1,50 +1,33 @@
 """From a task and options to answers: which space, from which incumbent (semantics 3)."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Final
+from typing import Final
 
-from search.classical.problem import NO_PLAN
 from search.composite import CompositeCall, team_for
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
-from search.engine.dominance import ParetoFront
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.heuristics.first_interaction import no_team_bound
 from search.human.plan_graph import PlanGraph
+from search.joint_plans import JointPlans
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
-from search.prediction import Prediction, individual_answers, predicted
+from search.prediction import Prediction, expected_plan, individual_answers
 from search.prepared_task import PreparedTask
-from search.spaces.factory import free_bounds, no_worse, window_space
+from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.spaces.from_composite import as_incumbent
-from search.spaces.stepwise import Stepwise
-from search.spaces.unrestricted import Unrestricted
 from serendipity.model.answers.answer import Answer, saved
-from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
+from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans import Step, Window
 from serendipity.model.task.task import HumanPlan
 
-_TEAM_SHARE: Final = 0.4
-"""What of the time that is left the joint optimum without a horizon may take, where it may be the answer."""
-
-_SOON: Final = 0.2
-"""The same for a greedy search, for the sake of an answer on the way."""
-
 _FEW: Final = 1_000
 """Nodes for the sake of a better window for the same objective."""
-
-_GREED: Final = 5
-"""What its bound counts for."""
-
-_LITTLE: Final = 0.05
-"""The same where it only bounds the answer."""
 
 
 def solve(
@@ -75,7 +58,7 @@ def solve(
         if options.mode == "individual":
             yield from individual_answers(context, human_plan)
             return
-        expected = predicted(context) if human_plan is None else Prediction(human_plan, optimal=False)
+        expected = expected_plan(context, human_plan)
         if expected is None and (options.mode == "serendipity" or options.keep_prefix):
             answers = iter((Answer("infeasible", reason="no-human-plan"),))
         else:
@@ -130,7 +113,7 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
         LimitReachedError: the deadline ran out.
     """
-    expected = predicted(context) if human_plan is None else Prediction(human_plan, optimal=False)
+    expected = expected_plan(context, human_plan)
     if expected is None:
         return None
     call = _Call(context, expected, given=human_plan is not None)
@@ -192,10 +175,14 @@ class _Call:
     def _improvements(self) -> Iterator[Incumbent]:
         """Each better incumbent, and now and then the same one; on return it is optimal."""
         if self.context.is_shared:
-            self._ask_team()
+            joint = JointPlans(self.context, self.plan, self.epochs, self.best, self.progress)
+            joint.without_horizon()
             yield self.best
-            if not self._is_settled() and self._composite_decides():
-                yield from self._by_composite()
+            if joint.decide and not self._is_settled():
+                for _ in joint.within_horizon(min(self.baseline.key, self.best.key)):
+                    yield self.best
+                    if self._is_settled():
+                        break
             if self._is_settled():
                 yield from self._settle_ties()
                 return
@@ -204,101 +191,16 @@ class _Call:
             if self._is_settled():
                 return
 
-    def _ask_team(self) -> None:
-        """The joint optimum without a horizon bounds every mode's answer, and may be it."""
-        team, left = self.context.team, self.deadline.left()
-        if team is None:
-            return
-        share = _TEAM_SHARE if self._composite_decides() else _LITTLE
-        part = self.deadline if left is None else self.deadline.within(share * left)
-        try:
-            first = team.first_plan(self.context.packed.init, part)
-            if first is not None:
-                self._offer(schedule(self.task, first))
-            best = team.best_plan(self.context.packed.init, part, self._raise)
-        except LimitReachedError:
-            self.deadline.check()
-            return
-        if best is None:
-            self._raise(NO_PLAN)
-            return
-        self._raise(team.planner.cheapest(self.context.packed.init, self.deadline))
-        self._offer(schedule(self.task, best))
-
     def _settle_ties(self) -> Iterator[Incumbent]:
         """Better windows and fewer actions for the same objective, if they come soon."""
         yield from best_first(self._space(), self.best, Progress(), self.deadline, _FEW)
 
-    def _raise(self, amount: int) -> None:
-        """No composite plan costs the team less than an amount."""
-        self._raise_key(self.context.amount_key(amount))
-
-    def _raise_key(self, key: int) -> None:
-        window = self.keys.epoch_weight if self.options.windowed and self.plan else 0
-        self.progress.bound = max(self.progress.bound, min(key + window, INFINITE_KEY))
-
-    def _composite_decides(self) -> bool:
-        """Whether every composite plan within ``T`` keeps the mode's rules, and its objective is its cost."""
-        options = self.options
-        if self.epochs is None or options.max_cost is not None or self.context.weights.announces:
-            return False
-        if not options.windowed:
-            return True
-        free = options.suffix == "replan" and options.preservation == "kernel" and not options.keep_prefix
-        return free and not options.window_weight and options.max_window is None and not self.task.robot_goal
-
-    def _by_composite(self) -> Iterator[Incumbent]:
-        """The best composite plan within ``T``, which is the answer but for its window."""
-        joint = Incumbent(min(self.baseline.key, self.best.key)) if self.options.windowed else self.best
-        left = self.deadline.left()
-        part = self.deadline if left is None else self.deadline.within(_SOON * left)
-        if left is not None:
-            with suppress(LimitReachedError):
-                for _ in best_first(self._composite_space(joint.key, _GREED), joint, Progress(), part):
-                    self._offer_joint(joint)
-                    yield self.best
-        self.deadline.check()
-        progress = Progress(self.progress.bound, told_at=self.deadline.elapsed())
-        for _ in best_first(self._composite_space(joint.key), joint, progress, self.deadline):
-            self.progress.expanded, self.progress.generated = progress.expanded, progress.generated
-            self._raise_key(progress.bound)
-            self._offer_joint(joint)
-            yield self.best
-            if self._is_settled():
-                return
-        self._raise_key(joint.key)
-
-    def _offer_joint(self, joint: Incumbent) -> None:
-        if joint is not self.best and joint.node is not None:
-            self._offer(path_steps(joint.node))
-
-    def _composite_space(self, limit: int, greed: int = 1) -> Space[Any, Incumbent]:
-        assert self.epochs is not None, "only with a horizon"
-        if self.context.team is None:
-            return self._unrestricted(limit)
-        return Stepwise(
-            initial=self.context.packed.init,
-            horizon=self.epochs,
-            goals=self.context.goals,
-            successors=self.context.successors(),
-            bounds=free_bounds(self.context, self.epochs, limit, idle=False),
-            labels=ParetoFront(),
-            greed=greed,
-        )
-
-    def _offer(self, steps: Sequence[Step]) -> None:
-        """A composite plan, which may be the best so far in this mode."""
-        if not self._composite_decides() or self.epochs is None:
-            return
-        found = as_incumbent(self.context, steps, self.plan or (), self.epochs)
-        if found is not None and found.key < self.best.key:
-            self.best.key, self.best.node = found.key, found.node
-            self.best.end, self.best.tail = found.end, found.tail
-
     def _is_settled(self) -> bool:
-        """Whether the incumbent's objective can't be beaten."""
+        """Whether the objective can't be beaten, where that is enough (Decisions: objective first)."""
         best, bound = self.best.key, self.progress.bound
-        return best < INFINITE_KEY and self.keys.objective(best) <= self.keys.objective(bound)
+        if not self.context.is_shared or best >= INFINITE_KEY:
+            return False
+        return self.keys.objective(best) <= self.keys.objective(bound)
 
     def _unfinished(self) -> str:
         """The status while nothing is proved; an infinite bound is a proof."""
@@ -365,27 +267,11 @@ class _Call:
         self.settled = True
 
     def _space(self, *, idle: bool = False) -> Space[Node, Incumbent]:
+        most_cost = self._most_cost()
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
-            most_cost = self._most_cost()
             return window_space(self.context, self.plan, self.epochs, most_cost, self.best.key, idle=idle)
-        return self._unrestricted(self.best.key, idle=idle)
-
-    def _unrestricted(self, limit: int, *, idle: bool = False) -> Space[Node, Incumbent]:
-        most_cost = self._most_cost()
-        # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
-        announces = self.context.weights.announces
-        compared = no_worse(self.keys, self.options, most_cost) if announces else None
-        return Unrestricted(
-            initial=self.context.packed.init,
-            horizon=self.epochs,
-            most_cost=most_cost,
-            goals=self.context.goals,
-            keys=self.keys,
-            successors=self.context.successors(idle=idle),
-            bounds=free_bounds(self.context, self.epochs, limit, idle=idle),
-            labels=ParetoFront(compared),
-        )
+        return free_space(self.context, self.epochs, most_cost, self.best.key, idle=idle)
 
     def _most_cost(self) -> int | None:
         """``max_cost`` (eq. 11), scaled and rounded down."""

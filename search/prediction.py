@@ -26,20 +26,24 @@ class Prediction(NamedTuple):
     optimal: bool
 
 
-def predicted(context: SearchContext) -> Prediction | None:
-    """The canonical plan; another one where the deadline is near; None where the human has none.
+def expected_plan(context: SearchContext, given: HumanPlan | None) -> Prediction | None:
+    """``pi_H``: the given plan, else the canonical one, or another where the deadline is near; None if none.
+
+    Args:
+        context: of the call.
+        given: ``pi_H``, already replayed, or None to predict it.
 
     Raises:
         LimitReachedError: the deadline came before any plan.
     """
+    if given is not None:
+        return Prediction(given, optimal=False)
     first = context.alone.first_plan(context.packed.init) if context.is_shared else None
     if first is None:
         optimal = context.canonical_plan()
         return None if optimal is None else Prediction(optimal.actions, optimal=True)
-    left = context.deadline.left()
-    part = context.deadline if left is None else context.deadline.within(_SHARE * left)
     try:
-        optimal = context.under(part).canonical_plan()
+        optimal = context.under(context.deadline.part(_SHARE)).canonical_plan()
     except LimitReachedError:
         context.deadline.check()
         return Prediction(first, optimal=context.task.cost_of(first) <= _least(context))

@@ -5,22 +5,17 @@ window they do, in each epoch, anything that some optimal plan does then.  That 
 what each plan allows.  A window of n epochs is answered only if it saves at least (n - 1) K.
 """
 
-from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.dominance import ParetoFront
 from search.heuristics.first_interaction import Bounds, no_bound, no_team_bound
-from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph
-from search.packed.cost_vector import CostLayout
-from search.packed.operators import Operator, applicable
-from search.packed.successor_generator import JointAction
 from search.planner import solve
 from search.prepared_task import PreparedTask
 from search.spaces.factory import no_worse, suffix_rule
-from search.spaces.windowed import Unscheduled, Windowed
+from search.spaces.windowed import InLayers, Windowed
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -80,7 +75,7 @@ def _by_windows(
         keys=context.keys,
         successors=context.successors(),
         bounds=Bounds(context.bound, context.steps, no_bound, context.interactions, no_team_bound),
-        prefix=_AnyOptimal(steps, context.bound, context.keys, horizon),
+        prefix=InLayers(steps, context.bound, context.keys, horizon),
         suffix=suffix_rule(context, plan),
         labels=ParetoFront(no_worse(context.keys, free, None)),
         relevant=context.relevant,
@@ -89,21 +84,3 @@ def _by_windows(
     for _ in best_first(space, best, Progress(), deadline):
         pass
     return context.keys.cost(best.key)
-
-
-class _AnyOptimal(Unscheduled):
-    """Rule 1 for all optimal plans at once; see :class:`search.spaces.windowed.Prefix`."""
-
-    def __init__(
-        self,
-        steps: Sequence[Sequence[tuple[Operator, JointAction]]],
-        bound: PatternDatabase,
-        keys: CostLayout,
-        horizon: int,
-    ) -> None:
-        super().__init__(len(steps), bound, keys, horizon)
-        self._steps = steps
-
-    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
-        """What some optimal plan does in the epoch, where it is applicable."""
-        return [option for op, option in self._steps[epoch - 1] if applicable(op, state)]

@@ -186,7 +186,6 @@ class ClassicalPlanner:
             LimitReachedError: there is not enough memory.
         """
         kernel, planner, row = self._kernel, self._planner, self._row(state)
-        self._met = True
         found = kernel.planner_bound(planner, row, _ROOM)
         if found < 0:
             deadline.require(kernel.planner_wanted(planner))
@@ -255,8 +254,7 @@ class ClassicalPlanner:
         """Projections that add up, as many as there is time for."""
         self._tables = True
         kernel, planner = self._kernel, self._planner
-        left = deadline.left()
-        part = deadline if left is None else deadline.within(left * _SHARE)
+        part = deadline.part(_SHARE)
         room, made = _MOST_TRANSITIONS, 0
         try:
             for pattern in self._patterns():

@@ -12,7 +12,7 @@ from search.algorithms.astar import AStar
 from search.classical.problem import NO_PLAN
 from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph, edges_into
-from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
+from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup
@@ -228,8 +228,8 @@ class IndividualPlanner:
         if not may_reach(start, self._goal, packed.fields, packed.own, self._deadline):
             self._known[start] = INFINITE_KEY
             return True
-        part = self._deadline if left is None else self._deadline.within(left * _SHARE)
         try:
+            part = self._deadline.part(_SHARE)
             memory.refined = own_bound(packed, self._goal, self._weight, self._lookup, start, part)
         except LimitReachedError:
             self._deadline.check()
@@ -365,58 +365,6 @@ class IndividualPlanner:
         """The first step of each name: variants of one action make no different plan (semantics 1)."""
         names = [self._packed.task.actions[action].name for action, _ in steps]
         return [step for step, name, last in zip(steps, names, ["", *names], strict=False) if name != last]
-
-
-class PricedPlanner:
-    """:class:`IndividualPlanner` to ``G_H``, in the keys of a call; what it finds serves other calls.
-
-    Args:
-        packed: the packed task.
-        bound: what :func:`.own_projection` finds.
-        memory: what earlier calls have found, see :func:`own_memory`.
-        weights: key increments of the call, which say nothing of communication.
-        deadline: polled at each state that comes up.
-    """
-
-    def __init__(
-        self, packed: PackedTask, bound: PatternDatabase, memory: Memory, weights: Weights, deadline: Deadline
-    ) -> None:
-        own = own_weights(packed)
-        self._alone = IndividualPlanner(
-            packed, packed.goal, lambda op: own[op.cost], bound, deadline, memory, own_unit=True
-        )
-        self._weights = weights
-
-    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """See :class:`HumanOptimum`."""
-        if limit >= INFINITE_KEY:
-            found = self._alone.key(state)
-        else:
-            found = self._alone.key(state, self._weights.own_limit(limit))
-        return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
-
-    def canonical(self, state: int) -> OptimalPlan | None:
-        """See :class:`HumanOptimum`."""
-        return self._alone.canonical(state)
-
-    def first_plan(self, state: int) -> tuple[int, ...] | None:
-        """See :class:`HumanOptimum`."""
-        return self._alone.first_plan(state)
-
-    def least(self, state: int) -> int:
-        """See :class:`HumanOptimum`."""
-        found = self._alone.least(state)
-        return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
-
-    def plans(self, state: int) -> PlanGraph | None:
-        """See :class:`HumanOptimum`."""
-        return self._alone.plans(state)
-
-
-def own_memory(packed: PackedTask) -> Memory:
-    """Nothing yet, in the unit of :func:`.own_weights`."""
-    own = own_weights(packed)
-    return Memory(Lookup(packed.own_index, lambda op: own[op.cost]))
 
 
 def canonical(alone: HumanOptimum, state: int) -> tuple[int, ...]:

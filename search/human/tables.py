@@ -1,6 +1,6 @@
 """What the human can do alone, as far as it follows from the packed task alone."""
 
-from search.human.individual_planner import Memory, own_memory
+from search.human.individual_planner import Memory
 from search.human.pattern_database import (
     PatternDatabase,
     Projected,
@@ -9,6 +9,7 @@ from search.human.pattern_database import (
     own_projection,
     steps_in,
 )
+from search.human.priced_planner import own_memory
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 

@@ -1516,9 +1516,6 @@ API Cost planner_bound(Planner *s, const Word *asked, size_t allowed) {
 
 API Cost planner_least(const Planner *s) { return s->least; }
 API size_t planner_wanted(const Planner *s) { return s->table.wanted > s->met.wanted ? s->table.wanted : s->met.wanted; }
-API size_t planner_used(const Planner *s) {
-    return s->table.used + s->met.used;
-}
 API void planner_counts(const Planner *s, int64_t *counts) {
     counts[0] = s->expanded, counts[1] = s->generated, counts[2] = s->evaluated;
 }

@@ -2,8 +2,10 @@
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from search.context import SearchContext
+from search.engine.best_first import Incumbent, Space
 from search.engine.dominance import ParetoFront
 from search.heuristics.achievers import Achievers, Provided
 from search.heuristics.first_interaction import (
@@ -22,7 +24,9 @@ from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.operators import Operator
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction
-from search.spaces.windowed import AnyOfPlan, Followed, Prefix, Timetable, Windowed
+from search.spaces.stepwise import Stepwise
+from search.spaces.unrestricted import Unrestricted
+from search.spaces.windowed import AnyOfPlan, InLayers, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
 from serendipity.model.task.task import HumanPlan
 
@@ -53,7 +57,7 @@ def window_space(
         prefix = AnyOfPlan(successors, context.task, plan, private, context.keys, horizon)
     elif not is_private:
         untouched = no_bound
-        prefix = Followed(context.followed(plan), private, context.keys, horizon)
+        prefix = InLayers([[step] for step in context.followed(plan)], private, context.keys, horizon)
     else:
         keys = context.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
@@ -73,6 +77,55 @@ def window_space(
         suffix=suffix_rule(context, plan),
         labels=ParetoFront(no_worse(context.keys, options, most_cost)),
         relevant=context.relevant,
+    )
+
+
+def free_space(
+    context: SearchContext, horizon: int | None, most_cost: int | None, limit: int, *, idle: bool
+) -> Unrestricted:
+    """The space of plans without a window.
+
+    Args:
+        context: of the call.
+        horizon: ``T``, or None.
+        most_cost: largest scaled cost of an acceptable plan, or None.
+        limit: key that a plan has to beat.
+        idle: robots do nothing.
+    """
+    # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
+    announces = context.weights.announces
+    compared = no_worse(context.keys, context.options, most_cost) if announces else None
+    return Unrestricted(
+        initial=context.packed.init,
+        horizon=horizon,
+        most_cost=most_cost,
+        goals=context.goals,
+        keys=context.keys,
+        successors=context.successors(idle=idle),
+        bounds=free_bounds(context, horizon, limit, idle=idle),
+        labels=ParetoFront(compared),
+    )
+
+
+def joint_space(context: SearchContext, horizon: int, limit: int, greed: int = 1) -> Space[Any, Incumbent]:
+    """The space of composite plans within ``T``, where goals are shared.
+
+    Args:
+        context: of the call; its mode has no limit on costs.
+        horizon: ``T``.
+        limit: key that a plan has to beat.
+        greed: what the bound counts for in the order of nodes.
+    """
+    if context.team is None:
+        return free_space(context, horizon, None, limit, idle=False)
+    return Stepwise(
+        initial=context.packed.init,
+        horizon=horizon,
+        goals=context.goals,
+        successors=context.successors(),
+        bounds=free_bounds(context, horizon, limit, idle=False),
+        labels=ParetoFront(),
+        greed=greed,
     )
 
 

@@ -28,8 +28,6 @@ def as_incumbent(
         return Incumbent(node.key, node)
     start = min(_prefix(context, epochs, plan), len(plan) - 1) + 1
     end = max(_robots_last(context, epochs) + 1, start)
-    if context.options.max_window is not None and end - start + 1 > context.options.max_window:
-        return None
     node = _nodes(context, epochs[:end], start, waiting=max(0, end - len(epochs)))
     tail = [op for ops in epochs[end:] for op in ops]
     rest = sum(map(context.weights.team, tail))

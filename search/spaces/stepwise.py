@@ -71,7 +71,7 @@ class Stepwise:
         self._labels.add(self._initial, 0, 0)
         node = Node(0, 0, self._initial, 0, 0, None, ())
         bound = self._bounds.team(self._initial)
-        yield from self._ranked(PartialNode(node, NOTHING, 0, bound, judged=True))
+        yield self._ranked(PartialNode(node, NOTHING, 0, bound, judged=True))
 
     def alive(self, partial: PartialNode) -> bool:
         """Whether no cheaper node that is as early makes this one superfluous."""
@@ -85,7 +85,7 @@ class Stepwise:
             known = self._judge(partial)
             if known > partial.bound:
                 if known < best.key:
-                    yield from self._ranked(partial._replace(bound=known, judged=True))
+                    yield self._ranked(partial._replace(bound=known, judged=True))
                 return
         if node.parent is None and not chosen.actions:
             self._offer(node, best)
@@ -105,18 +105,18 @@ class Stepwise:
                 self._offer(Node(key, node.epoch + 1, after, 0, 0, node, together.actions), best)
             if turn + 1 < len(groups):
                 # Waiting is the same state again.
-                yield from self._ranked(PartialNode(node, together, turn + 1, bound, not option.actions))
+                yield self._ranked(PartialNode(node, together, turn + 1, bound, not option.actions))
             elif (
                 together.actions
                 and node.epoch + 1 + self._bounds.steps(after) <= self._horizon
                 and self._labels.add(after, node.epoch + 1, key)
             ):
                 child = Node(key, node.epoch + 1, after, 0, 0, node, together.actions)
-                yield from self._ranked(PartialNode(child, NOTHING, 0, bound, not option.actions))
+                yield self._ranked(PartialNode(child, NOTHING, 0, bound, not option.actions))
 
-    def _ranked(self, partial: PartialNode) -> Iterator[tuple[int, PartialNode]]:
+    def _ranked(self, partial: PartialNode) -> tuple[int, PartialNode]:
         spent = partial.node.key + partial.chosen.weight
-        yield spent + self._greed * (partial.bound - spent), partial
+        return spent + self._greed * (partial.bound - spent), partial
 
     def _judge(self, partial: PartialNode) -> int:
         """Least key by the bound on the team, which is the dearest one."""

@@ -5,7 +5,7 @@ Nodes are (phase, epoch, packed state).  In the prefix the human follows ``pi_H`
 may open before any epoch; each epoch inside it may be its last.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, Protocol
 
@@ -97,11 +97,11 @@ class Unscheduled:
         return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
 
 
-class Followed(Unscheduled):
-    """Rule 1 as in :class:`Timetable`, for tasks in which the team's bound says more.
+class InLayers(Unscheduled):
+    """Rule 1 where one of several actions may be due in an epoch, or private distances say little.
 
     Args:
-        steps: the human's packed actions and what they do, in order.
+        layers: per epoch what the human may do, packed actions and what they do.
         bound: their private distances to the goal.
         keys: layout of keys.
         horizon: number of epochs.
@@ -109,18 +109,17 @@ class Followed(Unscheduled):
 
     def __init__(
         self,
-        steps: list[tuple[Operator, JointAction]],
+        layers: Sequence[Sequence[tuple[Operator, JointAction]]],
         bound: PatternDatabase,
         keys: CostLayout,
         horizon: int,
     ) -> None:
-        super().__init__(len(steps), bound, keys, horizon)
-        self._steps = steps
+        super().__init__(len(layers), bound, keys, horizon)
+        self._layers = layers
 
     def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """See :class:`Prefix`."""
-        op, option = self._steps[epoch - 1]
-        return (option,) if applicable(op, state) else ()
+        return [option for op, option in self._layers[epoch - 1] if applicable(op, state)]
 
 
 class AnyOfPlan(Unscheduled):

@@ -167,7 +167,7 @@ def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
     if early.status in ("optimal", "infeasible"):
         if early.realised.items() <= final.realised.items():  # verdicts come after the proof
             early = replace(early, realised=final.realised)
-        if (early.objective, early.cost) == (final.objective, final.cost):
+        if _is_shared(call.task) and (early.objective, early.cost) == (final.objective, final.cost):
             # The proof is of the objective; ties are settled as far as the search got (semantics, Decisions).
             early = replace(
                 early,
@@ -188,6 +188,13 @@ def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
         yield f"objective {early.objective}, but the optimum is {final.objective}"
     if early.opportunity and call.options.get("ties", "fixed") == "fixed":
         yield from _opportunity_faults(early, final)
+
+
+def _is_shared(task: Task) -> bool:
+    """Whether actions without the human change what goals ask for."""
+    wanted = {f for goal in (task.goal, task.robot_goal) for f in (*goal.positive, *goal.negative)}
+    others = (action for action in task.actions if task.human not in action.participants)
+    return any(wanted.intersection((*action.add, *action.delete)) for action in others)
 
 
 def _opportunity_faults(early: Result, final: Result) -> Iterator[str]:

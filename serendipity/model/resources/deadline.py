@@ -84,6 +84,11 @@ class Deadline:
         part._cancelled = self._cancelled if cancelled is None else cancelled
         return part
 
+    def part(self, share: float) -> "Deadline":
+        """A deadline for a part of the work: a share of the time that is left, where time is limited."""
+        left = self.left()
+        return self if left is None else self.within(share * left)
+
     def sooner(self, share: float) -> "Deadline":
         """The same deadline without the last ``share`` of its time, kept for what comes at the end."""
         part = copy(self)
