@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from serendipity.evaluation.reproduction import reproduce
+    from serendipity.execution import Execution
     from serendipity.explanation import Explanation, explain
     from serendipity.facade.certify import check, verify
     from serendipity.facade.interruptibility import interruptions
@@ -47,6 +48,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Certificate",
     "Deadline",
+    "Execution",
     "Explanation",
     "Finding",
     "InputError",
@@ -100,6 +102,7 @@ _HOMES = {
     "interruptions": "serendipity.facade.interruptibility",
     "explain": "serendipity.explanation",
     "Explanation": "serendipity.explanation",
+    "Execution": "serendipity.execution",
     "recognise": "serendipity.recognition",
     "Recognition": "serendipity.recognition",
 }
@@ -110,6 +113,7 @@ _NEED_SIBLINGS = (
     "serendipity.facade.certify",
     "serendipity.facade.interruptibility",
     "serendipity.facade.loading",
+    "serendipity.execution",
     "serendipity.explanation",
     "serendipity.recognition",
     "serendipity.evaluation.reproduction",

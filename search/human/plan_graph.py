@@ -1,6 +1,6 @@
 """All optimal plans of the human alone, as a graph."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from serendipity.model.resources.deadline import Deadline
 
@@ -49,6 +49,19 @@ class PlanGraph:
             else:
                 yield tuple(path)
                 path.pop()
+
+    def drawn(self, choose: Callable[[Sequence[tuple[int, int]]], tuple[int, int]]) -> tuple[int, ...]:
+        """One of them, put together step by step.
+
+        Args:
+            choose: picks one of several (action, successor).
+        """
+        plan: list[int] = []
+        state = self._start
+        while onward := self._edges.get(state):
+            action, state = choose(onward)
+            plan.append(action)
+        return tuple(plan)
 
     def layers(self) -> list[set[int]]:
         """Per step the actions that some optimal plan does then."""

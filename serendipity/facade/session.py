@@ -116,6 +116,13 @@ class Session:
         self._prepared = self._prepared.at(frozenset(state))
         self._keep_plan_if_it_works()
 
+    def follow(self, names: Iterable[str] | None) -> None:
+        """Say what the human is going to do from here; None predicts it anew.
+
+        The next call replays it, and raises :class:`serendipity.PlanError` where it can't be executed.
+        """
+        self._human_plan, self._given = None, None if names is None else tuple(names)
+
     def set_goal(self, goal: Iterable[str]) -> None:
         """Give the human another goal: literals, ``!`` in front of those to be false.
 

@@ -1,0 +1,108 @@
+"""Which goal the person has, from one epoch to the next (semantics 8)."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+from search.goals import explanations
+from serendipity.model.numbers import Number
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
+from serendipity.recognition.candidates import CandidateGoal, GoalsGiven, candidate_goals
+from serendipity.recognition.recognise import posterior, strictness
+
+_LIKELY: Final = 0.2
+"""A goal of that probability is not ruled out."""
+
+
+class Beliefs:
+    """The posterior over candidate goals.
+
+    Likelihoods are of the person alone, with robots idle.  So where robots have changed something that
+    the person's own actions are about, or have done something with them, what was seen up to there is
+    summed up: the posterior becomes the prior, and the present state the initial one.
+
+    Args:
+        task: the task.
+        candidates: the goals, with their priors.
+        beta: how strictly the person is taken to minimise cost.
+    """
+
+    def __init__(self, task: Task, candidates: Sequence[CandidateGoal], beta: float) -> None:
+        self.candidates = tuple(candidates)
+        self._start = task
+        self._beta = beta
+        self._priors = [candidate.prior for candidate in candidates]
+        self._observed: list[str] = []
+        self._disturbed = False
+        self._out: set[int] = set()
+        self.weights = list(self._priors)
+        own = (task.actions[i] for i in task.human_actions)
+        self._concern = frozenset(f for a in own for f in (*a.pre, *a.neg, *a.add, *a.delete))
+
+    @classmethod
+    def about(cls, task: Task, goals: GoalsGiven, beta: Number) -> "Beliefs":
+        """Nothing seen yet.
+
+        Raises:
+            InputError: ``goals`` are wrong; it says where.
+            UsageError: ``beta`` is.
+        """
+        return cls(task, candidate_goals(task, goals), strictness(beta))
+
+    def saw(self, own: int | None, executed: Sequence[int]) -> None:
+        """Take in an epoch: what the person did alone, and everything that took place."""
+        actions = self._start.actions
+        if own is not None:
+            self._observed.append(actions[own].name)
+        others = (actions[i] for i in executed if i != own)
+        if any(not self._concern.isdisjoint((*action.add, *action.delete)) for action in others):
+            self._disturbed = True
+
+    def disturbed(self) -> None:
+        """The world is other than what actions have made it."""
+        self._disturbed = True
+
+    def update(self, state: frozenset[int], deadline: Deadline) -> None:
+        """Weigh what was seen.
+
+        Args:
+            state: ids of the facts that are true now.
+            deadline: polled.
+
+        Raises:
+            LimitReachedError: the deadline came first; the weights stay as they were.
+        """
+        if self._observed:
+            self._weigh(deadline)
+        self._rule_out()
+        if self._disturbed:
+            self._priors, self._observed = list(self.weights), []
+            self._start = self._start.at(state)
+            self._disturbed = False
+
+    def _weigh(self, deadline: Deadline) -> None:
+        goals = [candidate.goal for candidate in self.candidates]
+        found = explanations(self._start, goals, self._observed, deadline)
+        weighed = [replace(c, prior=prior) for c, prior in zip(self.candidates, self._priors, strict=True)]
+        recognition = posterior(self._start, weighed, tuple(self._observed), found, self._beta)
+        self.weights = [goal.weight for goal in recognition.goals]
+
+    def possible(self) -> list[int]:
+        """Indices of the goals that can't be ruled out.
+
+        Whoever acts optimally for a goal makes the likelihood of what they do at least a half, so its
+        posterior stays at least half its prior.  One that was ruled out comes back if it is likely after all.
+        """
+        return [i for i in range(len(self.weights)) if i not in self._out]
+
+    def _rule_out(self) -> None:
+        for i, (weight, prior) in enumerate(zip(self.weights, self._priors, strict=True)):
+            if weight < prior / 2 or not weight:
+                self._out.add(i)
+            if weight >= _LIKELY:
+                self._out.discard(i)
+
+    def named(self) -> dict[str, float]:
+        """The posterior by the goals' names."""
+        return {c.name: float(weight) for c, weight in zip(self.candidates, self.weights, strict=True)}

@@ -1,0 +1,131 @@
+"""What robots decide for an epoch, and what came of it: the values that callers see and logs hold."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Final
+
+from serendipity.execution.world import WHY, Unfinished
+from serendipity.model.task.plans import PlanStep, Window
+
+VERDICTS: Final = {
+    "helps": "robots do their part of a plan that pays",
+    "works": "robots see to goals of their own",
+    "waits": "there is a plan that pays, and robots have nothing to do in this epoch",
+    "unsure": "what would pay depends on a goal that is not known yet",
+    "aside": "robots stay out of the way",
+    "late": "no decision within the deadline: robots do nothing",
+}
+"""What a decision amounts to."""
+
+
+@dataclass(frozen=True, slots=True)
+class Decided:
+    """What robots mean to do in an epoch, before anybody knows what the person does in it.
+
+    Attributes:
+        epoch: from 1.
+        verdict: a key of ``VERDICTS``.
+        reason: the decision in words.
+        actions: what robots are going to do without the person.
+        offers: joint actions that the person may take part in; each happens only if they do.
+        expected: what the robots take the person to do; None where they wait, or where nobody knows.
+        plan: the plan that this is a part of, with its epochs counted from this one; None without one.
+        window: where the person is met in that plan, as far as it says so.
+        cost: what the rest costs the team by that plan.
+        alone: what it costs the person without help.
+        goals: the posterior of each candidate goal; empty where there is only one.
+        seconds: that the decision took.
+    """
+
+    epoch: int
+    verdict: str
+    reason: str
+    actions: tuple[PlanStep, ...] = ()
+    offers: tuple[PlanStep, ...] = ()
+    expected: PlanStep | None = None
+    plan: tuple[PlanStep, ...] | None = None
+    window: Window | None = None
+    cost: float | None = None
+    alone: float | None = None
+    goals: Mapping[str, float] = field(default_factory=dict)
+    seconds: float = 0.0
+
+    def at(self, seconds: float) -> "Decided":
+        """The same with the time that it took."""
+        return replace(self, seconds=seconds)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return {
+            "verdict": self.verdict,
+            "reason": self.reason,
+            "actions": [step.to_dict() for step in self.actions],
+            "offers": [step.to_dict() for step in self.offers],
+            "expected": None if self.expected is None else self.expected.to_dict(),
+            "plan": None if self.plan is None else [step.to_dict() for step in self.plan],
+            "window": None if self.window is None else self.window.to_dict(),
+            "cost": self.cost,
+            "alone": self.alone,
+            "goals": dict(self.goals),
+            "seconds": self.seconds,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Passed:
+    """An epoch that is over.
+
+    Attributes:
+        epoch: from 1.
+        decided: what robots meant to do.
+        human: what the person chose, by name; None: they waited.
+        in_vain: whether that turned out to be impossible.
+        steps: what took place.
+        unfinished: what robots meant to do, and what came of it instead.
+        changes: facts that have changed, ``!`` in front of those that are false now.
+        human_cost: what the person has paid up to now, undiscounted.
+        cost: what the team has paid up to now.
+        done: whether the person's goal holds now.
+    """
+
+    epoch: int
+    decided: Decided
+    human: str | None
+    in_vain: bool
+    steps: tuple[PlanStep, ...]
+    unfinished: tuple[Unfinished, ...]
+    changes: tuple[str, ...]
+    human_cost: float
+    cost: float
+    done: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object: a line of a log."""
+        return {
+            "epoch": self.epoch,
+            "human": self.human,
+            "in_vain": self.in_vain,
+            "steps": [step.to_dict() for step in self.steps],
+            "unfinished": [
+                {**unfinished.step.to_dict(), "why": unfinished.why} for unfinished in self.unfinished
+            ],
+            "changes": list(self.changes),
+            "human_cost": self.human_cost,
+            "cost": self.cost,
+            "done": self.done,
+            "decision": self.decided.to_dict(),
+        }
+
+    def lines(self, human: str) -> list[str]:
+        """The epoch in words.
+
+        Args:
+            human: the person's name.
+        """
+        deed = self.human or "waits"
+        told = [f"epoch {self.epoch}: {human} {f'tries {deed}, in vain' if self.in_vain else deed}"]
+        told += [
+            f"  {', '.join(step.agents)}: {step.action}" for step in self.steps if human not in step.agents
+        ]
+        told += [f"  does not happen: {u.step.action} ({WHY[u.why]})" for u in self.unfinished]
+        return [*told, f"  robots: {self.decided.reason}"]

@@ -1,0 +1,234 @@
+"""The loop, an epoch at a time: robots decide, somebody says what the person does, the world moves on."""
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING, Final
+
+from serendipity.execution.brain import Brain, Outlook
+from serendipity.execution.decided import Decided, Passed
+from serendipity.execution.world import Actuator, Outcome, World, done_at_once
+from serendipity.model.errors import LIMITS, UsageError
+from serendipity.model.numbers import Number
+from serendipity.model.options import Options, limit_of
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import PlanStep
+from serendipity.model.task.task import Task, canonical_name
+
+if TYPE_CHECKING:
+    from serendipity.recognition import GoalsGiven
+
+_PREPARATION: Final = 10.0
+"""Seconds before the first epoch in which tables may be made, where epochs have a deadline."""
+
+
+class Execution:
+    """A person, robots that may help, and the world; one call for each epoch.
+
+    ``decided`` is what robots are going to do, ``step`` moves on by what the person does::
+
+        run = serendipity.Execution(task, discount=0.6)
+        while not run.done:
+            run.decided.offers  # what the person may take part in
+            run.step("move commx room13 hall8")
+
+    Args:
+        task: where things stand; its goal is the person's.
+        discount: of robots' costs, in [0, 1].
+        human_model: what robots take the person to be: ``observant``, ``local`` or ``omniscient``
+            (semantics 6).
+        goals: goals that the person may have, as :func:`serendipity.recognise` takes them: robots do not
+            know which; None: robots know the task's goal.
+        beta: of the posterior.
+        deadline: seconds for each decision, or None; robots do nothing in an epoch that has none in time.
+        interference: which actions may share an epoch.
+        told: the person knows the robots' plan and keeps to it, so that only its part of theirs has to
+            stay possible.
+        actuator: what robots make of their actions; None: whatever is possible is done at once.
+
+    Raises:
+        UsageError: an argument is wrong.
+        InputError: ``goals`` are wrong; it says where.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        *,
+        discount: Number = 0,
+        human_model: str = "observant",
+        goals: "GoalsGiven | None" = None,
+        beta: Number = 1,
+        deadline: float | None = None,
+        interference: str = "paper",
+        told: bool = False,
+        actuator: Actuator | None = None,
+    ) -> None:
+        options = Options(discount=discount, human_model=human_model, interference=interference)  # type: ignore[arg-type]
+        self.task = task
+        self.options = options
+        self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
+        self._world = World(task, options.discount, strict=options.strict)
+        self._brain = Brain(task, options, goals, beta, told=told)
+        self._actuator = actuator or done_at_once
+        self._running: list[PlanStep] = []
+        self._decided: Decided | None = None
+        self._passed: list[Passed] = []
+        self._paid = self._team = Fraction(0)
+        if self._deadline is not None:
+            self._prepare()
+
+    # -- where things stand
+
+    @property
+    def epoch(self) -> int:
+        """The epoch that is to come, from 1."""
+        return len(self._passed) + 1
+
+    @property
+    def state(self) -> frozenset[int]:
+        """Ids of the facts that are true."""
+        return self._world.state
+
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """Names of the facts that are true."""
+        return tuple(self.task.facts[fact] for fact in sorted(self._world.state))
+
+    @property
+    def done(self) -> bool:
+        """Whether the person's goal holds."""
+        return self.task.goal.holds(self._world.state)
+
+    @property
+    def passed(self) -> tuple[Passed, ...]:
+        """The epochs that are over."""
+        return tuple(self._passed)
+
+    @property
+    def human_cost(self) -> Fraction:
+        """What the person has paid, undiscounted."""
+        return self._paid
+
+    @property
+    def cost(self) -> Fraction:
+        """What the team has paid."""
+        return self._team
+
+    def possible(self) -> tuple[str, ...]:
+        """Names of what the person could do by themselves now."""
+        names = (self.task.actions[i].name for i in self.task.human_actions if self._world.applicable(i))
+        return tuple(dict.fromkeys(names))
+
+    # -- an epoch
+
+    @property
+    def decided(self) -> Decided:
+        """What robots are going to do in the epoch that is to come; decided when it is first asked for."""
+        if self._decided is None:
+            self._decided = self._decide()
+        return self._decided
+
+    def step(self, action: str | None = None) -> Passed:
+        """Move on by one epoch.
+
+        Args:
+            action: what the person does: an action of their own, one of ``decided.offers``, or None
+                to wait.  What turns out to be impossible does not happen.
+
+        Raises:
+            UsageError: there is no such action of theirs, and no such offer.
+        """
+        decided = self.decided
+        offer = None if action is None else self._offer(decided, action)
+        his = None if action is None or offer is not None else self._world.his(action)
+        in_vain = his is not None and not self._world.applicable(his)
+        his = None if in_vain else his
+        before = self._world.state
+        robots = [*([] if offer is None else [offer]), *decided.actions]
+        happened = self._world.play(his, robots, lambda step: self._carry_out(decided.epoch, step))
+        self._running = [u.step for u in happened.unfinished if u.why == "running" and u.step is not offer]
+        paid, team = self._world.cost(happened.executed)
+        self._paid, self._team = self._paid + paid, self._team + team
+        self._brain.saw(his, happened.executed)
+        passed = Passed(
+            epoch=decided.epoch,
+            decided=decided,
+            human=None if action is None else canonical_name(action),
+            in_vain=in_vain,
+            steps=tuple(self._world.step(decided.epoch, i) for i in happened.executed),
+            unfinished=happened.unfinished,
+            changes=self._world.changes(before),
+            human_cost=float(self._paid),
+            cost=float(self._team),
+            done=self.done,
+        )
+        self._passed.append(passed)
+        self._decided = None
+        return passed
+
+    def change(self, facts: Mapping[str, bool]) -> None:
+        """Set facts to true or false, as somebody has seen them.
+
+        Raises:
+            UsageError: there is no such fact.
+        """
+        self._world.change(facts.items())
+        self._brain.surprised()
+        self._decided = None
+
+    def drop(self, robots: Iterable[str]) -> None:
+        """Robots are out of order from now on.
+
+        Raises:
+            UsageError: there is no such robot.
+        """
+        names = [canonical_name(robot) for robot in robots]
+        for name in names:
+            if name not in self.task.agents or self.task.agents.index(name) == self.task.human:
+                known = ", ".join(self.task.agents[i] for i in self.task.robots)
+                raise UsageError(f"robot: expected one of {known}, got '{name}'")
+        self._brain.drop(self.task.agents.index(name) for name in names)
+        self._running = [step for step in self._running if not set(step.agents).intersection(names)]
+        self._decided = None
+
+    # -- within an epoch
+
+    def _prepare(self) -> None:
+        """What the first decision needs and later ones keep."""
+        try:
+            with no_collection():
+                self._brain.decide(self._outlook(), Deadline(_PREPARATION))
+        except LIMITS:
+            pass
+        self._brain.forget()
+
+    def _decide(self) -> Decided:
+        clock = Deadline(self._deadline)
+        try:
+            with no_collection():
+                decided = self._brain.decide(self._outlook(), clock)
+        except LIMITS:
+            return self._late(clock.elapsed())
+        seconds = clock.elapsed()
+        return self._late(seconds) if self._missed(seconds) else decided.at(seconds)
+
+    def _outlook(self) -> Outlook:
+        return Outlook(self.epoch, self._world, tuple(self._running))
+
+    def _missed(self, seconds: float) -> bool:
+        return self._deadline is not None and seconds > self._deadline
+
+    def _late(self, seconds: float) -> Decided:
+        self._brain.forget()
+        words = f"too late: no decision within {self._deadline:g} s, robots do nothing"
+        return Decided(self.epoch, "late", words, goals=self._brain.goals, seconds=seconds)
+
+    def _offer(self, decided: Decided, action: str) -> PlanStep | None:
+        name = canonical_name(action)
+        return next((step for step in decided.offers if step.action == name), None)
+
+    def _carry_out(self, epoch: int, step: PlanStep) -> Outcome:
+        human = self.task.agents[self.task.human]
+        robots = " ".join(agent for agent in step.agents if agent != human)
+        return self._actuator(epoch, robots, step.action)

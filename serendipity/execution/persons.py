@@ -1,0 +1,205 @@
+"""People who can be plugged into an execution: what somebody who may be helped does in each epoch."""
+
+from collections.abc import Iterable, Sequence
+from random import Random
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from search import PreparedTask
+from search.context import SearchContext
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import Operator, applicable
+from search.simulation.human import Glance, Human
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import apply
+from serendipity.model.task.execution import actions_named
+from serendipity.model.task.plans import PlanStep
+from serendipity.model.task.task import Task, canonical_name
+
+if TYPE_CHECKING:
+    from serendipity.execution.execution import Execution
+
+
+class Moment(NamedTuple):
+    """Before an epoch.
+
+    Attributes:
+        state: ids of the facts that are true.
+        offers: joint actions that robots are ready for.
+        wish: what the robots' plan has the person do; only somebody who is told of it may look.
+    """
+
+    state: frozenset[int]
+    offers: tuple[PlanStep, ...]
+    wish: PlanStep | None
+
+
+class Person(Protocol):
+    """Somebody who does something in each epoch."""
+
+    def choose(self, moment: Moment) -> str | None:
+        """The name of what they do: an action of their own, an offer, or None to wait.
+
+        They are asked once in each epoch, and everything that they choose and that is possible happens.
+        """
+
+
+def moment_of(run: "Execution") -> Moment:
+    """What a person has before them."""
+    decided = run.decided
+    return Moment(run.state, decided.offers, decided.expected)
+
+
+class Omniscient:
+    """Does what the robots' plan says: the human of the paper."""
+
+    def choose(self, moment: Moment) -> str | None:
+        """See :class:`Person`."""
+        return None if moment.wish is None else moment.wish.action
+
+
+class Replanner:
+    """Looks up in each epoch and replans when that pays (semantics 6).
+
+    Args:
+        task: where they begin; its goal is theirs.
+        human_model: ``observant`` or ``local``.
+        dice: draws which of their optimal plans they follow; None: the canonical one.
+    """
+
+    def __init__(self, task: Task, human_model: str = "observant", dice: Random | None = None) -> None:
+        self._task = task
+        self._dice = dice
+        joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
+        self._human = Human(PreparedTask(task), Options(), Deadline(), human_model=human_model, actions=joint)
+        self._expected = self._human.packed.pack(task.init)
+        self._intention = self._human.intentions.of(())
+
+    @property
+    def plan(self) -> tuple[int, ...]:
+        """Ids of what they mean to do from here."""
+        return self._intention.actions
+
+    def choose(self, moment: Moment) -> str | None:
+        """See :class:`Person`."""
+        human = self._human
+        state = human.packed.pack(moment.state)
+        belief = human.eyes.look(self._expected, state)
+        look = self._look(belief)
+        self._expected, self._intention = belief, look.intention
+        joint = next((op for op in self._offered(moment) if self._accepts(op, state, belief, look)), None)
+        if joint is not None:
+            self._expected = belief & joint.keep | joint.put
+            return self._task.actions[joint.action].name
+        own = look.intention.op
+        if look.best is None or own is None:
+            return None
+        if applicable(own, state):
+            self._expected = belief & own.keep | own.put
+            self._intention = look.intention.rest
+        else:
+            self._expected = human.learn(belief, state, own)
+        return self._task.actions[own.action].name
+
+    def does(self, state: frozenset[int], action: int | None) -> None:
+        """Say that they did something else than they had chosen: an own action, or nothing."""
+        human = self._human
+        belief = human.eyes.look(self._expected, human.packed.pack(state))
+        if action is not None:
+            after = apply(state, self._task.actions[action])
+            changed = human.packed.pack(state) ^ human.packed.pack(after)
+            belief = belief & ~changed | human.packed.pack(after) & changed
+        self._expected = belief
+
+    def _look(self, belief: int) -> Glance:
+        look = self._human.decide(belief, self._intention)
+        if self._dice is None or not look.replanned:
+            return look
+        graph = self._human.alone.plans(belief)
+        assert graph is not None, "who replans has a plan"
+        drawn = graph.drawn(self._dice.choice)
+        return Glance(self._human.intentions.of(drawn), look.kept, look.best)
+
+    def _offered(self, moment: Moment) -> Iterable[Operator]:
+        for step in moment.offers:
+            for i in actions_named(self._task, step.action, step.agents):
+                yield self._human.packed.op(i)
+
+    def _accepts(self, op: Operator, state: int, belief: int, look: Glance) -> bool:
+        return applicable(op, state) and self._human.accepts(op, belief, look.best)
+
+
+class Noisy:
+    """Like somebody observant, but with some probability they do something else in an epoch.
+
+    What else they do is drawn from all that they can do alone, waiting included, and from which they
+    can still reach their goal alone; then they go on from there as it is best.
+
+    Args:
+        task: where they begin; its goal is theirs.
+        probability: of something else, in each epoch.
+        dice: draws.
+        ties: whether the dice also draw which of their optimal plans they follow.
+    """
+
+    def __init__(self, task: Task, probability: float, dice: Random, *, ties: bool = False) -> None:
+        self._task = task
+        self._probability = probability
+        self._dice = dice
+        self._usual = Replanner(task, "observant", dice if ties else None)
+        self._alone = PreparedTask(task)
+
+    def choose(self, moment: Moment) -> str | None:
+        """See :class:`Person`."""
+        stray = self._dice.random() < self._probability
+        if not stray:
+            return self._usual.choose(moment)
+        others = [None, *(i for i in self._task.human_actions if self._way_back(moment.state, i))]
+        action = self._dice.choice(others)
+        self._usual.does(moment.state, action)
+        return None if action is None else self._task.actions[action].name
+
+    def _way_back(self, state: frozenset[int], action: int) -> bool:
+        ground = self._task.actions[action]
+        return ground.applicable(state) and has_plan(self._alone, apply(state, ground))
+
+
+class Recorded:
+    """Does what was written down, one action an epoch, then goes on like somebody observant.
+
+    A step that is not possible is tried in vain; from there on they look for themselves.
+
+    Args:
+        task: where they begin; its goal is theirs.
+        actions: names, ``noop`` for waiting.
+    """
+
+    def __init__(self, task: Task, actions: Sequence[str]) -> None:
+        self._task = task
+        self._left = [canonical_name(name) for name in actions]
+        self._next = Replanner(task)
+
+    def choose(self, moment: Moment) -> str | None:
+        """See :class:`Person`."""
+        if not self._left:
+            return self._next.choose(moment)
+        name = self._left.pop(0)
+        if self._task.waits(name) and name not in self._task.named:
+            self._next.does(moment.state, None)
+            return None
+        if any(step.action == name for step in moment.offers):
+            return name
+        ids = self._task.named[name]
+        own = [i for i in ids if self._task.actions[i].participants == (self._task.human,)]
+        possible = next((i for i in own if self._task.actions[i].applicable(moment.state)), None)
+        if possible is None:
+            self._left.clear()
+            return name if own else self._next.choose(moment)
+        self._next.does(moment.state, possible)
+        return name
+
+
+def has_plan(prepared: PreparedTask, state: frozenset[int]) -> bool:
+    """Whether the human can reach the goal alone from a state."""
+    context = SearchContext(prepared.at(state), Options(), Deadline())
+    return context.alone.key(context.packed.init) < INFINITE_KEY

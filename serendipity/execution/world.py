@@ -1,0 +1,174 @@
+"""The world as it truly is: whose actions take place in an epoch, and what comes of them (semantics 2, 6)."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final, Literal
+
+from serendipity.model.errors import UsageError
+from serendipity.model.task.actions import apply, conflicting
+from serendipity.model.task.execution import actions_named, participants
+from serendipity.model.task.plans import PlanStep
+from serendipity.model.task.task import Task, canonical_name
+
+Outcome = Literal["done", "failed", "running"]
+"""What became of a robot's action in an epoch: it took place, it never will, or it takes longer."""
+
+Actuator = Callable[[int, str, str], Outcome]
+"""``carry_out(epoch, robots, action)``: what robots, one or several names with blanks between, make of an
+action.  It is asked once in each epoch from the one in which the action begins until it is over."""
+
+WHY: Final = {
+    "inapplicable": "its preconditions do not hold",
+    "conflict": "it gets in the way of another action",
+    "refused": "the person did something else",
+    "failed": "the robot did not manage",
+    "running": "it takes longer",
+}
+"""Why something that robots meant to do did not take place, in words."""
+
+
+def done_at_once(_epoch: int, _robots: str, _action: str) -> Outcome:
+    """The actuator of a robot that never fails."""
+    return "done"
+
+
+@dataclass(frozen=True, slots=True)
+class Unfinished:
+    """Something that robots meant to do and that did not take place: which, and a key of ``WHY``."""
+
+    step: PlanStep
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class Happened:
+    """What took place in an epoch, by action ids.
+
+    Attributes:
+        executed: the human's action first, if any.
+        unfinished: what robots meant to do and did not.
+    """
+
+    executed: tuple[int, ...]
+    unfinished: tuple[Unfinished, ...]
+
+
+class World:
+    """A task's true state, which actions change.
+
+    Args:
+        task: where it begins.
+        discount: of robots' costs.
+        strict: whether interference is strict.
+
+    Attributes:
+        state: ids of the facts that are true.
+    """
+
+    def __init__(self, task: Task, discount: Fraction, *, strict: bool) -> None:
+        self.task = task
+        self.state = task.init
+        self._discount = discount
+        self._strict = strict
+        self._facts: dict[str, int] | None = None
+
+    def his(self, name: str) -> int:
+        """The human's own action of that name, in the variant that is applicable where one is.
+
+        Raises:
+            UsageError: the human has no such action alone.
+        """
+        ids = actions_named(self.task, canonical_name(name), [self.task.agents[self.task.human]])
+        if not ids:
+            human = self.task.agents[self.task.human]
+            raise UsageError(f"there is no action '{name}' that {human} can do alone")
+        return self._applicable(ids)
+
+    def of(self, step: PlanStep) -> int:
+        """The action of a step, in the variant that is applicable where one is."""
+        return self._applicable(actions_named(self.task, step.action, step.agents))
+
+    def step(self, epoch: int, action: int) -> PlanStep:
+        """An action as plans write it."""
+        ground = self.task.actions[action]
+        cost = self.task.team_cost(ground, self._discount)
+        return PlanStep(epoch, participants(self.task, ground), ground.name, float(cost))
+
+    def applicable(self, action: int) -> bool:
+        """Whether an action is possible now."""
+        return self.task.actions[action].applicable(self.state)
+
+    def play(
+        self, his: int | None, robots: Sequence[PlanStep], carry_out: Callable[[PlanStep], Outcome]
+    ) -> Happened:
+        """One epoch: what can take place does; the human has priority, then robots in the given order.
+
+        Args:
+            his: what the human does, an action that is applicable; None: they wait.
+            robots: what robots mean to do without the human, or, where ``his`` is it, with them.
+            carry_out: what robots make of an action that is possible.
+        """
+        executed = [] if his is None else [his]
+        unfinished: list[Unfinished] = []
+        for step in robots:
+            action = self.of(step)
+            why = self._obstacle(action, executed)
+            if why is None:
+                outcome = carry_out(step)
+                if outcome == "done":
+                    executed.append(action)
+                    continue
+                why = outcome
+            unfinished.append(Unfinished(step, why))
+        self.state = self.after(executed)
+        return Happened(tuple(executed), tuple(unfinished))
+
+    def after(self, actions: Iterable[int]) -> frozenset[int]:
+        """The state that some actions would lead to from here."""
+        return apply(self.state, *(self.task.actions[i] for i in actions))
+
+    def conflict(self, action: int, other: int) -> bool:
+        """Whether two actions can't share an epoch."""
+        first, second = self.task.actions[action], self.task.actions[other]
+        return conflicting(first, second, strict=self._strict)
+
+    def change(self, facts: Iterable[tuple[str, bool]]) -> None:
+        """Set facts to true or false, as somebody has seen them.
+
+        Raises:
+            UsageError: there is no such fact.
+        """
+        state = set(self.state)
+        for name, true in facts:
+            fact = self._fact(name)
+            state.add(fact) if true else state.discard(fact)
+        held = {d.fact for d in self.task.disjunctions if d.holds(frozenset(state))}
+        self.state = frozenset(state.difference([d.fact for d in self.task.disjunctions]) | held)
+
+    def cost(self, actions: Iterable[int]) -> tuple[Fraction, Fraction]:
+        """What actions cost the human, undiscounted, and the team."""
+        chosen = [self.task.actions[i] for i in actions]
+        own = sum((a.cost for a in chosen if self.task.human in a.participants), Fraction(0))
+        return own, sum((self.task.team_cost(a, self._discount) for a in chosen), Fraction(0))
+
+    def changes(self, before: frozenset[int]) -> tuple[str, ...]:
+        """What has changed since a state: names of facts, ``!`` in front of those that are false now."""
+        changed = [(self.task.facts[f], f in self.state) for f in before ^ self.state]
+        return tuple(name if true else f"!{name}" for name, true in sorted(changed))
+
+    def _obstacle(self, action: int, executed: Sequence[int]) -> str | None:
+        if not self.applicable(action):
+            return "inapplicable"
+        return "conflict" if any(self.conflict(action, other) for other in executed) else None
+
+    def _applicable(self, ids: Sequence[int]) -> int:
+        return next((i for i in ids if self.applicable(i)), ids[0])
+
+    def _fact(self, name: str) -> int:
+        if self._facts is None:
+            self._facts = {fact: i for i, fact in enumerate(self.task.facts)}
+        found = self._facts.get(canonical_name(name))
+        if found is None:
+            raise UsageError(f"there is no fact '{name}' in the task")
+        return found
