@@ -1,0 +1,130 @@
+"""Results as answers of an engine: statuses, plans, figures."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Final
+
+from unified_planning.engines import LogLevel, LogMessage, PlanGenerationResult, PlanGenerationResultStatus
+from unified_planning.exceptions import UPUsageError
+from unified_planning.model import AbstractProblem
+
+from serendipity.facade.planning import plan_anytime
+from serendipity.model import Deadline, InputError, LimitReachedError, PlanError, Result, SerendipityError
+from serendipity.model.resources.limits import limits_from
+from serendipity.up.calls import Asked
+from serendipity.up.kinds import with_metric
+from serendipity.up.plans import human_plan_of, plan_of
+from serendipity.up.predicting import predict
+from serendipity.up.reading import Reading, read
+from serendipity.up.registration import ENGINE
+
+_FIGURES: Final = (
+    *("cost", "objective", "lower_bound", "human_cost", "saving", "saving_alone", "opportunity"),
+    *("horizon", "window", "reason", "realised", "status"),
+)
+
+Status = PlanGenerationResultStatus
+
+
+class Answers:
+    """The answers to one call, each better than those before it.
+
+    Args:
+        problem: what is asked about.
+        call: what is asked.
+        timeout: seconds, or None.
+        ignored: what the caller gave that plays no part.
+    """
+
+    def __init__(
+        self, problem: AbstractProblem, call: Asked, timeout: float | None, ignored: Sequence[str] = ()
+    ) -> None:
+        self._problem = problem
+        self._call = call
+        self._limits = limits_from(timeout, None)
+        self._messages = [_message(LogLevel.WARNING, f"{name}: not used") for name in ignored]
+
+    def all(self) -> Iterator[PlanGenerationResult]:
+        """The answers; the last is final, and says so if the problem is not supported.
+
+        Raises:
+            UPUsageError: a parameter is wrong; it says which.
+        """
+        try:
+            yield from self._planned()
+        except LimitReachedError as error:
+            status = Status.MEMOUT if error.reason == "memory-limit" else Status.TIMEOUT
+            yield self._result(status, None, str(error))
+        except SerendipityError as error:
+            raise UPUsageError(f"{ENGINE}: {error}") from None
+
+    def _planned(self) -> Iterator[PlanGenerationResult]:
+        options = self._call.options
+        limits = limits_from(options.time_limit, options.memory_limit, self._limits)
+        try:
+            reading = read(self._problem, *self._call.who(self._problem), deadline=limits)
+        except InputError as error:
+            yield self._result(Status.UNSUPPORTED_PROBLEM, None, str(error))
+            return
+        names = self._human_plan(reading, limits)
+        known: float | None = None
+        last: Result | None = None
+        for result in plan_anytime(reading.task, human_plan=names, deadline=limits, **_keywords(self._call)):
+            if last is not None and last.cost is not None and (known is None or last.cost < known):
+                known = last.cost
+                yield self._answer(last, reading, Status.INTERMEDIATE)
+            last = result
+        if last is not None:
+            yield self._answer(last, reading, self._status(last, reading))
+
+    def _human_plan(self, reading: Reading, limits: Deadline) -> tuple[str, ...] | None:
+        if self._call.human_plan is not None:
+            return human_plan_of(self._call.human_plan, reading)
+        if self._call.predict_with is not None:
+            return predict(reading.task, self._call.predict_with, time_limit=limits.left())
+        return None
+
+    def _status(self, result: Result, reading: Reading) -> PlanGenerationResultStatus:
+        whole = self._call.exact and not reading.left_out
+        match result.status:
+            case "optimal" if whole and with_metric(self._problem):
+                return Status.SOLVED_OPTIMALLY
+            case "optimal":
+                return Status.SOLVED_SATISFICING
+            case "infeasible":
+                return Status.UNSOLVABLE_PROVEN if whole else Status.UNSOLVABLE_INCOMPLETELY
+        return Status.MEMOUT if result.reason == "memory-limit" else Status.TIMEOUT
+
+    def _answer(
+        self, result: Result, reading: Reading, status: PlanGenerationResultStatus
+    ) -> PlanGenerationResult:
+        try:
+            plan = plan_of(result, reading)
+        except PlanError as error:
+            if status is not Status.INTERMEDIATE:
+                status = Status.UNSOLVABLE_INCOMPLETELY
+            return self._result(status, None, str(error))
+        figures = result.to_dict()
+        metrics = {name: str(figures[name]) for name in _FIGURES if figures[name] not in (None, {})}
+        metrics["engine_internal_time"] = str(self._limits.elapsed())
+        notes = [*reading.task.warnings, *([] if result.reason is None else [result.reason])]
+        return self._result(status, plan, *notes, metrics=metrics)
+
+    def _result(
+        self,
+        status: PlanGenerationResultStatus,
+        plan: object,
+        *notes: str,
+        metrics: dict[str, str] | None = None,
+    ) -> PlanGenerationResult:
+        messages = [*self._messages, *(_message(LogLevel.INFO, note) for note in notes)]
+        return PlanGenerationResult(status, plan, ENGINE, metrics, messages)
+
+
+def _message(level: LogLevel, text: str) -> LogMessage:
+    return LogMessage(level, text)
+
+
+def _keywords(call: Asked) -> dict[str, Any]:
+    options = call.options
+    values = {name: getattr(options, name) for name in options.to_dict()}
+    return {**values, "time_limit": None, "memory_limit": None}

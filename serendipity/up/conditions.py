@@ -1,0 +1,174 @@
+"""Conditions of unified-planning as formulas of the grounder, in negation normal form.
+
+An object fluent is a predicate with one argument more, its value.  Where one stands among the
+arguments of another (``clear(below(x))``), it is a variable for whose value the fluent holds.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from unified_planning.model import Fluent, FNode, Variable
+from unified_planning.model import Parameter as UPParameter
+
+from serendipity.model import InputError
+from serendipity.pddl.parsing.lifted import EQUALITY, And, Formula, Key, Literal, Or, Parameter, Quantified
+from serendipity.up.kinds import refusal
+from serendipity.up.vocabulary import Owner, Vocabulary
+
+Bound = Mapping[Variable, str]
+"""What quantified variables are called."""
+
+
+class Term(NamedTuple):
+    """A term, or the start of an atom: the variables that it needs, and what has to hold of them."""
+
+    words: tuple[str, ...]
+    hidden: tuple[Parameter, ...] = ()
+    guards: tuple[Literal, ...] = ()
+
+
+class Reader:
+    """Reads the expressions of one action or goal.
+
+    Args:
+        vocabulary: of the problem.
+        owner: whose action or goal it is.
+
+    Attributes:
+        quantified: whether there were quantifiers in what was read.
+    """
+
+    def __init__(self, vocabulary: Vocabulary, owner: Owner = None) -> None:
+        self.vocabulary = vocabulary
+        self.quantified = False
+        self._owner = owner
+        self._fresh = 0
+
+    def formula(self, node: FNode, bound: Bound | None = None, *, positive: bool = True) -> Formula:
+        """A condition, or with ``positive=False`` its negation.
+
+        Raises:
+            InputError: it is about numbers, or anything else that is not supported.
+        """
+        bound = bound or {}
+        if node.is_bool_constant():
+            return And() if node.bool_constant_value() == positive else Or()
+        if node.is_not():
+            return self.formula(node.arg(0), bound, positive=not positive)
+        if node.is_and() or node.is_or():
+            parts = tuple(self.formula(part, bound, positive=positive) for part in node.args)
+            return And(parts) if node.is_and() == positive else Or(parts)
+        if node.is_implies():
+            first, second = node.args
+            parts = (
+                self.formula(first, bound, positive=not positive),
+                self.formula(second, bound, positive=positive),
+            )
+            return Or(parts) if positive else And(parts)
+        if node.is_iff():
+            return self._alike(node, bound, positive)
+        if node.is_exists() or node.is_forall():
+            inner, parameters = self.bind(node.variables(), bound)
+            self.quantified = True
+            body = self.formula(node.arg(0), inner, positive=positive)
+            return Quantified(node.is_forall() == positive, parameters, body)
+        if node.is_equals():
+            return self._equal(node, bound, positive)
+        if node.is_fluent_exp() or node.is_dot():
+            return self._closed(self._fluent(node, bound), positive)
+        raise self.error(f"'{node}' is not supported as a condition")
+
+    def bind(
+        self, variables: Sequence[Variable], bound: Bound
+    ) -> tuple[dict[Variable, str], tuple[Parameter, ...]]:
+        """Names for quantified variables, and these as parameters."""
+        fresh = [self._variable(variable.type) for variable in variables]
+        names = (parameter.name for parameter in fresh)
+        return {**bound, **dict(zip(variables, names, strict=True))}, tuple(fresh)
+
+    def parameter(self, parameter: UPParameter) -> Parameter:
+        """A declared parameter of an action."""
+        return Parameter(f"?{parameter.name}", self.vocabulary.type(parameter.type))
+
+    def target(self, node: FNode, bound: Bound) -> tuple[Fluent, Key]:
+        """A fluent that is assigned to, with its predicate and arguments (in which are no fluents)."""
+        inner = node.arg(0) if node.is_dot() else node
+        return inner.fluent(), self._fluent(node, bound).words
+
+    def term(self, node: FNode, bound: Bound) -> Term:
+        """An object, or what stands for one.
+
+        Raises:
+            InputError: it is no object.
+        """
+        if node.is_object_exp():
+            return Term((self.vocabulary.object(node.object()),))
+        if node.is_parameter_exp() and node.type.is_user_type():
+            return Term((f"?{node.parameter().name}",))
+        if node.is_variable_exp():
+            return Term((bound[node.variable()],))
+        if (node.is_fluent_exp() or node.is_dot()) and node.type.is_user_type():
+            words, hidden, guards = self._fluent(node, bound)
+            value = self._variable(node.type)
+            return Term((value.name,), (*hidden, value), (*guards, Literal((*words, value.name))))
+        raise self.error(f"'{node}' is not supported as an object")
+
+    def value_of(self, kind: Fluent) -> Parameter:
+        """A variable for any value of an object fluent."""
+        return self._variable(kind.type)
+
+    def error(self, message: str) -> InputError:
+        """An error about the problem."""
+        return refusal(self.vocabulary.problem, message)
+
+    def _fluent(self, node: FNode, bound: Bound) -> Term:
+        """The predicate and the arguments of a fluent."""
+        owner, inner = self._owner, node
+        if node.is_dot():
+            name, inner = node.agent(), node.arg(0)
+            owner = next(agent for agent in self.vocabulary.agents if agent.name == name)
+        elif owner is not None and inner.fluent() not in owner.fluents:
+            owner = None
+        if not (inner.type.is_bool_type() or inner.type.is_user_type()):
+            raise self.error(f"'{node}' is a number: only the costs of actions may depend on numbers")
+        terms = [self.term(argument, bound) for argument in inner.args]
+        words = (word for term in terms for word in term.words)
+        return Term(
+            (self.vocabulary.predicate(owner, inner.fluent()), *words),
+            tuple(hidden for term in terms for hidden in term.hidden),
+            tuple(guard for term in terms for guard in term.guards),
+        )
+
+    def _equal(self, node: FNode, bound: Bound, positive: bool) -> Formula:
+        left, right = node.args
+        if not left.type.is_user_type():
+            raise self.error(f"'{node}' is about numbers: not supported as a condition")
+        if right.is_fluent_exp() or right.is_dot():
+            left, right = right, left
+        if not (left.is_fluent_exp() or left.is_dot()):
+            words = (EQUALITY, *self.term(left, bound).words, *self.term(right, bound).words)
+            return Literal(words, positive)
+        fluent, value = self._fluent(left, bound), self.term(right, bound)
+        return self._closed(
+            Term((*fluent.words, *value.words), fluent.hidden + value.hidden, fluent.guards + value.guards),
+            positive,
+        )
+
+    def _alike(self, node: FNode, bound: Bound, positive: bool) -> Formula:
+        left, right = node.args
+        same, other = (
+            And((self.formula(left, bound, positive=first), self.formula(right, bound, positive=second)))
+            for first, second in ((True, positive), (False, not positive))
+        )
+        return Or((same, other))
+
+    def _closed(self, atom: Term, positive: bool) -> Formula:
+        literal = Literal(Key(atom.words), positive)
+        if not atom.hidden:
+            return literal
+        self.quantified = True
+        return Quantified(False, atom.hidden, And((*atom.guards, literal)))
+
+    def _variable(self, kind: object) -> Parameter:
+        self._fresh += 1
+        return Parameter(f"?.{self._fresh}", self.vocabulary.type(kind))

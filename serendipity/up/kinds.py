@@ -1,0 +1,66 @@
+"""What problems and plans of unified-planning we have a meaning for."""
+
+from typing import Final
+
+from unified_planning.model import AbstractProblem, ProblemKind
+from unified_planning.model.problem_kind_versioning import LATEST_PROBLEM_KIND_VERSION
+from unified_planning.plans import PlanKind
+
+from serendipity.model import InputError
+
+_FEATURES: Final = (
+    "ACTION_BASED",
+    "ACTION_BASED_MULTI_AGENT",
+    "FLAT_TYPING",
+    "HIERARCHICAL_TYPING",
+    "OBJECT_FLUENTS",
+    "NEGATIVE_CONDITIONS",
+    "DISJUNCTIVE_CONDITIONS",
+    "EQUALITIES",
+    "EXISTENTIAL_CONDITIONS",
+    "UNIVERSAL_CONDITIONS",
+    "CONDITIONAL_EFFECTS",
+    "FORALL_EFFECTS",
+    "STATIC_FLUENTS_IN_BOOLEAN_ASSIGNMENTS",
+    "FLUENTS_IN_BOOLEAN_ASSIGNMENTS",
+    "STATIC_FLUENTS_IN_OBJECT_ASSIGNMENTS",
+    "FLUENTS_IN_OBJECT_ASSIGNMENTS",
+    "ACTIONS_COST",
+    "PLAN_LENGTH",
+    "STATIC_FLUENTS_IN_ACTIONS_COST",
+    "INT_NUMBERS_IN_ACTIONS_COST",
+    "REAL_NUMBERS_IN_ACTIONS_COST",
+    "AGENT_SPECIFIC_PRIVATE_GOAL",
+    "AGENT_SPECIFIC_PUBLIC_GOAL",
+)
+
+PLANS: Final = (PlanKind.SEQUENTIAL_PLAN, PlanKind.PARTIAL_ORDER_PLAN)
+"""Kinds of plans that are written and validated."""
+
+
+def supported_kind() -> ProblemKind:
+    """All that a problem may have."""
+    return ProblemKind(_FEATURES, version=LATEST_PROBLEM_KIND_VERSION)
+
+
+def require_supported(problem: AbstractProblem) -> None:
+    """Refuse a problem of another kind.
+
+    Raises:
+        InputError: naming what it has that is not supported.
+    """
+    kind = problem.kind
+    if not kind <= supported_kind():
+        beyond = sorted(f for f in kind.features if f not in _FEATURES)
+        raise refusal(problem, f"{', '.join(beyond)}: not supported")
+
+
+def refusal(problem: AbstractProblem, message: str) -> InputError:
+    """An error about a problem."""
+    name = "" if problem.name is None else f" '{problem.name}'"
+    return InputError(f"unified-planning problem{name}: {message}")
+
+
+def with_metric(problem: AbstractProblem) -> bool:
+    """Whether the problem says what an optimal plan is."""
+    return bool(getattr(problem, "quality_metrics", ()))

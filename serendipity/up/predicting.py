@@ -1,0 +1,104 @@
+"""What the human is going to do, as an engine of unified-planning predicts it."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from unified_planning.engines import CompilationKind, PlanGenerationResultStatus
+from unified_planning.environment import get_environment
+from unified_planning.exceptions import UPException
+from unified_planning.model import Problem
+from unified_planning.plans import SequentialPlan
+
+from serendipity.model import Task, UsageError
+from serendipity.up.writing import own_problem
+
+_NO_PLAN = (
+    PlanGenerationResultStatus.UNSOLVABLE_PROVEN,
+    PlanGenerationResultStatus.UNSOLVABLE_INCOMPLETELY,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """What an engine answered.
+
+    Attributes:
+        status: in its own words.
+        actions: indices of the problem's actions; None without a plan.
+    """
+
+    status: PlanGenerationResultStatus
+    actions: tuple[int, ...] | None
+
+    @property
+    def unsolvable(self) -> bool:
+        """Whether it says that there is no plan, proved or not."""
+        return self.status in _NO_PLAN
+
+
+def predict(task: Task, engine: str, *, time_limit: float | None = None) -> tuple[str, ...] | None:
+    """A plan of the human alone, by any engine of unified-planning.
+
+    Args:
+        task: the task.
+        engine: its name in the factory, for example ``fast-downward-opt``.
+        time_limit: seconds, or None.
+
+    Returns:
+        Names of actions, for ``human_plan=``; None if the engine says that the human has no plan.
+
+    Raises:
+        UsageError: there is no such engine, it can't have such problems, or it found neither.
+    """
+    solved = solve_with(engine, own_problem(task), time_limit)
+    if solved.actions is not None:
+        return tuple(task.actions[task.human_actions[i]].name for i in solved.actions)
+    if solved.unsolvable:
+        return None
+    raise UsageError(f"predict_with: engine '{engine}' found no plan of the human: {solved.status.name}")
+
+
+def solve_with(engine: str, problem: Problem, time_limit: float | None = None) -> Solved:
+    """What an engine makes of a ground problem.
+
+    Raises:
+        UsageError: there is no such engine, or it can't have such problems.
+    """
+    factory = get_environment().factory
+    if engine not in factory.engines:
+        raise UsageError(f"engine '{engine}': expected one of {', '.join(sorted(factory.engines))}")
+    try:
+        with _no_credits(), factory.OneshotPlanner(name=engine) as planner:
+            if planner.supports(problem.kind):
+                result = planner.solve(problem, timeout=time_limit)
+                return _solved(problem, result.status, result.plan)
+            kind = CompilationKind.NEGATIVE_CONDITIONS_REMOVING
+            with factory.Compiler(problem_kind=problem.kind, compilation_kind=kind) as compiler:
+                compiled = compiler.compile(problem, kind)
+            result = planner.solve(compiled.problem, timeout=time_limit)
+            plan = result.plan
+            if plan is not None:
+                plan = plan.replace_action_instances(compiled.map_back_action_instance)
+            return _solved(problem, result.status, plan)
+    except UPException as error:
+        raise UsageError(f"engine '{engine}': {' '.join(str(error).split())}") from None
+
+
+def _solved(problem: Problem, status: PlanGenerationResultStatus, plan: SequentialPlan | None) -> Solved:
+    if plan is None:
+        return Solved(status, None)
+    numbers = {action.name: i for i, action in enumerate(problem.actions)}
+    return Solved(status, tuple(numbers[instance.action.name] for instance in plan.actions))
+
+
+@contextmanager
+def _no_credits() -> Iterator[None]:
+    """Nothing is printed about who made an engine."""
+    environment = get_environment()
+    before = environment.credits_stream
+    environment.credits_stream = None
+    try:
+        yield
+    finally:
+        environment.credits_stream = before
