@@ -26,6 +26,7 @@ NAMES: Final = (
     "bench",
     "examples",
     "generate",
+    "serve",
 )
 """As ``--help`` lists them: each a function in a module, both of its name, or a group ``app`` there."""
 

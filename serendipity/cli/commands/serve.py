@@ -1,0 +1,92 @@
+"""``serendipity serve``: the HTTP service."""
+
+import os
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.files.reading import read_text
+from serendipity.cli.streams import output
+from serendipity.model import UsageError
+from serendipity.model.options import limit_of
+
+_TOKEN: Final = "SERENDIPITY_TOKEN"
+_MIB: Final = 2**20
+
+
+def serve(
+    host: Annotated[str, typer.Option("--host", metavar="ADDRESS", help="Where to listen.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option("--port", metavar="N", help="0 for any that is free.")] = 8123,
+    allow_host: Annotated[
+        list[str] | None,
+        typer.Option("--allow-host", metavar="NAME", help="Another name under which it may be asked."),
+    ] = None,
+    token_file: Annotated[
+        Path | None,
+        typer.Option("--token-file", metavar="FILE", help=f"A token that requests need; or in {_TOKEN}."),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", metavar="N", help="Processes; by default as many as processors."),
+    ] = None,
+    queue: Annotated[int, typer.Option("--queue", metavar="N", help="Requests that may wait.")] = 64,
+    body_limit: Annotated[
+        str, typer.Option("--body-limit", metavar="MIB", help="The most that a request may have.")
+    ] = "4",
+    time_limit: Annotated[
+        str, typer.Option("--time-limit", metavar="SECONDS", help="The most that a request may take.")
+    ] = "60",
+    memory_limit: Annotated[
+        str, typer.Option("--memory-limit", metavar="MIB", help="The most that a process may use.")
+    ] = "2000",
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Answer requests over HTTP: plan, verify, sessions; needs serendipity[live]."""
+    output.start_logging(verbose)
+    for option, number, least in (("--workers", workers, 1), ("--queue", queue, 0)):
+        if number is not None and number < least:
+            raise UsageError(f"{option}: expected at least {least}, got {number}")
+    try:
+        from serendipity.live.guards import addresses
+        from serendipity.live.server import serve as run
+        from serendipity.live.service.application import ServiceLimits, service
+        from serendipity.live.workers.pool import PoolLimits
+    except ImportError as missing:
+        raise UsageError(f"serve: needs {missing.name}: install serendipity[live]") from None
+    token = _token(token_file)
+    if token is None and not addresses.loopback(host):
+        raise UsageError(f"--host: others can reach {host}, so a token is needed: --token-file, or {_TOKEN}")
+    pool = PoolLimits(
+        workers or os.cpu_count() or 1,
+        queue,
+        _limit("time_limit", time_limit, "seconds"),
+        _limit("memory_limit", memory_limit, "MiB"),
+    )
+    limits = ServiceLimits(pool, int(_limit("body_limit", body_limit, "MiB") * _MIB))
+    listener = addresses.listening(host, port)
+    app = service(limits, addresses.hosts(host, allow_host or ()), token)
+    if not quiet:
+        output.say(f"Serving on {addresses.url(listener)}, described at /docs; Ctrl-C stops it.\n")
+    run(app, listener)
+    return ExitCode.ANSWERED
+
+
+def _limit(name: str, value: str, unit: str) -> float:
+    limit = limit_of(name, value, unit)
+    if limit == float("inf"):
+        raise UsageError(f"{name}: expected {unit}, got {value}")
+    return limit
+
+
+def _token(file: Path | None) -> str | None:
+    token = os.environ.get(_TOKEN) if file is None else read_text(file)
+    if token is None:
+        return None
+    token = token.strip()
+    if not token or not token.isascii() or not token.isprintable():
+        where = _TOKEN if file is None else str(file)
+        raise UsageError(f"{where}: expected a token of visible characters")
+    return token

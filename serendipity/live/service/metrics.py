@@ -1,0 +1,107 @@
+"""What a server has done so far, for Prometheus."""
+
+from time import perf_counter
+
+from prometheus_client import (
+    CONTENT_TYPE_LATEST,
+    CollectorRegistry,
+    Counter,
+    Gauge,
+    Histogram,
+    generate_latest,
+)
+from prometheus_client.core import CounterMetricFamily
+from prometheus_client.process_collector import ProcessCollector
+from prometheus_client.registry import Collector
+from starlette.responses import Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from serendipity.live.service.sessions import Sessions
+from serendipity.live.workers.pool import Pool
+
+_BUCKETS = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60)
+
+
+class Metrics:
+    """Figures of one server; several in a process do not mix.
+
+    Args:
+        pool: its workers.
+        sessions: its sessions.
+    """
+
+    def __init__(self, pool: Pool, sessions: Sessions) -> None:
+        self._registry = registry = CollectorRegistry()
+        ProcessCollector(registry=registry)
+        self.requests = Counter(
+            "serendipity_requests", "Requests answered.", ["path", "method", "status"], registry=registry
+        )
+        self.seconds = Histogram(
+            "serendipity_request_seconds",
+            "Until the answer was said.",
+            ["path"],
+            registry=registry,
+            buckets=_BUCKETS,
+        )
+        figures = pool.figures
+        for name, about, value in (
+            ("workers", "Worker processes.", lambda: pool.limits.workers),
+            ("workers_busy", "Worker processes at work.", lambda: figures.busy),
+            ("queue", "Requests that wait for a worker.", lambda: figures.waiting),
+            ("sessions", "Sessions that are remembered.", lambda: len(sessions)),
+        ):
+            Gauge(f"serendipity_{name}", about, registry=registry).set_function(value)
+        registry.register(_PoolCounters(pool))
+
+    def page(self) -> Response:
+        """The figures as Prometheus reads them."""
+        return Response(generate_latest(self._registry), media_type=CONTENT_TYPE_LATEST)
+
+
+class _PoolCounters(Collector):
+    """What the pool counts by itself."""
+
+    def __init__(self, pool: Pool) -> None:
+        self._figures = pool.figures
+
+    def collect(self) -> list[CounterMetricFamily]:
+        """Counters as they stand."""
+        refused = CounterMetricFamily("serendipity_refused", "Requests that found the queue full.")
+        refused.add_metric([], self._figures.refused)
+        replaced = CounterMetricFamily("serendipity_workers_replaced", "By reason.", labels=["reason"])
+        for reason, count in self._figures.replaced.items():
+            replaced.add_metric([reason], count)
+        return [refused, replaced]
+
+
+class Counted:
+    """Middleware that counts requests.
+
+    Args:
+        app: who answers them.
+        metrics: where they are counted.
+    """
+
+    def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
+        self._app = app
+        self._metrics = metrics
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass on and count."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        begun, status = perf_counter(), 499  # the client went away before there was an answer
+
+        async def noted(message: Message) -> None:
+            nonlocal status
+            if message["type"] == "http.response.start":
+                status = message["status"]
+            await send(message)
+
+        try:
+            await self._app(scope, receive, noted)
+        finally:
+            path = getattr(scope.get("route"), "path", "other")
+            self._metrics.requests.labels(path, scope["method"], status).inc()
+            self._metrics.seconds.labels(path).observe(perf_counter() - begun)

@@ -1,0 +1,131 @@
+"""What requests have to look like; what their values mean is checked by those who plan."""
+
+from dataclasses import fields
+from typing import Any, Final
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from serendipity.model.options import CHOICES, Options
+
+_DOMAIN: Final = "text of a PDDL domain"
+_PROBLEM: Final = "text of a PDDL problem"
+
+
+def _options_schema() -> dict[str, Any]:
+    defaults = Options().to_dict()
+    described = {
+        field.name: {"default": defaults[field.name]}
+        | ({"enum": list(CHOICES[field.name])} if field.name in CHOICES else {})
+        for field in fields(Options)
+    }
+    return {"type": "object", "properties": described, "additionalProperties": False}
+
+
+class Asked(BaseModel):
+    """A part of a request; what it does not know is an error."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class FilePair(Asked):
+    """The files of an agent."""
+
+    domain: str = Field(description=_DOMAIN)
+    problem: str = Field(description=_PROBLEM)
+
+
+class GivenTask(Asked):
+    """A task, named in exactly one way: ``example``, ``domain`` and ``problem``, or ``agents``."""
+
+    example: str | None = Field(None, description="name of a shipped task", examples=["room2"])
+    domain: str | None = Field(None, description=_DOMAIN)
+    problem: str | None = Field(None, description=_PROBLEM)
+    agents: dict[str, FilePair] | None = Field(None, description="a pair of files for each agent, by name")
+    team: FilePair | None = Field(None, description="the pair with the joint actions")
+    human: str | None = Field(None, description="the agent who is helped")
+    robots: list[str] | None = Field(None, description="those who help")
+
+
+_OPTIONS: Final[Any] = Field(
+    default_factory=dict,
+    description="options of `serendipity plan`",
+    json_schema_extra=_options_schema(),
+    examples=[{"discount": 0.6}],
+)
+
+
+class PlanRequest(Asked):
+    """A planning call."""
+
+    task: GivenTask
+    options: dict[str, Any] = _OPTIONS
+    human_plan: list[str] | None = Field(None, description="what the human will do; None predicts it")
+    goals: list[dict[str, Any]] | None = Field(
+        None, description="goals that the human may have", examples=[[{"name": "a", "goal": ["at h x"]}]]
+    )
+    observed: list[str] | None = Field(None, description="what the human has done, for `goals`")
+    beta: float | str | None = Field(None, description="of the posterior, for `goals`")
+
+
+class AnytimeRequest(Asked):
+    """A planning call whose answers get better."""
+
+    task: GivenTask
+    options: dict[str, Any] = _OPTIONS
+    human_plan: list[str] | None = None
+
+
+class VerifyRequest(Asked):
+    """A result to be checked."""
+
+    task: GivenTask
+    result: dict[str, Any] = Field(description="what `/plan` answered")
+    solver: str | None = Field(None, examples=["highs"])
+    encoding: str | None = Field(None, examples=["automata"])
+
+
+class SessionRequest(Asked):
+    """A session to be begun; its options are defaults of its calls."""
+
+    task: GivenTask
+    options: dict[str, Any] = _OPTIONS
+    human_plan: list[str] | None = None
+
+
+class SessionPlanRequest(Asked):
+    """A planning call from where a session stands."""
+
+    options: dict[str, Any] = _OPTIONS
+
+
+class ExecuteRequest(Asked):
+    """What was done in an epoch."""
+
+    actions: list[str]
+
+
+class ChangeRequest(Asked):
+    """Facts as they were seen."""
+
+    facts: dict[str, bool]
+
+
+class GoalRequest(Asked):
+    """Another goal of the human's."""
+
+    goal: list[str]
+
+
+class SessionState(BaseModel):
+    """Where a session stands."""
+
+    id: str
+    facts: list[str] = Field(description="the true ones")
+    goal: list[str]
+    human_plan: list[str] | None = Field(description="what the human is going to do, where it is known")
+
+
+class Refusal(BaseModel):
+    """What is wrong, in the line that the command line says."""
+
+    error: str

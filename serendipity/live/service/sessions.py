@@ -1,0 +1,123 @@
+"""What the server remembers of sessions: enough for any worker to go on with them."""
+
+import json
+import secrets
+import time
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from starlette.exceptions import HTTPException
+
+
+@dataclass(slots=True)
+class Remembered:
+    """One session.
+
+    Attributes:
+        name: its id; nobody guesses it.
+        begun: the request that began it.
+        state: where it stands, as workers write it; None before the first call.
+        version: calls so far.
+        used: when it was used last.
+        busy: whether a call is under way.
+    """
+
+    name: str
+    begun: dict[str, Any]
+    used: float
+    state: dict[str, Any] | None = None
+    version: int = 0
+    busy: bool = False
+
+    def asked(self, call: str, given: dict[str, Any]) -> bytes:
+        """A call as a worker's job."""
+        session = {"id": self.name, "version": self.version, "state": self.state, **self.begun}
+        return json.dumps({"session": session, "call": call, "given": given}).encode()
+
+    def move(self, state: bytes) -> None:
+        """Take over where a call has left it."""
+        self.state = json.loads(state)
+        self.version += 1
+
+    @property
+    def stands(self) -> dict[str, Any]:
+        """What callers see of it."""
+        return {"id": self.name, **(self.state or {})}
+
+
+class Sessions:
+    """The sessions of a server: the one that nobody has used for longest goes first.
+
+    Args:
+        most: how many there may be.
+        seconds: after which an unused one is forgotten.
+    """
+
+    def __init__(self, most: int, seconds: float) -> None:
+        self._most = most
+        self._seconds = seconds
+        self._known: OrderedDict[str, Remembered] = OrderedDict()
+
+    def __len__(self) -> int:
+        return len(self._known)
+
+    def begin(self, begun: dict[str, Any]) -> Remembered:
+        """A session that :meth:`add` makes known.
+
+        Raises:
+            HTTPException: there are too many.
+        """
+        self._forget()
+        if len(self._known) >= self._most:
+            raise HTTPException(429, f"sessions: there are {self._most}, no more are kept: delete one")
+        return Remembered(secrets.token_urlsafe(16), begun, time.monotonic())
+
+    def add(self, session: Remembered) -> None:
+        """Make a session known."""
+        self._known[session.name] = session
+
+    def named(self, name: str) -> Remembered:
+        """A session.
+
+        Raises:
+            HTTPException: there is none of that name.
+        """
+        self._forget()
+        if name not in self._known:
+            raise HTTPException(404, f"session '{name:.50}': there is none, or no more")
+        session = self._known[name]
+        session.used = time.monotonic()
+        self._known.move_to_end(name)
+        return session
+
+    def end(self, name: str) -> None:
+        """Forget a session.
+
+        Raises:
+            HTTPException: there is none of that name.
+        """
+        del self._known[self.named(name).name]
+
+    @contextmanager
+    def calling(self, name: str) -> Iterator[Remembered]:
+        """A session for one call, which no other call may come into.
+
+        Raises:
+            HTTPException: there is none, or another call is under way.
+        """
+        session = self.named(name)
+        if session.busy:
+            raise HTTPException(409, f"session '{name}': another call of it is under way")
+        session.busy = True
+        try:
+            yield session
+        finally:
+            session.busy = False
+
+    def _forget(self) -> None:
+        oldest = time.monotonic() - self._seconds
+        for name in [name for name, known in self._known.items() if known.used < oldest and not known.busy]:
+            del self._known[name]

@@ -1,0 +1,102 @@
+"""A worker process, as the server holds it."""
+
+import asyncio
+import os
+import signal
+import sys
+from asyncio.subprocess import PIPE, Process
+from contextlib import suppress
+from typing import Final
+
+from serendipity.live.workers.frames import Frame, Incoming
+
+_HEAD: Final = 2**20
+"""The longest first line of a message."""
+
+
+class Handle:
+    """One process on one job at a time; :meth:`start` makes it.
+
+    Attributes:
+        working: whether it has a job that it has not ended.
+        resident: bytes that it had in memory at the end of its last job.
+    """
+
+    def __init__(self, process: Process) -> None:
+        assert process.stdout is not None
+        self._process = process
+        self._incoming = Incoming(process.stdout)
+        self.working = False
+        self.resident = 0
+
+    @classmethod
+    async def start(cls, memory_limit: float) -> "Handle":
+        """Start a process: in a session of its own, so that Ctrl-C in a terminal is left to the server."""
+        process = await asyncio.create_subprocess_exec(
+            *(sys.executable, "-m", "serendipity.live.workers.process", str(memory_limit)),
+            stdin=PIPE,
+            stdout=PIPE,
+            start_new_session=True,
+            limit=_HEAD,
+        )
+        return cls(process)
+
+    @property
+    def pid(self) -> int:
+        """The process."""
+        return self._process.pid
+
+    @property
+    def ended(self) -> bool:
+        """Whether the process is no more."""
+        return self._process.returncode is not None
+
+    async def give(self, job: str, body: bytes, time_limit: float) -> None:
+        """Have it begin a job.
+
+        Raises:
+            EOFError: it was killed.
+        """
+        self.working = True
+        await self._say(Frame({"kind": "job", "job": job, "time_limit": time_limit}, body))
+
+    async def hear(self) -> Frame:
+        """What it says next about its job.
+
+        Raises:
+            EOFError: it was killed.
+        """
+        frame = await self._incoming.next()
+        if frame.head["kind"] != "answer":
+            self.working = False
+            self.resident = frame.head["resident"]
+        return frame
+
+    async def leave(self, grace: float) -> None:
+        """Have it leave its job; it is still working afterwards where it does not, or is killed."""
+        with suppress(EOFError, TimeoutError):
+            await self._say(Frame({"kind": "cancel"}))
+            async with asyncio.timeout(grace):
+                while self.working:
+                    await self.hear()
+
+    async def kill(self) -> None:
+        """End it, and the solvers that it has started."""
+        with suppress(ProcessLookupError, PermissionError):
+            if hasattr(os, "killpg"):
+                os.killpg(self.pid, signal.SIGKILL)
+            else:
+                self._process.kill()
+        await self.wait()
+
+    async def wait(self) -> None:
+        """Return when it has ended."""
+        await self._process.wait()
+
+    async def _say(self, frame: Frame) -> None:
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(frame.encoded)
+            await self._process.stdin.drain()
+        except OSError:
+            raise EOFError from None

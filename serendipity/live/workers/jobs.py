@@ -1,0 +1,104 @@
+"""What a worker can be asked for: JSON in, JSON out."""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Final
+
+import serendipity
+from serendipity.live.workers.given_tasks import GivenTasks
+from serendipity.live.workers.held_sessions import HeldSessions
+from serendipity.model import Deadline, Options, Result, UsageError
+
+Asked = Mapping[str, Any]
+Answers = Iterator["dict[str, Any] | State"]
+
+
+class State(dict[str, Any]):
+    """Where a call has left a session: for the server, not for who asked."""
+
+
+Job = Callable[["Desk", Asked, Deadline], Answers]
+
+_TASKS: Final = 8
+_SESSIONS: Final = 8
+
+
+class Desk:
+    """What a worker keeps between jobs, to be quicker; nothing depends on it."""
+
+    def __init__(self) -> None:
+        self.tasks = GivenTasks(_TASKS)
+        self.sessions = HeldSessions(_SESSIONS, self.tasks)
+
+
+def plan(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+    """One answer, as ``serendipity.plan`` gives it."""
+    task = desk.tasks.task(asked["task"], deadline)
+    yield serendipity.plan(task, deadline=deadline, **_call(asked)).to_dict()
+
+
+def plan_anytime(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+    """Answers as they get better; the last one stands."""
+    task = desk.tasks.task(asked["task"], deadline)
+    for better in serendipity.plan_anytime(task, deadline=deadline, **_call(asked)):
+        yield better.to_dict()
+
+
+def verify(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+    """A certificate for a result."""
+    result = Result.from_dict(asked["result"])
+    task = desk.tasks.task(asked["task"], deadline)
+    how = {name: asked[name] for name in ("solver", "encoding") if asked.get(name) is not None}
+    yield serendipity.verify(task, result, deadline=deadline, **how).to_dict()
+
+
+def session(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+    """One call of a session; before the answers comes nothing, behind them where it stands now.
+
+    The request says where it stood before, so that any worker can go on with it.
+    """
+    held = desk.sessions.session(asked["session"], deadline)
+    call, given = asked["call"], asked["given"]
+    if call == "plan":
+        yield held.plan(deadline=deadline, **_options(given)).to_dict()
+    elif call == "plan_anytime":
+        for better in held.plan_anytime(deadline=deadline, **_options(given)):
+            yield better.to_dict()
+    elif call == "execute":
+        held.execute(given["actions"])
+    elif call == "change":
+        held.change(given["facts"])
+    elif call == "set_goal":
+        held.set_goal(given["goal"])
+    yield State(desk.sessions.keep(asked["session"], held))
+
+
+JOBS: Final[dict[str, Job]] = {
+    "plan": plan,
+    "plan_anytime": plan_anytime,
+    "verify": verify,
+    "session": session,
+}
+
+
+def _call(asked: Asked) -> dict[str, Any]:
+    """Keyword arguments of a planning call."""
+    more = {name: asked.get(name) for name in ("human_plan", "goals", "observed", "beta")}
+    options = _options(asked)
+    for name in ("observed", "beta"):
+        if more[name] is not None and more["goals"] is None:
+            raise UsageError(f"{name}: goes with goals only")
+    return {**options, **{name: value for name, value in more.items() if value is not None}}
+
+
+def _options(asked: Asked) -> dict[str, Any]:
+    """Options by name; what is no option of a plan is refused here, since calls have arguments beside them.
+
+    Raises:
+        UsageError: there is no such option.
+    """
+    options: dict[str, Any] = asked["options"]
+    known = Options.__dataclass_fields__
+    for name in options:
+        if name not in known:
+            raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
+    return options

@@ -1,0 +1,78 @@
+"""A server of its own process, as somebody starts it on the command line."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import httpx
+
+
+@dataclass
+class Server:
+    """One that is up."""
+
+    url: str
+    process: subprocess.Popen[str]
+    client: httpx.Client
+
+    @property
+    def port(self) -> int:
+        return int(self.url.rpartition(":")[2])
+
+    def post(self, path: str, body: object, **more: object) -> httpx.Response:
+        return self.client.post(path, json=body, **more)
+
+    def stop(self, number: int = signal.SIGINT) -> tuple[int, str]:
+        """Its exit code, and what it wrote to stderr."""
+        self.process.send_signal(number)
+        code = self.process.wait(timeout=20)
+        assert self.process.stderr is not None
+        return code, self.process.stderr.read()
+
+
+def workers_of(pid: int) -> list[int]:
+    """The processes that a server has started."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            if int(stat.read_text().rpartition(")")[2].split()[1]) == pid:
+                found.append(int(stat.parent.name))
+        except (OSError, IndexError):
+            continue
+    return sorted(found)
+
+
+@contextmanager
+def serving(*arguments: str, command: str = "serve", env: dict[str, str] | None = None) -> Iterator[Server]:
+    """A server on a free port."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "serendipity", command, "--port", "0", *arguments],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, **(env or {})},
+    )
+    watchdog = threading.Timer(120, process.kill)
+    watchdog.start()
+    try:
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        found = re.search(r"http://\S+?:\d+", line)
+        assert found is not None, (line, process.stderr and process.stderr.read())
+        with httpx.Client(base_url=found[0], timeout=30) as client:
+            yield Server(found[0], process, client)
+    finally:
+        watchdog.cancel()
+        process.kill()
+        process.wait()
+        for stream in (process.stdout, process.stderr):
+            if stream is not None:
+                stream.close()

@@ -1,0 +1,145 @@
+"""What is wrong gets 4xx and one line: the one that the command line says."""
+
+import pytest
+
+from serendipity.cli.app import main
+from tests.live.server import Server, serving
+
+ROOM2 = {"example": "room2"}
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ({"task": {"example": "room9"}}, ["plan", "--example", "room9"]),
+        ({"task": ROOM2, "options": {"discount": 2}}, ["plan", "--example", "room2", "--discount", "2"]),
+        ({"task": ROOM2, "options": {"mode": "x"}}, ["plan", "--example", "room2", "--mode", "x"]),
+        ({"task": {**ROOM2, "human": "nemo"}}, ["plan", "--example", "room2", "--human", "nemo"]),
+        (
+            {"task": ROOM2, "options": {"mode": "individual", "human_model": "local"}},
+            ["plan", "--example", "room2", "--mode", "individual", "--human-model", "local"],
+        ),
+    ],
+    ids=str,
+)
+def test_one_line_as_on_the_command_line(server: Server, body, words, capsys) -> None:
+    answer = server.post("/plan", body)
+    assert answer.status_code == 422
+    assert main(words) == 2
+    said = capsys.readouterr().err.strip().removeprefix("Error: ")
+    assert answer.json() == {"error": said}
+
+
+def test_files_are_named_with_their_lines(server: Server) -> None:
+    task = {"domain": "(define (domain d)\n(:foo))", "problem": "", "human": "h", "robots": ["r"]}
+    answer = server.post("/plan", {"task": task})
+    assert answer.status_code == 422
+    assert answer.json()["error"].startswith("domain.pddl:2: ")
+
+
+@pytest.mark.parametrize(
+    ("path", "body", "status", "start"),
+    [
+        ("/plan", {}, 422, "task: "),
+        ("/plan", {"task": {}}, 422, "task: expected one of"),
+        ("/plan", {"task": {"example": "room2", "team": {"domain": "", "problem": ""}}}, 422, "task: team: "),
+        ("/plan", {"task": ROOM2, "goals": "/etc/passwd"}, 422, "goals: "),
+        ("/plan", {"task": ROOM2, "observed": "/etc/passwd"}, 422, "observed: "),
+        ("/plan", {"task": ROOM2, "deadline": 3}, 422, "deadline: "),
+        ("/plan", {"task": ROOM2, "options": {"deadline": 3}}, 422, "unknown option 'deadline'"),
+        ("/plan", {"task": ROOM2, "options": {"visible": 3}}, 422, "unknown option 'visible'"),
+        ("/plan", {"task": {"agents": {"../x": {"domain": "", "problem": ""}}}}, 422, "agents: "),
+        ("/plan", {"task": ROOM2, "human_plan": ["fly"]}, 422, "human plan, step 1: "),
+        ("/verify", {"task": ROOM2, "result": {}}, 422, "result: schema: "),
+        ("/sessions", {"task": ROOM2, "options": {"x": 1}}, 422, "unknown option 'x'"),
+        ("/sessions/none/plan", {}, 404, "session 'none': "),
+        ("/nowhere", {}, 404, "Not Found"),
+    ],
+)
+def test_wrong_requests(server: Server, path: str, body: object, status: int, start: str) -> None:
+    answer = server.post(path, body)
+    assert (answer.status_code, answer.json()["error"][: len(start)]) == (status, start)
+    assert "\n" not in answer.json()["error"]
+
+
+@pytest.mark.parametrize(
+    ("content", "status"),
+    [
+        (b"", 422),
+        (b'{"task', 400),
+        (b"\xff\xfe\x00", 400),
+        (b"[" * 100_000, 400),
+        (b'{"task": ' + b"9" * 9999, 400),
+    ],
+    ids=["empty", "half", "bytes", "nested", "digits"],
+)
+def test_what_is_no_json(server: Server, content: bytes, status: int) -> None:
+    answer = server.client.post("/plan", content=content, headers={"content-type": "application/json"})
+    assert answer.status_code == status
+    assert set(answer.json()) == {"error"}
+
+
+def test_a_form_of_another_site_is_no_json(server: Server) -> None:
+    answer = server.client.post(
+        "/plan", content=b'{"task": {"example": "room2"}}', headers={"content-type": "text/plain"}
+    )
+    assert answer.status_code == 422
+
+
+@pytest.mark.parametrize("chunked", [False, True])
+def test_bodies_that_are_too_large(server: Server, chunked: bool) -> None:
+    large = b" " * 600_000
+    content = iter([large]) if chunked else large
+    answer = server.client.post("/plan", content=content, headers={"content-type": "application/json"})
+    assert answer.status_code == 413
+    assert answer.json() == {"error": "body: expected at most 524288 bytes"}
+
+
+def test_names_of_other_hosts_and_pages_of_other_sites(server: Server) -> None:
+    assert server.client.get("/health", headers={"host": "evil.example"}).status_code == 400
+    assert server.client.get("/health", headers={"host": "[::1"}).status_code == 400
+    assert server.client.get("/health", headers={"host": f"localhost:{server.port}"}).status_code == 200
+    for origin in ("http://evil.example", "null"):
+        assert server.client.get("/health", headers={"origin": origin}).status_code == 403
+    own = server.client.get("/health", headers={"origin": server.url})
+    assert own.status_code == 200
+    assert not [name for name in own.headers if name.startswith("access-control")]
+
+
+def test_a_token_where_there_is_one() -> None:
+    with serving("--workers", "1", env={"SERENDIPITY_TOKEN": "secret word"}) as server:
+        asked = {"task": ROOM2}
+        assert server.client.get("/health").status_code == 200
+        for given in ({}, {"authorization": "Bearer other"}, {"authorization": "Basic secret word"}):
+            assert server.post("/plan", asked, headers=given).status_code == 401
+            assert server.client.get("/metrics", headers=given).status_code == 401
+        assert server.post("/plan", asked, headers={"authorization": "Bearer secret word"}).status_code == 200
+
+
+def test_others_are_served_with_a_token_only(capsys) -> None:
+    assert main(["serve", "--host", "0.0.0.0"]) == 2
+    assert capsys.readouterr().err.startswith("Error: --host: others can reach 0.0.0.0, so a token is needed")
+
+
+def test_a_port_in_use_is_one_line(server: Server, capsys) -> None:
+    assert main(["serve", "--port", str(server.port)]) == 2
+    said = capsys.readouterr().err
+    assert said == (
+        f"Error: --port: {server.port} is in use on 127.0.0.1: name another one, or 0 for any that is free\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "start"),
+    [
+        (["--port", "70000"], "--port: expected a number from 0 to 65535"),
+        (["--host", "192.0.2.1", "--token-file", "none"], "none: can't be read"),
+        (["--workers", "0"], "--workers: expected at least 1"),
+        (["--queue", "-1"], "--queue: expected at least 0"),
+        (["--time-limit", "x"], "time_limit: expected seconds"),
+        (["--time-limit", "inf"], "time_limit: expected seconds"),
+    ],
+)
+def test_wrong_words_on_the_command_line(words: list[str], start: str, capsys) -> None:
+    assert main(["serve", *words]) == 2
+    assert capsys.readouterr().err.startswith(f"Error: {start}")

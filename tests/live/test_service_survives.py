@@ -1,0 +1,148 @@
+"""Killed workers, clients that vanish, stall or crowd in: the next request is answered."""
+
+import json
+import os
+import signal
+import socket
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from serendipity.cli.app import main
+from tests.live.server import Server, serving, workers_of
+
+ROOM2 = {"example": "room2"}
+ASKED = {"task": ROOM2, "options": {"discount": 0.6}}
+
+
+def until(holds: Callable[[], bool], seconds: float = 20) -> None:
+    """Wait for something that has to come about."""
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def answers(server: Server) -> bool:
+    return bool(server.post("/plan", ASKED).json()["cost"] == 12.6)
+
+
+@pytest.fixture(scope="module")
+def long_call(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
+    """A call that has an answer soon, and no proof for minutes."""
+    folder = tmp_path_factory.mktemp("long") / "building"
+    words = "--rooms 200 --medkits 3 --robots 3 --seed 1 --layout pair"
+    assert main(["generate", "usar", *words.split(), "-o", str(folder)]) == 0
+    texts = {name: (folder / f"{name}.pddl").read_text() for name in ("domain", "problem")}
+    task = {**texts, "human": "commx", "robots": ["robot1", "robot2", "robot3"]}
+    return {"task": task, "options": {"discount": 0.9, "mode": "communication", "keep_prefix": True}}
+
+
+def figure(server: Server, name: str) -> float:
+    lines = server.client.get("/metrics").text.splitlines()
+    return sum(float(line.split()[-1]) for line in lines if line.startswith(name))
+
+
+def test_killed_workers_are_replaced_and_nobody_notices(server: Server) -> None:
+    session = server.post("/sessions", ASKED).json()
+    path = f"/sessions/{session['id']}"
+    before = server.post(f"{path}/plan", {}).json()
+    killed = workers_of(server.process.pid)
+    for pid in killed:
+        os.kill(pid, signal.SIGKILL)
+    assert answers(server)
+    after = server.post(f"{path}/plan", {}).json()
+    assert before["plan"] == after["plan"]
+    until(lambda: len(workers_of(server.process.pid)) == 2)
+    assert not set(killed) & set(workers_of(server.process.pid))
+    assert figure(server, "serendipity_workers_replaced_total") >= 2
+
+
+def busy(server: Server) -> int:
+    return int(server.client.get("/health").json()["busy"])
+
+
+def begin(server: Server, path: str, body: object) -> socket.socket:
+    """A request whose answer nobody has taken yet."""
+    content = json.dumps(body).encode()
+    head = f"POST {path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
+    connection = socket.create_connection(("127.0.0.1", server.port))
+    connection.sendall(f"{head}{len(content)}\r\n\r\n".encode() + content)
+    return connection
+
+
+@pytest.mark.parametrize("path", ["/plan", "/plan/anytime"])
+def test_nobody_works_for_clients_that_have_gone(
+    server: Server, long_call: dict[str, object], path: str
+) -> None:
+    connections = [begin(server, path, long_call) for _ in range(4)]
+    until(lambda: busy(server) == 2)
+    for connection in connections:
+        connection.close()
+    until(lambda: busy(server) == 0, seconds=5)
+    assert answers(server)
+
+
+def test_the_queue_has_an_end(server: Server, long_call: dict[str, object]) -> None:
+    connections = [begin(server, "/plan", long_call) for _ in range(10)]  # two at work, eight in the queue
+    until(lambda: server.client.get("/health").json()["waiting"] == 8)
+    refused = server.post("/plan", ASKED)
+    assert refused.status_code == 429
+    assert refused.headers["retry-after"] == "1"
+    assert refused.json()["error"].startswith("all workers are busy")
+    for connection in connections:
+        connection.close()
+    until(lambda: busy(server) == 0, seconds=10)
+    assert answers(server)
+
+
+def test_the_time_limit_ends_with_the_best_known(server: Server, long_call: dict[str, object]) -> None:
+    options = {**long_call["options"], "time_limit": 0.5}
+    answer = server.post("/plan", {**long_call, "options": options}).json()
+    assert answer["status"] == "feasible"
+    assert answer["lower_bound"] < answer["objective"]
+
+
+def test_answers_come_on_the_way(server: Server, long_call: dict[str, object]) -> None:
+    with server.client.stream("POST", "/plan/anytime", json=long_call) as response:
+        first = next(line for line in response.iter_lines() if line.startswith("data: "))
+        assert json.loads(first.removeprefix("data: "))["status"] == "feasible"
+        assert busy(server) == 1
+    until(lambda: busy(server) == 0, seconds=5)
+
+
+def test_one_call_of_a_session_at_a_time(server: Server, long_call: dict[str, object]) -> None:
+    session = server.post("/sessions", long_call).json()
+    connection = begin(server, f"/sessions/{session['id']}/plan", {})
+    until(lambda: busy(server) == 1)
+    assert server.post(f"/sessions/{session['id']}/execute", {"actions": []}).status_code == 409
+    connection.close()
+    until(lambda: busy(server) == 0, seconds=5)
+    assert server.post(f"/sessions/{session['id']}/execute", {"actions": []}).status_code == 200
+
+
+def test_workers_end_with_a_server_that_is_killed() -> None:
+    with serving("--workers", "2") as server:
+        assert answers(server)
+        workers = workers_of(server.process.pid)
+        server.process.kill()
+        until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it(number: int, long_call: dict[str, object]) -> None:
+    with serving("--workers", "1") as server, begin(server, "/plan", long_call):
+        until(lambda: busy(server) == 1)
+        workers = workers_of(server.process.pid)
+        assert server.stop(number) == (130, "Interrupted.\n")
+        until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
+
+
+def test_memory_has_a_limit(long_call: dict[str, object]) -> None:
+    with serving("--workers", "1", "--memory-limit", "30") as server:
+        answer = server.post("/plan", long_call)
+        assert answer.status_code == 507
+        assert answer.json()["error"].startswith("memory is used up")
+        assert server.client.get("/health").status_code == 200
