@@ -1,7 +1,7 @@
 """Time of a certificate, parse to verdict, over a folder of tasks (one thread).
 
-    python benchmarks/certificates.py FOLDER [--encoding automata] [--solver highs] [--stride N]
-        [--limit N] [--mode MODE] [--discount D] [--time-limit SECONDS] [--csv FILE]
+    python -m benchmarks.certificates FOLDER [--encoding automata] [--solver highs] [--method auto]
+        [--stride N] [--limit N] [--mode MODE] [--discount D] [--time-limit SECONDS] [--csv FILE]
 
 Each task is read, planned, read again and verified; only the second reading and the
 verification are timed.  The table is in seconds of processor time, the solver's included, which
@@ -21,9 +21,10 @@ from time import perf_counter, process_time
 import serendipity
 from serendipity.model import Result
 from verify.certificate.certify import certify
+from verify.programs.minimise import METHODS
 
-KEY = ("test", "mode", "discount", "encoding", "solver")
-FIELDS = (*KEY, "verdict", "processor", "seconds", "load", "variables", "constraints")
+KEY = ("test", "mode", "discount", "encoding", "solver", "method")
+FIELDS = (*KEY, "verdict", "processor", "seconds", "load", "variables", "constraints", "calls")
 MODES = ("serendipity", "communication")
 DISCOUNTS = ("0", "0.5", "0.9")
 
@@ -36,14 +37,17 @@ def main() -> None:
     for folder in _folders(arguments):
         for mode in arguments.mode or MODES:
             for discount in arguments.discount or DISCOUNTS:
-                key = (folder.name, mode, discount, arguments.encoding, arguments.solver)
+                key = (folder.name, mode, discount, *_settings(arguments))
                 if key not in done:
                     row = _measure(folder, mode, discount, arguments)
                     rows.append(row)
                     _append(arguments.csv, row)
-    _table(
-        [row for row in rows if (row["encoding"], row["solver"]) == (arguments.encoding, arguments.solver)]
-    )
+    settings = _settings(arguments)
+    _table([row for row in rows if tuple(row[name] for name in KEY[-3:]) == settings])
+
+
+def _settings(arguments: argparse.Namespace) -> tuple[str, str, str]:
+    return arguments.encoding, arguments.solver, arguments.method
 
 
 def _arguments() -> argparse.Namespace:
@@ -52,6 +56,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--human", default=None)
     parser.add_argument("--encoding", default="automata", choices=("automata", "paper"))
     parser.add_argument("--solver", default="highs", choices=("highs", "cbc"))
+    parser.add_argument("--method", default="auto", choices=METHODS)
     parser.add_argument("--stride", type=int, default=1, help="every N-th task")
     parser.add_argument("--limit", type=int, default=None, help="at most N tasks")
     parser.add_argument("--mode", action="append", choices=MODES, help="these modes only")
@@ -80,6 +85,7 @@ def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespa
         Result.from_dict(data),
         encoding=arguments.encoding,
         solver=arguments.solver,
+        method=arguments.method,
         time_limit=arguments.time_limit,
     )
     seconds, processor = perf_counter() - started, _processor() - worked
@@ -89,12 +95,14 @@ def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespa
         "discount": discount,
         "encoding": arguments.encoding,
         "solver": arguments.solver,
+        "method": arguments.method,
         "verdict": certificate.verdict,
         "processor": f"{processor:.4f}",
         "seconds": f"{seconds:.4f}",
         "load": f"{loaded - started:.4f}",
         "variables": str(certificate.size.get("variables", 0)),
         "constraints": str(certificate.size.get("constraints", 0)),
+        "calls": str(certificate.solver_calls),
     }
 
 
@@ -126,6 +134,7 @@ def _append(path: Path | None, row: dict[str, str]) -> None:
 def _table(rows: list[dict[str, str]]) -> None:
     print(
         f"{'mode':<14}{'discount':>9}{'n':>5}{'proved':>8}{'undecided':>10}{'median':>9}{'95 %':>9}{'max':>9}"
+        f"{'calls':>7}{'columns':>9}{'rows':>7}"
     )
     for line in _lines(rows):
         print(line)
@@ -143,6 +152,9 @@ def _lines(rows: list[dict[str, str]]) -> Iterator[str]:
             yield (
                 f"{mode:<14}{discount:>9}{len(times):>5}{verdicts.count('proved'):>8}"
                 f"{verdicts.count('undecided'):>10}{median(times):>8.3f}s{worst:>8.3f}s{times[-1]:>8.3f}s"
+                f"{sum(int(row['calls']) for row in chosen):>7}"
+                f"{median(int(row['variables']) for row in chosen):>9.0f}"
+                f"{median(int(row['constraints']) for row in chosen):>7.0f}"
             )
 
 

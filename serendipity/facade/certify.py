@@ -45,6 +45,7 @@ def verify(
     *,
     solver: str = "highs",
     encoding: str = "automata",
+    method: str = "auto",
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -59,6 +60,8 @@ def verify(
         result: the answer, from :func:`serendipity.plan` or read from JSON.
         solver: ``highs``, or ``cbc`` as a cross-check.
         encoding: ``automata``, or ``paper`` for the paper's own equations.
+        method: ``auto``, or ``program``: a solver decides every integer program, also where reachability
+            and shortest paths could.
         time_limit: seconds for the whole certificate, or None.
         memory_limit: what this process and a solver's may have in memory, in MiB, or None.
         deadline: one that other work shares, such as loading the task; it holds beside the limits.
@@ -68,9 +71,9 @@ def verify(
 
     Raises:
         InputError: the result is for another task.
-        UsageError: there is no such solver or encoding, or a limit has no legal value.
+        UsageError: there is no such solver, encoding or method, or a limit has no legal value.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
     from verify.certificate.certify import certify  # loads the solvers
 
-    return certify(task, result, encoding=encoding, solver=solver, deadline=limits)
+    return certify(task, result, encoding=encoding, solver=solver, method=method, deadline=limits)

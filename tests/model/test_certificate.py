@@ -32,8 +32,8 @@ def test_unknown_words_are_refused(claim: str, verdict: str) -> None:
 
 def test_json_has_the_documented_fields() -> None:
     step = PlanStep(1, ("h", "r"), "lift h r", 2.0)
-    claim = Claim("optimal", "refuted", "cheaper", (step,), 0.2, 1.5)
-    written = Certificate((claim,), 0.3, "S 1", "E").to_dict()
+    claim = Claim("optimal", "refuted", "cheaper", (step,), 0.2, 1.5, "program", {"columns": 3, "rows": 2}, 1)
+    written = Certificate((claim,), 0.3, "S 1", "E", solver_calls=1).to_dict()
     assert json.loads(json.dumps(written)) == {
         "schema": "serendipity.certificate/1",
         "verdict": "refuted",
@@ -45,10 +45,14 @@ def test_json_has_the_documented_fields() -> None:
                 "counterexample": [{"epoch": 1, "agents": ["h", "r"], "action": "lift h r", "cost": 2.0}],
                 "seconds": 0.2,
                 "bound": 1.5,
+                "method": "program",
+                "size": {"columns": 3, "rows": 2},
+                "solver_calls": 1,
             }
         ],
         "solver": "S 1",
         "encoding": "E",
         "size": {},
+        "solver_calls": 1,
         "elapsed_seconds": 0.3,
     }

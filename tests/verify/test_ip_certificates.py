@@ -15,6 +15,7 @@ from tests.verify.results import result
 from tests.verify.valid import CASE_4_PI_H
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
+from verify.programs.minimise import METHODS
 
 
 def _claim(certificate: Certificate, name: str) -> Claim:
@@ -90,15 +91,16 @@ def test_no_answer_in_time_is_not_refuted() -> None:
 # -- doctored results
 
 
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("name", DOCTORED)
-def test_doctored_results_are_refuted_by_the_right_claim(name: str) -> None:
+def test_doctored_results_are_refuted_by_the_right_claim(name: str, method: str) -> None:
     doctored = DOCTORED[name]
     task, answer = doctored.make()
     if name in ANOTHER_TASK:
         with pytest.raises(InputError, match=r"another task|the options"):
-            certify(task, answer)
+            certify(task, answer, method=method)
         return
-    refuted = certify(task, answer).refuted
+    refuted = certify(task, answer, method=method).refuted
     assert refuted is not None
     assert refuted.claim == doctored.claim, refuted
 
@@ -178,12 +180,14 @@ def test_a_result_for_another_task() -> None:
         certify(case_1(), answer)
 
 
-def test_unknown_encoding_and_solver() -> None:
+def test_unknown_encoding_solver_and_method() -> None:
     answer = solved(case_4())
     with pytest.raises(UsageError, match="encoding: expected one of automata, paper"):
         certify(case_4(), answer, encoding="enigma")
     with pytest.raises(UsageError, match="solver: expected one of highs, cbc"):
         certify(case_4(), answer, solver="abacus")
+    with pytest.raises(UsageError, match="method: expected one of auto, program"):
+        certify(case_4(), answer, method="prayer")
 
 
 @pytest.mark.parametrize(

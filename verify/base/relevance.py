@@ -60,6 +60,18 @@ def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant |
     )
 
 
+def whole_task(question: Subproblem) -> Relevant:
+    """All of a question's task, where :func:`relevant_part` leaves nothing to ask."""
+    task = question.task
+    kept = tuple(question.allowed())
+    return Relevant(
+        kept,
+        frozenset(range(len(task.facts))),
+        {i: task.actions[i].pre for i in question.deadline.each(kept)},
+        {i: task.actions[i].neg for i in question.deadline.each(kept)},
+    )
+
+
 def _reachable(task: Task, allowed: Sequence[int], deadline: Deadline) -> tuple[set[int], set[int], set[int]]:
     """Facts that may become true, facts that may become false, actions that may become applicable."""
     true, false = set(task.init), set(range(len(task.facts))) - task.init

@@ -150,6 +150,7 @@ def bound_expected(right: Fraction) -> str:
 # -- proofs
 
 CLOSED: Final = "; closed by reachability and shortest paths, no solver call"
+NO_SOLUTION: Final = "no solution"
 NO_LESS_THAN_ALONE: Final = "the optimum costs no less than the answer without robots"
 BEST_NO_LESS_THAN_ALONE: Final = "the best plan costs no less than the answer without robots"
 NOTHING_SATISFIES: Final = "no plan satisfies the program"
@@ -165,6 +166,17 @@ def no_better(amount: str, *, tie: bool) -> str:
     """No plan has a better score; ``tie``: there might be one of the same objective at a lower cost."""
     words = f"no plan has an objective below {amount}"
     return f"{words}, or the same at a lower cost" if tie else words
+
+
+def solved(solver: str, calls: int, columns: int, rows: int) -> str:
+    """What a solver was given; what it answered follows."""
+    programs = "1 program" if calls == 1 else f"{calls} programs, the largest"
+    return f"; {solver} solved {programs} of {columns:,} columns and {rows:,} rows: "
+
+
+def optimum(objective: str, cost: str) -> str:
+    """What a program allows at best."""
+    return f"optimum {cost}" if objective == cost else f"objective {objective}, optimum cost {cost}"
 
 
 def none_below(bound: float) -> str:

@@ -64,7 +64,7 @@ def solve(
         "elapsed_seconds": perf_counter() - started,
         "solver": solver_version(solver),
         "encoding": encoding,
-        "solver_calls": effort.calls,
+        "solver_calls": len(effort.calls),
         **effort.size,
     }
     return replace(result, statistics={**result.statistics, **statistics})

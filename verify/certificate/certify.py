@@ -43,6 +43,7 @@ def certify(
     *,
     encoding: str = "automata",
     solver: str = "highs",
+    method: str = "auto",
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -57,6 +58,8 @@ def certify(
         result: the answer.
         encoding: ``automata`` or ``paper``.
         solver: ``highs`` or ``cbc``.
+        method: ``auto``, or ``program``: the solver decides every program, also where reachability and
+            shortest paths could.
         time_limit: seconds for the whole certificate, or None.
         memory_limit: what this process and a solver's may have in memory, in MiB, or None.
         deadline: one that other work shares, such as loading the task; it holds beside the limits.
@@ -66,25 +69,26 @@ def certify(
 
     Raises:
         InputError: the result is for another task.
-        UsageError: there is no such encoding or solver.
+        UsageError: there is no such encoding, solver or method.
     """
     limits = (deadline or Deadline()).within(time_limit, memory_limit).sooner(END_SHARE)
+    effort = Effort(encoding, solver, limits, method)
     with no_collection():  # beside a large task a collection takes longer than a short limit
-        return _certify(task, result, encoding, solver, limits)
+        return _certify(task, result, effort)
 
 
-def _certify(task: Task, result: Result, encoding: str, solver: str, deadline: Deadline) -> Certificate:
+def _certify(task: Task, result: Result, effort: Effort) -> Certificate:
     started = perf_counter()
     result = result.checked()
     require_same_task(task, result)
     if result.mode == "assistance":
-        claims = complete(result, check_policy(task, result, deadline))
+        claims = complete(result, check_policy(task, result, effort.deadline))
         return Certificate(claims, perf_counter() - started)
-    effort = Effort(encoding=encoding, solver=solver, deadline=deadline)
-    version = solver_version(solver)
+    version = solver_version(effort.solver)
     several = result.says("goals")
     claims = _for_goals(task, result, effort) if several else _Certifier(task, result, effort).claims()
-    return Certificate(complete(result, claims), perf_counter() - started, version, encoding, effort.size)
+    claims, calls = complete(result, claims), len(effort.calls)
+    return Certificate(claims, perf_counter() - started, version, effort.encoding, effort.size, calls)
 
 
 def _for_goals(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
@@ -213,9 +217,7 @@ class _Certifier:
     def _same_as(self, examined: dict[str, Claim]) -> Claim:
         """An optimum's bound is its objective (a rule): what holds for one holds for the other."""
         claim = examined.get("optimal") or examined["no_opportunity"]
-        return Claim(
-            "lower_bound", claim.verdict, wording.same_as(claim), claim.counterexample, bound=claim.bound
-        )
+        return replace(claim, claim="lower_bound", reason=wording.same_as(claim), seconds=0.0)
 
     def _examiner(self) -> Examiner:
         result = self.result

@@ -13,8 +13,9 @@ from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
 from verify.calls.call import Call, Score
 from verify.calls.results import found_result, plan_steps
 from verify.exhaustive.uniform_cost import cheapest
-from verify.programs.minimise import minimise
+from verify.programs.minimise import SolverCall, minimise
 from verify.rules import Checker
+from verify.solvers.mip import solver_version
 
 Verdict = tuple[str, str, Solution | None]
 """Verdict, reason, counter-example."""
@@ -43,7 +44,7 @@ class Examiner:
         """Run an examination; running out of time or memory leaves the claim undecided."""
         started = perf_counter()
         effort, bound, example = self.call.effort, None, None
-        programs, calls = effort.programs, effort.calls
+        programs, calls = effort.programs, len(effort.calls)
         try:
             verdict, reason, found = examine()
             if found is not None:
@@ -56,9 +57,27 @@ class Examiner:
             bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
             if bound is not None:
                 reason += wording.known_bound(bound)
-        if verdict == "proved" and effort.programs > programs and effort.calls == calls:
-            reason += wording.CLOSED
-        return Claim(name, verdict, reason, example, perf_counter() - started, bound)
+        if effort.programs == programs:
+            return Claim(name, verdict, reason, example, perf_counter() - started, bound)
+        called = effort.calls[calls:]
+        if verdict == "proved":
+            reason += self._solved(called) if called else wording.CLOSED
+        largest = max(called, key=lambda call: call.columns, default=None)
+        size = {} if largest is None else {"columns": largest.columns, "rows": largest.rows}
+        seconds = perf_counter() - started
+        return Claim(name, verdict, reason, example, seconds, bound, "program", size, len(called))
+
+    def _solved(self, calls: list[SolverCall]) -> str:
+        """What the solver said of the programs themselves, where they were to be solved whatever they are."""
+        if self.call.effort.method != "program":
+            return ""
+        best = next((call for call in calls if call.objective is not None), None)
+        solver = solver_version(self.call.effort.solver)
+        largest = max(calls, key=lambda call: call.columns)
+        words = wording.solved(solver, len(calls), largest.columns, largest.rows)
+        if best is None or best.objective is None or best.cost is None:
+            return words + wording.NO_SOLUTION
+        return words + wording.optimum(self._amount(best.objective), self._amount(best.cost))
 
     # -- the claims
 

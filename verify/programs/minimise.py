@@ -6,7 +6,7 @@ learns what suffixes from that state cost (or that there is none) and is solved 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final, Protocol
 
 from serendipity.model import Deadline, Step, UsageError, Window
@@ -46,6 +46,28 @@ ENCODINGS: Final[dict[str, Callable[[Subproblem], ProgramEncoding]]] = {
 """The encodings by name; the first is the default."""
 
 
+METHODS: Final = ("auto", "program")
+"""What decides a question; ``program``: the solver, also where the encoding could."""
+
+
+@dataclass(slots=True)
+class SolverCall:
+    """A program that was given to a solver.
+
+    Attributes:
+        columns: their number.
+        rows: their number.
+        objective: of the best plan that the program allows, in units; None where there is none, or
+            none is known.
+        cost: that plan's, in units.
+    """
+
+    columns: int
+    rows: int
+    objective: int | None = None
+    cost: int | None = None
+
+
 @dataclass(slots=True)
 class Effort:
     """The solver's settings, and what was spent under them.
@@ -54,29 +76,43 @@ class Effort:
         encoding: one of :data:`ENCODINGS`.
         solver: one of ``verify.solvers.mip.SOLVERS``.
         deadline: when to stop.
-        size: columns and rows of the largest program so far.
+        method: one of :data:`METHODS`.
         programs: number of questions that were put to an encoding.
-        calls: number of solver calls; fewer where an encoding sees by itself that there is no plan.
+        calls: the solver's; fewer where an encoding sees by itself that there is no plan.
     """
 
     encoding: str = "automata"
     solver: str = "highs"
     deadline: Deadline = field(default_factory=Deadline)
-    size: dict[str, int] = field(default_factory=lambda: {"variables": 0, "constraints": 0})
+    method: str = "auto"
     programs: int = 0
-    calls: int = 0
+    calls: list[SolverCall] = field(default_factory=list)
 
     def __post_init__(self) -> None:
+        if self.method not in METHODS:
+            raise UsageError(f"method: expected one of {', '.join(METHODS)}, got {self.method!r}")
         if self.encoding not in ENCODINGS:
             raise UsageError(f"encoding: expected one of {', '.join(ENCODINGS)}, got {self.encoding!r}")
         if self.solver not in SOLVERS:
             raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {self.solver!r}")
 
-    def note(self, size: dict[str, int]) -> None:
-        """A program that is about to be solved."""
-        self.calls += 1
-        if size["variables"] > self.size["variables"]:
-            self.size = dict(size)
+    @property
+    def size(self) -> dict[str, int]:
+        """Columns and rows of the largest program so far."""
+        largest = max(self.calls, key=lambda call: call.columns, default=SolverCall(0, 0))
+        return {"variables": largest.columns, "constraints": largest.rows}
+
+    def encode(self, question: Subproblem) -> "ProgramEncoding":
+        """The program of a question."""
+        self.programs += 1
+        if self.method == "program" and self.encoding == "automata":
+            return AutomataEncoding(question, pruned=False)
+        return ENCODINGS[self.encoding](question)
+
+    def solve(self, model: Model) -> SolverOutcome:
+        """Have a program solved."""
+        self.calls.append(SolverCall(len(model.upper), len(model.ends)))
+        return optimise(model, solver=self.solver, deadline=self.deadline)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,11 +153,19 @@ def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
     """
     if question.horizon == 0:
         return _nothing_to_do(question)
-    rounds = _Rounds(question, effort, plans)
+    asked = question if effort.method == "auto" else question.but(most=None)
+    rounds = _Rounds(asked, effort, plans)
     try:
-        return rounds.run()
+        return _within(question.most, rounds.run())
     except UNDECIDED as error:
-        return Minimum("undecided", rounds.best, rounds.bound, why(error))
+        return _within(question.most, Minimum("undecided", rounds.best, rounds.bound, why(error)))
+
+
+def _within(most: int | None, minimum: Minimum) -> Minimum:
+    """The answer where the objective may not exceed ``most`` units."""
+    if minimum.found is None or most is None or minimum.found.objective <= most:
+        return minimum
+    return replace(minimum, status="none" if minimum.status == "found" else minimum.status, found=None)
 
 
 class _Rounds:
@@ -148,12 +192,10 @@ class _Rounds:
             LimitReachedError: the deadline came first.
         """
         self._effort.deadline.check()
-        self._effort.programs += 1
         with during("building the program"):
-            encoding = ENCODINGS[self._effort.encoding](self._question)
+            encoding = self._effort.encode(self._question)
         while encoding.model is not None:
-            self._effort.note(encoding.model.size)
-            outcome = optimise(encoding.model, solver=self._effort.solver, deadline=self._effort.deadline)
+            outcome = self._effort.solve(encoding.model)
             if outcome.status == "infeasible" or self._is_best(encoding, outcome):
                 break
         return Minimum("none") if self.best is None else Minimum("found", self.best, self.best.objective)
@@ -171,7 +213,8 @@ class _Rounds:
             self.bound = _whole(outcome.bound, self.bound)
             raise UndecidedError(outcome.reason)
         assert states is not None
-        objective, _ = question.measure(steps, window)
+        objective, cost = question.measure(steps, window)
+        self._effort.calls[-1].objective, self._effort.calls[-1].cost = objective, cost
         self.bound = objective if self.bound is None else max(self.bound, objective)
         if self.best is not None and self.best.objective <= objective:
             return True

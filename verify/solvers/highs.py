@@ -36,21 +36,21 @@ def minimise(model: Model, deadline: Deadline) -> Answer:
     Raises:
         LimitReachedError: the deadline came before HiGHS was asked.
     """
-    tables = _tables(model, deadline)
+    program = tables(model, deadline)
     if len(model.index) <= _SMALL:
         left = deadline.left()
         short = left is not None and left < _SHORT
         end = _end(deadline) if short else time() + _MOMENT
-        answer = Answer(**worker.minimise(tables, end, presolve=False))  # nothing to trust but the solver
+        answer = Answer(**worker.minimise(program, end, presolve=False))  # nothing to trust but the solver
         if short or answer.status != "time-limit":
             return answer
-    return _apart(tables, deadline, presolve=model.presolve)
+    return _apart(program, deadline, presolve=model.presolve)
 
 
-def _apart(tables: worker.Tables, deadline: Deadline, *, presolve: bool) -> Answer:
+def _apart(program: worker.Tables, deadline: Deadline, *, presolve: bool) -> Answer:
     """HiGHS in a process; where it is killed, the last bound that it has told is known."""
     with TemporaryFile() as question, TemporaryFile() as said:
-        for table in tables:
+        for table in program:
             deadline.check()
             pickle.dump(table, question, pickle.HIGHEST_PROTOCOL)
         question.seek(0)
@@ -73,14 +73,14 @@ def _end(deadline: Deadline) -> float:
     return time() + (_UNENDING if seconds is None else seconds)
 
 
-def _tables(model: Model, deadline: Deadline) -> worker.Tables:
+def tables(model: Model, deadline: Deadline) -> worker.Tables:
+    """A program as HiGHS takes it."""
     columns = range(len(model.upper))
     start, row_lower, row_upper = array("i", [0]), array("d"), array("d")
     for end, (sense, right) in zip(deadline.each(model.ends), model.heads, strict=True):
-        if end > start[-1]:
-            start.append(end)
-            row_lower.append(-inf if sense == "<=" else right)
-            row_upper.append(inf if sense == ">=" else right)
+        start.append(end)
+        row_lower.append(-inf if sense == "<=" else right)
+        row_upper.append(inf if sense == ">=" else right)
     return worker.Tables(
         array("d", (model.objective.get(x, 0) for x in deadline.each(columns))),
         array("d", deadline.each(model.lower)),

@@ -12,7 +12,7 @@ are killed where the deadline comes.
 """
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from itertools import chain
@@ -94,27 +94,18 @@ def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None =
 
 
 def _optimise(model: Model, solver: str, deadline: Deadline) -> SolverOutcome:
-    if not all(map(_true, _rows_without_terms(model, deadline))):
-        return SolverOutcome("infeasible")
+    if not model.upper:
+        holds = all(_true(head) for head in deadline.each(model.heads))
+        return SolverOutcome("optimal", (), 0.0) if holds else SolverOutcome("infeasible")
     if _largest(model, deadline) > LARGEST_COEFFICIENT:
         return SolverOutcome("undecided", reason="costs need more digits than a solver's tolerance leaves")
     deadline.check()
-    if not model.upper:
-        return SolverOutcome("optimal", (), 0.0)
     deadline.require(_BYTES * len(model.index))
     module, minimise = _CALLS[solver]
     left = deadline.left()
     if module not in sys.modules and left is not None and left < _LOADING:
         raise LimitReachedError("time-limit")
     return _outcome(minimise(model, deadline), model, deadline)
-
-
-def _rows_without_terms(model: Model, deadline: Deadline) -> Iterator[tuple[str, int]]:
-    start = 0
-    for end, head in zip(deadline.each(model.ends), model.heads, strict=True):
-        if end == start:
-            yield head
-        start = end
 
 
 def _true(head: tuple[str, int]) -> bool:

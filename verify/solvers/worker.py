@@ -67,7 +67,7 @@ def minimise(program: Tables, end: float, *, presolve: bool, news: IO[str] | Non
 
     solver = highspy.Highs()
     solver.setOptionValue("output_flag", False)
-    solver.passModel(_problem(program))
+    solver.passModel(problem(program))
     options = {
         "time_limit": max(end - time(), 0.0),
         "threads": 1,
@@ -85,20 +85,21 @@ def minimise(program: Tables, end: float, *, presolve: bool, news: IO[str] | Non
     return _answer(solver)
 
 
-def _problem(program: Tables) -> Any:
+def problem(program: Tables) -> Any:
+    """A program as an object of HiGHS's."""
     import highspy
     import numpy as np
 
-    problem, given = highspy.HighsLp(), Tables(*map(np.asarray, program))  # type: ignore[arg-type]
-    problem.num_col_, problem.num_row_ = len(given.cost), len(given.row_lower)
-    problem.col_cost_, problem.col_lower_, problem.col_upper_ = given.cost, given.lower, given.upper
-    problem.row_lower_, problem.row_upper_ = given.row_lower, given.row_upper
+    made, given = highspy.HighsLp(), Tables(*map(np.asarray, program))  # type: ignore[arg-type]
+    made.num_col_, made.num_row_ = len(given.cost), len(given.row_lower)
+    made.col_cost_, made.col_lower_, made.col_upper_ = given.cost, given.lower, given.upper
+    made.row_lower_, made.row_upper_ = given.row_lower, given.row_upper
     kinds = highspy.HighsVarType.kContinuous, highspy.HighsVarType.kInteger
-    problem.integrality_ = [kinds[whole] for whole in program.integral]
-    matrix = problem.a_matrix_
+    made.integrality_ = [kinds[whole] for whole in program.integral]
+    matrix = made.a_matrix_
     matrix.format_ = highspy.MatrixFormat.kRowwise
     matrix.start_, matrix.index_, matrix.value_ = given.row_start, given.row_index, given.row_value
-    return problem
+    return made
 
 
 def _answer(solver: Any) -> Answer:

@@ -17,6 +17,7 @@ def verify(
     example: naming.Example = None,
     solver: program_options.Solver = "highs",
     encoding: program_options.Encoding = "automata",
+    method: program_options.Method = "auto",
     time_limit: limits.TimeLimit = None,
     memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
@@ -33,7 +34,7 @@ def verify(
     try:
         with progress.working("verifying", quiet=quiet):
             certificate = serendipity.verify(
-                task, result, solver=solver, encoding=encoding, deadline=deadline
+                task, result, solver=solver, encoding=encoding, method=method, deadline=deadline
             )
     except InputError as error:
         raise InputError(error.message, answer) from None

@@ -10,3 +10,10 @@ Solver = Annotated[str, typer.Option(help="highs, or cbc as a cross-check.", **c
 Encoding = Annotated[
     str, typer.Option(help="Agent automata, or the paper's equations.", **choices("automata", "paper"))
 ]
+Method = Annotated[
+    str,
+    typer.Option(
+        help="What proves that nothing is better; program: the solver, even where reachability could.",
+        **choices("auto", "program"),
+    ),
+]

@@ -1,5 +1,6 @@
 """A second opinion on a result, claim by claim (schema ``serendipity.certificate/1``)."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -33,6 +34,10 @@ class Claim:
         seconds: time spent on it.
         bound: what was proved about the objective, in the domain's unit: no answer has a
             smaller one.  None where the claim says nothing of it.
+        method: what decided it, where rules alone can't: ``program`` (integer programs).
+        size: of the method's largest program: ``columns`` and ``rows``.
+        solver_calls: number of programs that a solver was given; 0 where reachability and shortest
+            paths left no plan to ask about.
 
     Raises:
         UsageError: there is no such claim or verdict.
@@ -44,6 +49,9 @@ class Claim:
     counterexample: tuple[PlanStep, ...] | None = None
     seconds: float = 0.0
     bound: float | None = None
+    method: str | None = None
+    size: Mapping[str, int] = field(default_factory=dict)
+    solver_calls: int = 0
 
     def __post_init__(self) -> None:
         if self.claim not in CLAIMS:
@@ -61,6 +69,9 @@ class Claim:
             "counterexample": None if example is None else [step.to_dict() for step in example],
             "seconds": self.seconds,
             "bound": self.bound,
+            "method": self.method,
+            "size": dict(self.size),
+            "solver_calls": self.solver_calls,
         }
 
 
@@ -73,7 +84,8 @@ class Certificate:
         elapsed_seconds: time from question to verdict.
         solver: name and version, or None where no solver was asked.
         encoding: of the integer program, or None.
-        size: numbers of ``variables`` and ``constraints`` of the integer program.
+        size: numbers of ``variables`` and ``constraints`` of the largest integer program.
+        solver_calls: number of programs that the solver was given.
     """
 
     claims: tuple[Claim, ...]
@@ -81,6 +93,7 @@ class Certificate:
     solver: str | None = None
     encoding: str | None = None
     size: dict[str, int] = field(default_factory=dict)
+    solver_calls: int = 0
 
     @property
     def verdict(self) -> str:
@@ -102,5 +115,6 @@ class Certificate:
             "solver": self.solver,
             "encoding": self.encoding,
             "size": dict(self.size),
+            "solver_calls": self.solver_calls,
             "elapsed_seconds": self.elapsed_seconds,
         }

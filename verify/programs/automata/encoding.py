@@ -1,7 +1,7 @@
 """The strong encoding of a question, from its task to a program that a solver can take."""
 
 from serendipity.model import GroundAction, Step, Window
-from verify.base.relevance import Relevant, relevant_part
+from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
 from verify.programs.automata.control import HumanControl, expected_states
@@ -15,7 +15,7 @@ from verify.programs.automata.network import (
 )
 from verify.programs.automata.product import Automaton, automata
 from verify.programs.automata.program import BYTES_AN_ARC, Program
-from verify.programs.automata.pruning import prune
+from verify.programs.automata.pruning import prune, unroll
 from verify.programs.automata.setting import Setting
 from verify.programs.automata.suffixes import bound_suffix
 from verify.solvers.mip import Model
@@ -28,22 +28,32 @@ class AutomataEncoding:
         model: the integer program, or None where pruning alone proves that there is no plan.
     """
 
-    def __init__(self, question: Subproblem) -> None:
-        """Build the program.  The horizon has to be at least 1."""
+    def __init__(self, question: Subproblem, *, pruned: bool = True) -> None:
+        """Build the program.  The horizon has to be at least 1.
+
+        Args:
+            question: what is asked.
+            pruned: leave out what costs and goals exclude; else there is a program, whatever is asked,
+                of all that can be reached if nothing is ever deleted.
+        """
         self.question = question
         self.deadline = question.deadline
         self.program: Program | None = None
         literal = question.rule == WINDOW and question.options.preservation == "state"
         expected = expected_states(question) if literal else ()
         part = relevant_part(question, frozenset().union(*expected))
+        if part is None and not pruned:
+            part = whole_task(question)
         if part is None:
             return
         groups = [frozenset(variable.facts) for variable in question.task.variables]
         groups = [group for group in groups if _moves_by_value(question, part, group)]
         with during("building the agents' automata"):
             setting = self._setting(part, groups, expected)
-        with during(f"pruning the agents' automata over {question.horizon} epochs"):
-            promising = prune(setting)
+        with during(
+            f"{'pruning' if pruned else 'unrolling'} the agents' automata over {question.horizon} epochs"
+        ):
+            promising = prune(setting) if pruned else unroll(setting)
         if promising:
             arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
             with during(f"writing a program for {arcs:,} arcs of the agents' automata"):

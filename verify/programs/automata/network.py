@@ -20,8 +20,10 @@ WAIT: Final = -1
 NOTHING: Final[frozenset[int]] = frozenset()
 
 Arc = tuple[int, int, int, int, frozenset[int]]
+SOURCE: Final = 0
+TARGET: Final = 1
 ACTION: Final = 2
-"""Where an arc has its action; tuples, since named ones take five times as long to make."""
+"""Where an arc has its nodes and its action; tuples, since named ones take five times as long to make."""
 
 FAR: Final = 10**15
 """More than any sum of weights: no way there."""

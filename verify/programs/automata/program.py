@@ -283,6 +283,10 @@ class Program:
             if f in self.setting.part.facts and f not in inside:
                 terms, constant = self.truth(f, last)
                 self.model.add(terms, "<=", -constant)
+        final = self.setting.last
+        if final is not None:
+            inflow = self.inflow[self.task.human][last - 1].items()
+            self.model.add({x: 1 for node, into in inflow if node in final for x in into}, ">=", 1)
         for node, into in self.inflow[self.task.human][last - 1].items():
             choices = self.setting.human.ends(node)
             if frozenset() not in choices:

@@ -14,10 +14,44 @@ from collections import defaultdict
 from collections.abc import Container, Mapping, Sequence
 
 from verify.programs.automata.forward import Forward
-from verify.programs.automata.network import FAR, WAIT, Arc, actions_of
+from verify.programs.automata.network import FAR, SOURCE, TARGET, WAIT, Arc, actions_of
 from verify.programs.automata.setting import Setting
 
 MOST_ROUNDS = 6
+
+
+def unroll(setting: Setting) -> bool:
+    """Keep the arcs on paths from an agent's start to an end that may be possible, whatever they cost.
+
+    A unit of flow in layers of arcs is made of such paths, so the rows say the same of what is dropped;
+    what the arcs need may be true if nothing is ever deleted.
+    """
+    setting.bounds = [0] * len(setting.bounds[0]), [0] * len(setting.bounds[1])
+    forward = Forward(setting)
+    forward.unroll()
+    count = -1
+    while count != (left := _arcs(setting)):
+        count = left
+        for k, network in enumerate(setting.networks):
+            if network.open_end:
+                _drop_dead_ends(setting, forward, k)
+        forward.filter()
+    setting.last = frozenset(ends(setting, forward, setting.task.human))
+    return True
+
+
+def _drop_dead_ends(setting: Setting, forward: Forward, k: int) -> None:
+    """Drop the arcs from which no way leads to an end."""
+    network, after = setting.networks[k], set(ends(setting, forward, k))
+    for epoch in range(setting.horizon, 0, -1):
+        arcs = setting.deadline.each(network.layers[epoch - 1])
+        kept = [arc for arc in arcs if arc[TARGET] in after]
+        network.layers[epoch - 1] = kept
+        after = {arc[SOURCE] for arc in kept}
+
+
+def _arcs(setting: Setting) -> int:
+    return sum(len(layer) for network in setting.networks for layer in network.layers)
 
 
 def prune(setting: Setting) -> bool:
@@ -28,7 +62,7 @@ def prune(setting: Setting) -> bool:
     for _ in range(MOST_ROUNDS):
         if not _least_weights(setting, forward):
             return False
-        left = sum(len(layer) for network in setting.networks for layer in network.layers)
+        left = _arcs(setting)
         if left == count:
             return True
         count = left
@@ -158,7 +192,7 @@ def _human_backward(setting: Setting, forward: Forward, provided: _Providers) ->
     """The human's network, where robots add what they must have spent for an arc to be possible."""
     network, human = setting.human, setting.task.human
     through = _Through(setting)
-    after = _ends(setting, forward, human)
+    after = ends(setting, forward, human)
     for epoch in range(setting.horizon, 0, -1):
         reached = forward.reach[human][epoch - 1]
         surcharges: dict[tuple[int, frozenset[int]], int] = {}
@@ -186,7 +220,7 @@ def _human_backward(setting: Setting, forward: Forward, provided: _Providers) ->
 def _open_backward(setting: Setting, forward: Forward, k: int, others: int, active: Container[int]) -> bool:
     """A network whose flow goes on to the end; False if it can't."""
     network = setting.networks[k]
-    after = _ends(setting, forward, k)
+    after = ends(setting, forward, k)
     for epoch in range(setting.horizon, 0, -1):
         reached = forward.reach[k][epoch - 1]
         kept: list[Arc] = []
@@ -201,7 +235,7 @@ def _open_backward(setting: Setting, forward: Forward, k: int, others: int, acti
     return bool(after)
 
 
-def _ends(setting: Setting, forward: Forward, k: int) -> dict[int, int]:
+def ends(setting: Setting, forward: Forward, k: int) -> dict[int, int]:
     """Nodes in which a network's flow may end, with nothing left to pay."""
     network, finals = setting.networks[k], setting.finals[k]
     last = forward.reach[k][-1]

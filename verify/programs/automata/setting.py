@@ -22,6 +22,7 @@ class Setting:
         finals: end nodes' automaton states that the goals allow, by agent.
         deadline: polled by the pruning and the program.
         bounds: for the human's automaton states, least weight and actions to a goal state.
+        last: the human's nodes in which a plan may end; None where pruning has left no other.
         outer_pre: facts outside the participants' automata that each action needs true.
         outer_neg: the same, false.
     """
@@ -37,6 +38,7 @@ class Setting:
     finals: list[set[int]]
     deadline: Deadline
     bounds: tuple[list[int], list[int]]
+    last: frozenset[int] | None = None
     outer_pre: dict[int, tuple[int, ...]] = field(default_factory=dict)
     outer_neg: dict[int, tuple[int, ...]] = field(default_factory=dict)
 

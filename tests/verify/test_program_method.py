@@ -1,0 +1,101 @@
+"""``--method program``: a solver decides every program, and the certificate counts what it was given."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from hypothesis import given
+
+import serendipity
+from serendipity.model import Claim, Options, Result, Task, UsageError
+from tests.support.cases import case_1, case_4, case_8, case_10
+from tests.support.strategies import Call, calls
+from tests.verify.doctored import dearer
+from verify.calls.solve import solve
+from verify.certificate.certify import certify
+from verify.programs import minimise
+from verify.solvers.mip import SOLVERS, SolverOutcome, optimise
+
+
+def _proved(task: Task, answer: Result, name: str, **options: Any) -> Claim:
+    certificate = certify(task, answer, method="program", **options)
+    assert certificate.verdict == "proved"
+    return next(claim for claim in certificate.claims if claim.claim == name)
+
+
+@given(calls())
+def test_answers_are_proved(call: Call) -> None:
+    try:
+        answer = solve(call.task, call.options, human_plan=call.human_plan_names)
+    except UsageError:
+        return
+    certificate = certify(call.task, answer, method="program")
+    assert certificate.verdict == "proved", certificate.to_dict()
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_the_optimum_of_the_paper_s_example_is_the_solver_s(solver: str) -> None:
+    task = serendipity.example("room2")
+    answer = serendipity.plan(task, discount="0.6")
+    claim = _proved(task, answer, "optimal", solver=solver)
+    assert (claim.method, claim.solver_calls) == ("program", 1)
+    assert claim.size["columns"] > 1000 < claim.size["rows"]
+    assert claim.reason.endswith("rows: objective 1012.6, optimum cost 12.6")
+
+
+@pytest.mark.parametrize(
+    ("task", "options", "name"),
+    [
+        (case_4(), {"discount": "0.9"}, "optimal"),
+        (case_4(), {"discount": "0.9", "mode": "communication"}, "optimal"),
+        (case_10(), {"discount": "0.5", "horizon": 2, "mode": "composite"}, "optimal"),
+        (case_1(), {"discount": "0.5"}, "no_opportunity"),
+        (case_8(), {"mode": "composite", "horizon": 1}, "infeasible"),
+    ],
+)
+def test_a_solver_is_asked_where_reachability_would_do(
+    task: Task, options: dict[str, Any], name: str
+) -> None:
+    answer = serendipity.plan(task, **options)
+    by_reachability = next(claim for claim in certify(task, answer).claims if claim.claim == name)
+    claim = _proved(task, answer, name)
+    assert (by_reachability.method, by_reachability.solver_calls, by_reachability.size) == ("program", 0, {})
+    assert claim.solver_calls >= 1
+    assert claim.size["rows"] > 0
+    assert "HiGHS" in claim.reason
+
+
+def test_calls_of_all_claims_add_up() -> None:
+    task = case_4()
+    answer = serendipity.plan(task, discount="0.9", mode="communication", communication_weight="0.5")
+    certificate = certify(task, answer, method="program")
+    optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    assert certificate.solver_calls == optimal.solver_calls == 2
+    assert certificate.size == {
+        "variables": optimal.size["columns"],
+        "constraints": optimal.size["rows"],
+    }
+
+
+def test_what_a_limit_leaves_is_no_counter_example(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The program knows no limit on the objective: a plan that it allows need not beat the answer."""
+    task = case_4()
+    answer = solve(task, Options(discount="0.9"))  # type: ignore[arg-type]
+
+    def stopped(*arguments: Any, **settings: Any) -> SolverOutcome:
+        return replace(
+            optimise(*arguments, **settings), status="undecided", reason="the time limit came first"
+        )
+
+    monkeypatch.setattr(minimise, "optimise", stopped)
+    certificate = certify(task, answer, method="program")
+    optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    assert (optimal.verdict, optimal.counterexample) == ("undecided", None)
+
+
+def test_a_better_plan_refutes() -> None:
+    task, doctored = dearer()
+    certificate = certify(task, doctored, method="program")
+    assert certificate.refuted is not None
+    assert certificate.refuted.counterexample is not None
+    assert certificate.refuted.method == "program"
