@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from serendipity.evaluation.reproduction import reproduce
-    from serendipity.execution import Execution
+    from serendipity.execution import Execution, execute
     from serendipity.explanation import Explanation, explain
     from serendipity.facade.certify import check, verify
     from serendipity.facade.interruptibility import interruptions
@@ -69,6 +69,7 @@ __all__ = [
     "check",
     "check_task",
     "example",
+    "execute",
     "explain",
     "generate_usar",
     "interruptions",
@@ -103,6 +104,7 @@ _HOMES = {
     "explain": "serendipity.explanation",
     "Explanation": "serendipity.explanation",
     "Execution": "serendipity.execution",
+    "execute": "serendipity.execution",
     "recognise": "serendipity.recognition",
     "Recognition": "serendipity.recognition",
 }

@@ -16,6 +16,7 @@ NAMES: Final = (
     "check-task",
     "verify",
     "simulate",
+    "execute",
     "explain",
     "interruptions",
     "recognise",

@@ -1,7 +1,10 @@
 """Help while it happens: a person, robots and the world go on epoch by epoch."""
 
-from serendipity.execution.decided import VERDICTS, Decided, Passed
+from serendipity.execution.decided import VERDICTS, Decided, Passed, event_lines
 from serendipity.execution.execution import Execution
+from serendipity.execution.faults import Faults, Unreliable
+from serendipity.execution.log import LogLine, as_text, log_lines, read_logs, replay
+from serendipity.execution.outlook import Outlook, Robots
 from serendipity.execution.persons import (
     Moment,
     Noisy,
@@ -11,20 +14,39 @@ from serendipity.execution.persons import (
     Replanner,
     moment_of,
 )
+from serendipity.execution.policies import POLICIES, Policy, policy_from
+from serendipity.execution.runs import TIES, Run, Runs, execute
 from serendipity.execution.world import Actuator, Outcome
 
 __all__ = [
+    "POLICIES",
+    "TIES",
     "VERDICTS",
     "Actuator",
     "Decided",
     "Execution",
+    "Faults",
+    "LogLine",
     "Moment",
     "Noisy",
     "Omniscient",
     "Outcome",
+    "Outlook",
     "Passed",
     "Person",
+    "Policy",
     "Recorded",
     "Replanner",
+    "Robots",
+    "Run",
+    "Runs",
+    "Unreliable",
+    "as_text",
+    "event_lines",
+    "execute",
+    "log_lines",
     "moment_of",
+    "policy_from",
+    "read_logs",
+    "replay",
 ]

@@ -3,16 +3,18 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from search import PreparedTask
 from serendipity.execution.adviser import Adviser
 from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import Decided
-from serendipity.execution.guard import Following, Hands, Needed
+from serendipity.execution.outlook import Outlook
+from serendipity.execution.promises import Promises
 from serendipity.execution.prospects import Prospect, best_for_all
 from serendipity.execution.words import Words
 from serendipity.execution.world import World
+from serendipity.model.answers.result import Result
+from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -21,20 +23,6 @@ from serendipity.model.task.task import Task
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
-
-
-class Outlook(NamedTuple):
-    """What robots see when they decide.
-
-    Attributes:
-        epoch: the epoch that is to come.
-        world: the world.
-        running: what they have begun and not finished.
-    """
-
-    epoch: int
-    world: World
-    running: tuple[PlanStep, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,13 +63,11 @@ class Brain:
         self, task: Task, options: Options, goals: "GoalsGiven | None", beta: Number, *, told: bool
     ) -> None:
         self._options = options
-        self._told = told
-        self._hands = Hands(task)
         self._out: frozenset[int] = frozenset()
         self._beliefs = None if goals is None else Beliefs.about(task, goals, beta)
         conditions = [task.goal] if self._beliefs is None else [c.goal for c in self._beliefs.candidates]
         tasks = [task if goal == task.goal else task.with_goal(goal) for goal in conditions]
-        self._following = [Following(PreparedTask(one), strict=options.strict) for one in tasks]
+        self._promises = Promises(tasks, strict=options.strict, told=told)
         self._advisers = [Adviser(one, options) for one in tasks]
         self._words = Words(task, self._beliefs)
         self._course: _Course | None = None
@@ -97,8 +83,7 @@ class Brain:
 
     def saw(self, own: int | None, executed: Sequence[int]) -> None:
         """Take in an epoch: what the person did alone, and everything that took place."""
-        for following in self._following:
-            following.acted(own)
+        self._promises.acted(own)
         if self._beliefs is not None:
             self._beliefs.saw(own, executed)
 
@@ -110,7 +95,7 @@ class Brain:
 
     def drop(self, robots: Iterable[int]) -> None:
         """Robots are out of order: nothing that they take part in is possible any more."""
-        self._out |= self._hands.of(tuple(robots))
+        self._out |= self._promises.hands.of(tuple(robots))
         self._course = None
 
     def forget(self) -> None:
@@ -127,36 +112,34 @@ class Brain:
         """
         world = outlook.world
         weights = self._weights(world.state, deadline)
-        needed = Needed()
-        for goal in weights:
-            needed |= self._following[goal].look(world.state, deadline)
-        weights = {goal: weight for goal, weight in weights.items() if not self._following[goal].hopeless}
-        if not weights:
+        off = self._promises.look(world.state, weights, deadline)
+        if not off:
             return self._idle(outlook, "aside", self._words.hopeless())
-        off = frozenset[int]() if self._told else self._hands.off(needed)
+        weights = {goal: weights[goal] for goal in off}
+        untouched = frozenset[int]().union(*off.values())
+        running = [step for step in outlook.running if world.of(step) not in untouched]
+        if self._promises.broken_by(running, (), world, weights, deadline) is not None:
+            running = []
         busy = [self._agents[name] for step in outlook.running for name in step.agents]
-        removed = off | self._out | self._hands.of(busy)
-        running = [step for step in outlook.running if world.of(step) not in off]
-        while True:
-            course = self._on_course(outlook, removed, weights)
+        unable = self._out | self._promises.hands.of(busy)
+        removed = untouched | unable
+        while not self._promises.hands.all <= removed:
+            course = self._on_course(outlook, removed, weights) or self._planned(
+                outlook, removed, weights, deadline
+            )
             if course is None:
-                prospects = [self._prospect(goal, weights, world, removed, deadline) for goal in weights]
-                one = len(prospects) == 1
-                best = prospects[0] if one else best_for_all(prospects, self._options, deadline)
-                if best is None:
-                    unsure = any(p.result.opportunity for p in prospects)
-                    return self._idle(outlook, *(self._words.unsure() if unsure else self._words.nothing()))
-                course = _Course(best, outlook.epoch, removed, world.state)
+                torn = self._torn(world, {goal: unable | own for goal, own in off.items()}, deadline)
+                return self._idle(outlook, *(self._words.unsure() if torn else self._words.nothing()))
             plan = course.at(outlook.epoch)
             own, offers = self._now(outlook, plan)
-            ready = [*running, *own]
-            spoiling = None if self._told else self._spoiling(ready, offers, world, weights, deadline)
-            if spoiling is None:
-                return self._decided(outlook, course, plan, ready, offers)
-            if spoiling in running:
-                running.remove(spoiling)
+            broken = self._promises.broken_by([*running, *own], offers, world, weights, deadline)
+            if broken is None:
+                return self._decided(outlook, course, plan, [*running, *own], offers)
+            if broken in running:
+                running.remove(broken)
             else:
-                removed |= {world.of(spoiling)}
+                removed |= {world.of(broken)}
+        return self._idle(outlook, "aside", self._words.helpless(), running)
 
     def _weights(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:
         """The goals that the person may have, with their probabilities."""
@@ -176,20 +159,37 @@ class Brain:
         same = course.expected == outlook.world.state and course.removed == removed
         return course if proved and same else None
 
-    def _prospect(
-        self,
-        goal: int,
-        weights: dict[int, Fraction],
-        world: World,
-        removed: frozenset[int],
-        deadline: Deadline,
-    ) -> Prospect:
-        following = self._following[goal]
-        promise = following.promise()
-        names = [following.task.actions[i].name for i in promise]
-        result = self._advisers[goal].advise(world.state, names, removed, deadline)
-        share = weights[goal] / sum(weights.values())
-        return Prospect(goal, result, following.prepared, promise, share)
+    def _planned(
+        self, outlook: Outlook, removed: frozenset[int], weights: dict[int, Fraction], deadline: Deadline
+    ) -> _Course | None:
+        """The plan that costs least in the mean over the goals, or None where idling costs no more."""
+        total = sum(weights.values())
+        prospects = []
+        for goal, weight in weights.items():
+            following = self._promises.to(goal)
+            result = self._advised(goal, outlook.world, removed, deadline)
+            if result is not None:
+                promise = following.promise()
+                prospects.append(Prospect(goal, result, following.prepared, promise, weight / total))
+        certain = len(weights) == 1 and prospects
+        best = prospects[0] if certain else best_for_all(prospects, self._options, deadline)
+        return None if best is None else _Course(best, outlook.epoch, removed, outlook.world.state)
+
+    def _advised(self, goal: int, world: World, removed: frozenset[int], deadline: Deadline) -> Result | None:
+        """The best plan for a goal; None where the person has nothing left to do for it."""
+        following = self._promises.to(goal)
+        names = [following.task.actions[i].name for i in following.promise()]
+        return self._advisers[goal].advise(world.state, names, removed, deadline) if names else None
+
+    def _torn(self, world: World, removed: dict[int, frozenset[int]], deadline: Deadline) -> bool:
+        """Whether help would pay if it were known which goal it is; taken for no if time does not tell."""
+        if len(removed) < 2:
+            return False
+        try:
+            advised = (self._advised(goal, world, off, deadline) for goal, off in removed.items())
+            return any(result is not None and result.opportunity for result in advised)
+        except LIMITS:
+            return False
 
     def _now(self, outlook: Outlook, plan: Sequence[PlanStep]) -> tuple[list[PlanStep], tuple[PlanStep, ...]]:
         """What robots do by themselves in the first epoch of a plan, and what they offer."""
@@ -197,22 +197,6 @@ class Brain:
         now = [PlanStep(outlook.epoch, s.agents, s.action, s.cost) for s in plan if s.epoch == 1]
         offers = tuple(step for step in now if human in step.agents and len(step.agents) > 1)
         return [step for step in now if human not in step.agents], offers
-
-    def _spoiling(
-        self,
-        own: Sequence[PlanStep],
-        offers: Sequence[PlanStep],
-        world: World,
-        weights: Iterable[int],
-        deadline: Deadline,
-    ) -> PlanStep | None:
-        """The first of some steps that could make it dearer for the person, beside those before it."""
-        ready = [world.of(step) for step in offers]
-        actions = [world.of(step) for step in own]
-        for count, step in enumerate(own, start=1):
-            if any(self._following[goal].spoilt(actions[:count], ready, deadline) for goal in weights):
-                return step
-        return None
 
     def _decided(
         self,
@@ -242,6 +226,9 @@ class Brain:
             goals=self.goals,
         )
 
-    def _idle(self, outlook: Outlook, verdict: str, reason: str) -> Decided:
+    def _idle(self, outlook: Outlook, verdict: str, reason: str, running: Sequence[PlanStep] = ()) -> Decided:
+        """No plan: at most something that was begun is finished."""
         self._course = None
-        return Decided(outlook.epoch, verdict, reason, goals=self.goals)
+        if running:
+            verdict, reason = "helps", self._words.finishes(running[0])
+        return Decided(outlook.epoch, verdict, reason, actions=tuple(running), goals=self.goals)

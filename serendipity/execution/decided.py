@@ -1,6 +1,6 @@
 """What robots decide for an epoch, and what came of it: the values that callers see and logs hold."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
@@ -122,10 +122,27 @@ class Passed:
         Args:
             human: the person's name.
         """
-        deed = self.human or "waits"
-        told = [f"epoch {self.epoch}: {human} {f'tries {deed}, in vain' if self.in_vain else deed}"]
-        told += [
-            f"  {', '.join(step.agents)}: {step.action}" for step in self.steps if human not in step.agents
-        ]
-        told += [f"  does not happen: {u.step.action} ({WHY[u.why]})" for u in self.unfinished]
-        return [*told, f"  robots: {self.decided.reason}"]
+        return list(event_lines(self.to_dict(), human))
+
+
+def event_lines(event: Mapping[str, Any], human: str) -> Iterator[str]:
+    """A line of a log in words.
+
+    Args:
+        event: of :attr:`Execution.events <serendipity.Execution>`.
+        human: the person's name.
+    """
+    if "change" in event:
+        facts = ", ".join(name if true else f"not {name}" for name, true in event["change"].items())
+        yield f"something has changed: {facts}"
+    elif "drop" in event:
+        yield f"out of order: {', '.join(event['drop'])}"
+    else:
+        deed = event["human"] or "waits"
+        yield f"epoch {event['epoch']}: {human} {f'tries {deed}, in vain' if event['in_vain'] else deed}"
+        for step in event["steps"]:
+            if human not in step["agents"]:
+                yield f"  {', '.join(step['agents'])}: {step['action']}"
+        for missed in event["unfinished"]:
+            yield f"  does not happen: {missed['action']} ({WHY[missed['why']]})"
+        yield f"  robots: {event['decision']['reason']}"

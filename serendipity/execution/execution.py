@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
-from serendipity.execution.brain import Brain, Outlook
+from serendipity.execution.brain import Brain
 from serendipity.execution.decided import Decided, Passed
+from serendipity.execution.outlook import Outlook, Robots
 from serendipity.execution.world import Actuator, Outcome, World, done_at_once
 from serendipity.model.errors import LIMITS, UsageError
 from serendipity.model.numbers import Number
@@ -45,6 +46,12 @@ class Execution:
         told: the person knows the robots' plan and keeps to it, so that only its part of theirs has to
             stay possible.
         actuator: what robots make of their actions; None: whatever is possible is done at once.
+        robots: who decides for them, see :class:`serendipity.execution.Robots`; None: the planner.
+
+    Attributes:
+        task: where the execution began.
+        options: in force.
+        events: what has happened, as the lines of a log.
 
     Raises:
         UsageError: an argument is wrong.
@@ -63,13 +70,15 @@ class Execution:
         interference: str = "paper",
         told: bool = False,
         actuator: Actuator | None = None,
+        robots: Robots | None = None,
     ) -> None:
         options = Options(discount=discount, human_model=human_model, interference=interference)  # type: ignore[arg-type]
         self.task = task
         self.options = options
+        self.events: list[dict[str, Any]] = []
         self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
         self._world = World(task, options.discount, strict=options.strict)
-        self._brain = Brain(task, options, goals, beta, told=told)
+        self._brain: Robots = robots or Brain(task, options, goals, beta, told=told)
         self._actuator = actuator or done_at_once
         self._running: list[PlanStep] = []
         self._decided: Decided | None = None
@@ -79,6 +88,11 @@ class Execution:
             self._prepare()
 
     # -- where things stand
+
+    @property
+    def human(self) -> str:
+        """The person's name."""
+        return self.task.agents[self.task.human]
 
     @property
     def epoch(self) -> int:
@@ -164,6 +178,7 @@ class Execution:
             done=self.done,
         )
         self._passed.append(passed)
+        self.events.append(passed.to_dict())
         self._decided = None
         return passed
 
@@ -175,6 +190,7 @@ class Execution:
         """
         self._world.change(facts.items())
         self._brain.surprised()
+        self.events.append({"change": dict(facts)})
         self._decided = None
 
     def drop(self, robots: Iterable[str]) -> None:
@@ -190,6 +206,7 @@ class Execution:
                 raise UsageError(f"robot: expected one of {known}, got '{name}'")
         self._brain.drop(self.task.agents.index(name) for name in names)
         self._running = [step for step in self._running if not set(step.agents).intersection(names)]
+        self.events.append({"drop": names})
         self._decided = None
 
     # -- within an epoch
@@ -211,7 +228,9 @@ class Execution:
         except LIMITS:
             return self._late(clock.elapsed())
         seconds = clock.elapsed()
-        return self._late(seconds) if self._missed(seconds) else decided.at(seconds)
+        if self._missed(seconds):
+            return self._late(seconds)
+        return decided.at(seconds)
 
     def _outlook(self) -> Outlook:
         return Outlook(self.epoch, self._world, tuple(self._running))
@@ -229,6 +248,5 @@ class Execution:
         return next((step for step in decided.offers if step.action == name), None)
 
     def _carry_out(self, epoch: int, step: PlanStep) -> Outcome:
-        human = self.task.agents[self.task.human]
-        robots = " ".join(agent for agent in step.agents if agent != human)
+        robots = " ".join(agent for agent in step.agents if agent != self.human)
         return self._actuator(epoch, robots, step.action)

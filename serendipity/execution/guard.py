@@ -168,10 +168,14 @@ class Hands:
 
     Args:
         task: the task.
+
+    Attributes:
+        all: ids of everything that robots take part in.
     """
 
     def __init__(self, task: Task) -> None:
         self._task = task
+        self.all = self.of(task.robots)
         self._adding: dict[int, list[int]] = {}
         self._deleting: dict[int, list[int]] = {}
         for i, action in enumerate(task.actions):

@@ -14,7 +14,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.plans import PlanStep
-from serendipity.model.task.task import Task, canonical_name
+from serendipity.model.task.task import HumanPlan, Task, canonical_name
 
 if TYPE_CHECKING:
     from serendipity.execution.execution import Execution
@@ -26,16 +26,22 @@ class Moment(NamedTuple):
     Attributes:
         state: ids of the facts that are true.
         offers: joint actions that robots are ready for.
-        wish: what the robots' plan has the person do; only somebody who is told of it may look.
+        planned: whether robots have a plan.
+        wish: what it has the person do; only somebody who is told of it may look.
     """
 
     state: frozenset[int]
     offers: tuple[PlanStep, ...]
+    planned: bool
     wish: PlanStep | None
 
 
 class Person(Protocol):
     """Somebody who does something in each epoch."""
+
+    @property
+    def plan(self) -> HumanPlan | None:
+        """What they mean to do from here, by action ids; None where nobody knows."""
 
     def choose(self, moment: Moment) -> str | None:
         """The name of what they do: an action of their own, an offer, or None to wait.
@@ -47,15 +53,7 @@ class Person(Protocol):
 def moment_of(run: "Execution") -> Moment:
     """What a person has before them."""
     decided = run.decided
-    return Moment(run.state, decided.offers, decided.expected)
-
-
-class Omniscient:
-    """Does what the robots' plan says: the human of the paper."""
-
-    def choose(self, moment: Moment) -> str | None:
-        """See :class:`Person`."""
-        return None if moment.wish is None else moment.wish.action
+    return Moment(run.state, decided.offers, decided.plan is not None, decided.expected)
 
 
 class Replanner:
@@ -76,8 +74,8 @@ class Replanner:
         self._intention = self._human.intentions.of(())
 
     @property
-    def plan(self) -> tuple[int, ...]:
-        """Ids of what they mean to do from here."""
+    def plan(self) -> HumanPlan:
+        """See :class:`Person`."""
         return self._intention.actions
 
     def choose(self, moment: Moment) -> str | None:
@@ -129,6 +127,27 @@ class Replanner:
         return applicable(op, state) and self._human.accepts(op, belief, look.best)
 
 
+class Omniscient:
+    """Does what the robots' plan says, as the human of the paper; without one, what somebody observant does.
+
+    Args:
+        task: where they begin; its goal is theirs.
+    """
+
+    plan: HumanPlan | None = None
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._otherwise = Replanner(task)
+
+    def choose(self, moment: Moment) -> str | None:
+        """See :class:`Person`."""
+        if not moment.planned:
+            return self._otherwise.choose(moment)
+        self._otherwise.does(moment.state, None)
+        return None if moment.wish is None else moment.wish.action
+
+
 class Noisy:
     """Like somebody observant, but with some probability they do something else in an epoch.
 
@@ -148,6 +167,11 @@ class Noisy:
         self._dice = dice
         self._usual = Replanner(task, "observant", dice if ties else None)
         self._alone = PreparedTask(task)
+
+    @property
+    def plan(self) -> HumanPlan:
+        """See :class:`Person`."""
+        return self._usual.plan
 
     def choose(self, moment: Moment) -> str | None:
         """See :class:`Person`."""
@@ -179,6 +203,11 @@ class Recorded:
         self._left = [canonical_name(name) for name in actions]
         self._next = Replanner(task)
 
+    @property
+    def plan(self) -> HumanPlan | None:
+        """See :class:`Person`."""
+        return None if self._left else self._next.plan
+
     def choose(self, moment: Moment) -> str | None:
         """See :class:`Person`."""
         if not self._left:
@@ -189,7 +218,7 @@ class Recorded:
             return None
         if any(step.action == name for step in moment.offers):
             return name
-        ids = self._task.named[name]
+        ids = self._task.named.get(name, ())
         own = [i for i in ids if self._task.actions[i].participants == (self._task.human,)]
         possible = next((i for i in own if self._task.actions[i].applicable(moment.state)), None)
         if possible is None:

@@ -9,7 +9,7 @@ from serendipity.model.task.task import Task
 
 if TYPE_CHECKING:
     from serendipity.execution.beliefs import Beliefs
-    from serendipity.execution.brain import Outlook
+    from serendipity.execution.outlook import Outlook
     from serendipity.execution.prospects import Prospect
 
 _ASIDE = "stays out of the way"
@@ -31,16 +31,21 @@ class Words:
         """There is nothing to preserve."""
         return f"{_ASIDE}: {self._human} has no plan alone"
 
+    def helpless(self) -> str:
+        """Robots can do nothing, or nothing that would spoil nothing."""
+        return f"{_ASIDE}: there is nothing that it could do"
+
+    def finishes(self, step: PlanStep) -> str:
+        """Robots go on with what they have begun."""
+        return f"goes on with {step.action}"
+
     def nothing(self) -> tuple[str, str]:
         """No plan with help is cheaper, whatever the goal is."""
         return "aside", f"{_ASIDE}: no help pays"
 
     def unsure(self) -> tuple[str, str]:
         """Help would pay for some goals, and not in the mean."""
-        assert self._beliefs is not None, "only a goal that is not known leaves doubts"
-        likely = sorted(self._beliefs.named().items(), key=lambda goal: -goal[1])
-        shown = ", ".join(f"{name} {share:.0%}" for name, share in likely[:3])
-        return "unsure", f"waits: not sure which goal ({shown})"
+        return "unsure", f"waits: not sure which goal ({self._likely()})"
 
     def decided(
         self,
@@ -65,7 +70,16 @@ class Words:
         later = min((s.epoch for s in plan if s.agents != (self._human,)), default=None)
         if later is None:
             return "aside", f"{_ASIDE}: all that helps is done"
-        return "waits", f"waits: its part comes in epoch {outlook.epoch + later - 1}"
+        part = f"its part comes in epoch {outlook.epoch + later - 1}"
+        if self._beliefs is not None and len(self._beliefs.possible()) > 1:
+            return "unsure", f"waits: not sure which goal ({self._likely()}); {part}"
+        return "waits", f"waits: {part}"
+
+    def _likely(self) -> str:
+        """The most probable goals."""
+        assert self._beliefs is not None, "only a goal that is not known leaves doubts"
+        likely = sorted(self._beliefs.named().items(), key=lambda goal: -goal[1])
+        return ", ".join(f"{name} {share:.0%}" for name, share in likely[:3])
 
     def _guess(self, prospect: "Prospect") -> str:
         if self._beliefs is None:

@@ -1,49 +1,12 @@
-"""Where assignments are worked on: this process, several, or a Dask cluster."""
+"""Where assignments are worked on beside processes of this machine: a Dask cluster."""
 
-import multiprocessing
-import os
-import signal
-import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from multiprocessing.connection import Connection, wait
 from typing import Any
 
 from serendipity.evaluation.reproduction.work import Assignment, TaskRows
-from serendipity.model import SerendipityError, UsageError
+from serendipity.model import UsageError
 
 Work = Callable[[Assignment], TaskRows]
-
-
-def in_turn(work: Work, assignments: Sequence[Assignment]) -> Iterator[TaskRows]:
-    """One after the other, in this process."""
-    return map(work, assignments)
-
-
-def in_processes(work: Work, assignments: Sequence[Assignment], jobs: int) -> Iterator[TaskRows]:
-    """In ``jobs`` processes, in the order in which they are finished; they end where nobody asks for more.
-
-    Raises:
-        SerendipityError: a process was killed.
-    """
-    # Not forked: a thread of the progress display may hold a lock at that moment.
-    context = multiprocessing.get_context("spawn")
-    workers = min(jobs, len(assignments))
-    wanted, ours = context.Pipe(duplex=False)
-    pool = ProcessPoolExecutor(workers, context, initializer=_end_with_parent, initargs=(wanted,))
-    try:
-        for future in as_completed([pool.submit(work, assignment) for assignment in assignments]):
-            yield future.result()
-    except BrokenProcessPool:
-        raise SerendipityError(
-            "a worker process was killed, perhaps for want of memory: run the same command to go on"
-        ) from None
-    except BaseException:
-        ours.close()  # workers don't finish what nobody waits for
-        raise
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def on_dask(work: Work, assignments: Sequence[Assignment], address: str, jobs: int) -> Iterator[TaskRows]:
@@ -85,16 +48,3 @@ def _client(address: str, jobs: int) -> Any:
         return Client(address, timeout="10s")
     except (OSError, ValueError) as error:
         raise UsageError(f"--dask: no scheduler at '{address}': {error}") from None
-
-
-def _end_with_parent(wanted: Connection) -> None:
-    """A worker leaves Ctrl-C to the main process, and does not outlive it, nor the wish for its work."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-
-        def watch(sentinel: int) -> None:
-            wait([sentinel, wanted])
-            os._exit(1)
-
-        threading.Thread(target=watch, args=(parent.sentinel,), daemon=True).start()

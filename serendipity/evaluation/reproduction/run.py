@@ -10,12 +10,13 @@ from time import time
 from typing import Final
 
 from serendipity.evaluation.reproduction.journal import Journal
-from serendipity.evaluation.reproduction.pool import in_processes, in_turn, on_dask
+from serendipity.evaluation.reproduction.pool import on_dask
 from serendipity.evaluation.reproduction.rows import Row
 from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
 from serendipity.evaluation.reproduction.work import Assignment, Call, Limits, TaskRows, solve, unknown
 from serendipity.model import Deadline, Options, UsageError
 from serendipity.model.numbers import Number
+from serendipity.model.resources.processes import in_processes
 
 MODES: Final = ("individual", "serendipity", "communication", "composite")
 DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
@@ -171,6 +172,6 @@ def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Gen
     if dask is not None:
         yield from on_dask(solve, assignments, dask, jobs)
     elif jobs == 1:
-        yield from in_turn(solve, assignments)
+        yield from map(solve, assignments)
     else:
-        yield from in_processes(solve, assignments, jobs)
+        yield from in_processes(solve, assignments, jobs, advice=": run the same command to go on")

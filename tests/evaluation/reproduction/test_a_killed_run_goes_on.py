@@ -13,7 +13,7 @@ import pytest
 
 import serendipity
 from serendipity.evaluation.reproduction import Progress, reproduce, run
-from serendipity.evaluation.reproduction.pool import in_processes
+from serendipity.model.resources.processes import in_processes
 
 CALLS = {"modes": ["serendipity", "communication"], "discounts": ["0.6", "0.9"]}
 

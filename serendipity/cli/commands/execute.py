@@ -1,0 +1,186 @@
+"""``serendipity execute``: a person, robots and the world go on epoch by epoch."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+import typer
+
+import serendipity
+from serendipity.cli.choices import choices
+from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.options import naming, plan_options
+from serendipity.cli.streams import output, progress
+from serendipity.cli.text import goals as goal_options
+from serendipity.model import InputError, UsageError
+from serendipity.model.options import limit_of
+
+if TYPE_CHECKING:
+    from serendipity.execution import Runs
+
+_FORMATS: Final = ("text", "json", "csv")
+
+
+def execute(
+    files: naming.Files = None,
+    human: Annotated[
+        str,
+        typer.Option(
+            "--human",
+            help="Who the person is; the FILE of 'recorded' may also stand behind TASK.",
+            **choices("recorded:FILE", "omniscient", "observant", "local", "noisy:P"),
+        ),
+    ] = "observant",
+    person: Annotated[
+        str | None,
+        typer.Option(metavar="H", help="Which agent is the person; by default the only one with a goal."),
+    ] = None,
+    robot: naming.Robots = None,
+    agent: naming.Agents = None,
+    team: naming.Team = None,
+    example: naming.Example = None,
+    discount: plan_options.Discount = None,
+    human_model: Annotated[
+        str | None,
+        typer.Option(
+            help="What robots take the person to be; by default what they are, else observant.",
+            **choices("omniscient", "observant", "local"),
+        ),
+    ] = None,
+    interference: plan_options.Interference = None,
+    goals: goal_options.Goals = None,
+    beta: goal_options.Beta = None,
+    runs: Annotated[int, typer.Option(metavar="N", help="How many runs.")] = 1,
+    seed: Annotated[int, typer.Option(metavar="S", help="Of the first run's dice.")] = 0,
+    ties: Annotated[
+        str,
+        typer.Option(
+            help="The person follows the canonical one of their optimal plans, or any.",
+            **choices("fixed", "drawn"),
+        ),
+    ] = "fixed",
+    faults: Annotated[
+        str | None,
+        typer.Option(
+            metavar="fail=P,slow=P,drop=P",
+            help="How often a robot's action fails or takes longer, and a robot drops out.",
+        ),
+    ] = None,
+    deadline: Annotated[
+        str | None,
+        typer.Option(metavar="SECONDS", help="For each decision; without one in time robots do nothing."),
+    ] = None,
+    epochs: Annotated[int | None, typer.Option(metavar="N", help="The most epochs of a run.")] = None,
+    jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", help="Processes.")] = 1,
+    log: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Also write every epoch of every run as JSON lines.")
+    ] = None,
+    replay: Annotated[
+        Path | None, typer.Option(metavar="LOG", help="Play the runs of a log again, and compare.")
+    ] = None,
+    format: Annotated[  # noqa: A002 - the option's name
+        str | None,
+        typer.Option("--format", help="By default after -o's name, else text.", **choices(*_FORMATS)),
+    ] = None,
+    output_file: output.Output = None,
+    quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
+) -> int:
+    """Let a person do as they like while robots watch, decide in each epoch, and help where it pays."""
+    output.start_logging(verbose)
+    form = _format(format, output_file)
+    output.check_output(output_file)
+    output.check_output(log, "--log")
+    named, policy = _recorded(files, human)
+    task = naming.load(named, person, robot, agent, team, example, quiet=quiet)
+    if replay is not None:
+        return _replayed(task, replay, output_file)
+    given = plan_options.given(discount=discount, interference=interference, beta=beta)
+    with progress.counting("runs", quiet=quiet) as on_progress:
+        found = serendipity.execute(
+            task,
+            policy,
+            runs=runs,
+            seed=seed,
+            ties=ties,
+            faults=faults,
+            human_model=human_model,
+            goals=goals,
+            epochs=epochs,
+            jobs=jobs,
+            on_progress=on_progress if runs > 1 else None,
+            deadline=None if deadline is None else limit_of("deadline", deadline, "seconds"),
+            **given,
+        )
+    answers = [output.Answer(_answer(form, found), output_file)]
+    if log is not None:
+        from serendipity.execution import as_text
+
+        answers.append(output.Answer("".join(map(as_text, found.logs)), log, "--log"))
+    output.write_answers(answers)
+    return ExitCode.ANSWERED
+
+
+def _format(wanted: str | None, output_file: Path | None) -> str:
+    if wanted is None:
+        suffix = "" if output_file is None else output_file.suffix[1:]
+        return suffix if suffix in _FORMATS else "text"
+    if wanted not in _FORMATS:
+        raise UsageError(f"--format: expected one of {', '.join(_FORMATS)}, got '{wanted}'")
+    return wanted
+
+
+def _recorded(files: list[Path] | None, human: str) -> tuple[list[Path] | None, str]:
+    """The files that name the task, and the person, whose record may stand behind them."""
+    if human.strip() != "recorded":
+        return files, human
+    if not files:
+        raise UsageError("--human recorded: expected recorded:FILE, or the FILE behind TASK")
+    *named, record = files
+    return named, f"recorded:{record}"
+
+
+def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> int:
+    from serendipity.cli.text.render import Line, rendered
+    from serendipity.execution import read_logs, replay
+
+    lines, code = [], ExitCode.ANSWERED
+    for number, log in enumerate(read_logs(file), start=1):
+        try:
+            run = replay(task, log, file)
+        except InputError as error:
+            lines.append(Line(f"run {number}: {error}", "red"))
+            code = ExitCode.REFUTED
+        else:
+            costs = f"{run.human} paid {float(run.human_cost):.10g}, the team {float(run.cost):.10g}"
+            lines.append(Line(f"run {number}: the same again; {len(run.passed)} epochs, {costs}"))
+    output.write_answer(rendered(lines), output_file)
+    return code
+
+
+def _answer(form: str, found: "Runs") -> str:
+    rows = [row.to_dict() for row in found.rows]
+    if form == "json":
+        return output.as_json(found.to_dict())
+    if form == "csv":
+        from serendipity.writing.csv_text import as_csv
+
+        return as_csv(list(rows[0]), [list(row.values()) for row in rows])
+    return _text(found, rows)
+
+
+def _text(found: "Runs", rows: list[dict[str, Any]]) -> str:
+    from serendipity.cli.text.render import Grid, Line, rendered
+
+    parts: list[Line | Grid] = [Line(line) for line in found.story()] if len(rows) == 1 else []
+    parts += [Line()] if parts else []
+    parts.append(Grid(list(rows[0]), [[_cell(value) for value in row.values()] for row in rows]))
+    parts += [Line(), *(Line(line) for line in found.summary_lines())]
+    return rendered(parts)
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,192 @@
+"""The log of an execution: JSON lines, from which the same run can be played again."""
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from os import PathLike
+from typing import Any, Final, NamedTuple
+
+from serendipity.execution.decided import Decided
+from serendipity.execution.execution import Execution
+from serendipity.execution.outlook import Outlook
+from serendipity.execution.world import Outcome
+from serendipity.model.answers.step_reader import StepReader
+from serendipity.model.errors import InputError, UsageError
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
+from serendipity.pddl.parsing.files import read_text
+
+SCHEMA: Final = "serendipity.execution/1"
+
+
+class LogLine(NamedTuple):
+    """A line of a log: its number from 1, and the object that it holds."""
+
+    number: int
+    value: dict[str, Any]
+
+
+def header(run: Execution, /, **notes: Any) -> dict[str, Any]:
+    """The first line of a log: what was asked.
+
+    Args:
+        run: the execution.
+        **notes: whatever else is to be remembered: seed, who the person was.
+    """
+    options = run.options
+    return {
+        "schema": SCHEMA,
+        "task": run.task.name,
+        "human": run.task.agents[run.task.human],
+        "discount": str(options.discount),
+        "human_model": options.human_model,
+        "interference": options.interference,
+        **notes,
+    }
+
+
+def log_lines(run: Execution, /, **notes: Any) -> Iterator[dict[str, Any]]:
+    """All lines of a log; see :func:`header`."""
+    yield header(run, **notes)
+    yield from run.events
+
+
+def as_text(lines: Iterable[dict[str, Any]]) -> str:
+    """Lines as JSON lines."""
+    return "".join(f"{json.dumps(line, ensure_ascii=False)}\n" for line in lines)
+
+
+def read_logs(file: str | PathLike[str]) -> list[list[LogLine]]:
+    """The runs of a file of logs, one after another.
+
+    Raises:
+        InputError: it can't be read, or a line is no JSON object, or comes before any header.
+    """
+    runs: list[list[LogLine]] = []
+    for number, text in enumerate(read_text(file).splitlines(), start=1):
+        if not text.strip():
+            continue
+        try:
+            value = json.loads(text)
+        except ValueError:
+            value = None
+        if not isinstance(value, dict):
+            raise InputError("log: expected a JSON object", file, number)
+        if value.get("schema") is not None:
+            runs.append([])
+        if not runs:
+            raise InputError(f"log: expected a line with the schema '{SCHEMA}' first", file, number)
+        runs[-1].append(LogLine(number, value))
+    if not runs:
+        raise InputError("log: is empty", file)
+    return runs
+
+
+def replay(task: Task, lines: Sequence[LogLine], file: object = None) -> Execution:
+    """Play a log again: the same decisions, the same person, the same faults.
+
+    Every line has to come out as it is written: what took place, what it cost, and what changed.
+
+    Args:
+        task: what was executed.
+        lines: of one run, its header first.
+        file: named in errors.
+
+    Raises:
+        InputError: a line is malformed, or something else happens; it says where.
+    """
+    first, *rest = lines
+    if first.value.get("schema") != SCHEMA:
+        raise InputError(f"log: schema: expected '{SCHEMA}'", file, first.number)
+    if first.value.get("human") != task.agents[task.human]:
+        raise InputError("log: is of another task: it has another human", file, first.number)
+    script = _Script(file)
+    try:
+        run = Execution(
+            task,
+            discount=first.value.get("discount", 0),
+            human_model=first.value.get("human_model", "observant"),
+            interference=first.value.get("interference", "paper"),
+            robots=script,
+            actuator=script.carry_out,
+        )
+    except UsageError as error:
+        raise InputError(f"log: {error}", file, first.number) from None
+    for line in rest:
+        script.line = line
+        try:
+            _play(run, line.value)
+        except (KeyError, TypeError, AttributeError, ValueError):
+            raise InputError("log: expected an epoch, a change or a drop", file, line.number) from None
+        except UsageError as error:
+            raise InputError(f"log: {error}", file, line.number) from None
+        _compare(run.events[-1], line, file)
+    return run
+
+
+def _play(run: Execution, value: dict[str, Any]) -> None:
+    if "change" in value:
+        run.change(dict(value["change"]))
+    elif "drop" in value:
+        run.drop(list(value["drop"]))
+    else:
+        run.step(value["human"])
+
+
+def _compare(event: dict[str, Any], line: LogLine, file: object) -> None:
+    for key, value in event.items():
+        told = line.value.get(key)
+        if _timeless(told) != _timeless(value):
+            message = f"log: {key}: comes out as {value!r:.100}, but the log says {told!r:.100}"
+            raise InputError(message, file, line.number)
+
+
+def _timeless(value: Any) -> Any:
+    """A value without the time that a decision took: that is another one each time."""
+    return {**value, "seconds": None} if isinstance(value, dict) and "seconds" in value else value
+
+
+class _Script:
+    """Robots that decide, and succeed, as a log says."""
+
+    def __init__(self, file: object) -> None:
+        self.line = LogLine(0, {})
+        self.goals: dict[str, float] = {}
+        self._file = file
+
+    def decide(self, outlook: Outlook, _deadline: Deadline) -> Decided:
+        """The decision of the line."""
+        value, read = self.line.value["decision"], StepReader(self._file)
+        expected = None if value["expected"] is None else [value["expected"]]
+        return Decided(
+            outlook.epoch,
+            value["verdict"],
+            value["reason"],
+            actions=read.plan(value["actions"]) or (),
+            offers=read.plan(value["offers"]) or (),
+            expected=(read.plan(expected) or (None,))[0],
+            plan=read.plan(value["plan"]),
+            window=read.window(value["window"]),
+            cost=value["cost"],
+            alone=value["alone"],
+            goals=value["goals"],
+            seconds=value["seconds"],
+        )
+
+    def carry_out(self, _epoch: int, _robots: str, action: str) -> Outcome:
+        """What the line says became of an action."""
+        for told in self.line.value["unfinished"]:
+            if told["action"] == action and told["why"] in ("failed", "running"):
+                return "failed" if told["why"] == "failed" else "running"
+        return "done"
+
+    def saw(self, own: int | None, executed: Sequence[int]) -> None:
+        """Nothing is learnt."""
+
+    def surprised(self) -> None:
+        """Nothing is a surprise."""
+
+    def drop(self, robots: Iterable[int]) -> None:
+        """The log knows."""
+
+    def forget(self) -> None:
+        """There is nothing to forget."""

@@ -1,0 +1,102 @@
+"""People by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscient``, ``recorded:FILE``."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from random import Random
+from typing import Final
+
+from serendipity.execution.faults import probability
+from serendipity.execution.persons import Noisy, Omniscient, Person, Recorded, Replanner
+from serendipity.model.errors import InputError, UsageError
+from serendipity.model.task.task import Task, canonical_name
+from serendipity.pddl.parsing.files import read_text
+from serendipity.pddl.parsing.lists import actions_in
+
+POLICIES: Final = ("recorded:FILE", "omniscient", "observant", "local", "noisy:P")
+"""How people are named."""
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """What somebody does, so that it can be done again.
+
+    Attributes:
+        name: ``recorded``, ``omniscient``, ``observant``, ``local`` or ``noisy``.
+        probability: of ``noisy``: that they do something else in an epoch.
+        actions: of ``recorded``: what was written down.
+    """
+
+    name: str
+    probability: float = 0.0
+    actions: tuple[str, ...] = ()
+
+    @property
+    def told(self) -> bool:
+        """Whether they know the robots' plan."""
+        return self.name == "omniscient"
+
+    @property
+    def human_model(self) -> str:
+        """What robots take them to be, unless somebody says otherwise."""
+        return self.name if self.name in ("omniscient", "local") else "observant"
+
+    def person(self, task: Task, dice: Random, *, drawn: bool) -> Person:
+        """Somebody who acts like that.
+
+        Args:
+            task: where they begin.
+            dice: for what they leave to chance.
+            drawn: whether that includes which of their optimal plans they follow.
+        """
+        if self.name == "omniscient":
+            return Omniscient(task)
+        if self.name == "noisy":
+            return Noisy(task, self.probability, dice, ties=drawn)
+        if self.name == "recorded":
+            return Recorded(task, self.actions)
+        return Replanner(task, self.name, dice if drawn else None)
+
+
+def policy_from(task: Task, text: str) -> Policy:
+    """The policy that a text names.
+
+    Args:
+        task: what they act in.
+        text: as in ``POLICIES``; what follows the name stands behind a colon or a blank.
+
+    Raises:
+        UsageError: there is no such policy.
+        InputError: the file of ``recorded`` is wrong; it says where.
+    """
+    name, _, rest = text.strip().replace(" ", ":", 1).partition(":")
+    rest = rest.strip()
+    if name == "recorded" and rest:
+        return Policy(name, actions=recorded_actions(task, Path(rest)))
+    if name == "noisy" and rest:
+        return Policy(name, probability(rest, "noisy"))
+    if name in ("omniscient", "observant", "local") and not rest:
+        return Policy(name)
+    raise UsageError(f"human: expected one of {', '.join(POLICIES)}, got '{text:.50}'")
+
+
+def recorded_actions(task: Task, file: Path | Sequence[str]) -> tuple[str, ...]:
+    """What was written down, one action an epoch; ``noop`` is an epoch of waiting.
+
+    Raises:
+        InputError: a line is no action that the human takes part in.
+    """
+    if isinstance(file, Path):
+        lines: list[tuple[str, int | None]] = [(n, i) for n, i in actions_in(read_text(file), file)]
+    else:
+        lines = [(name, None) for name in file]
+    where = file if isinstance(file, Path) else None
+    names = []
+    for text, line in lines:
+        name = canonical_name(text)
+        ids = task.named.get(name, ())
+        if not task.waits(name) and all(task.human not in task.actions[i].participants for i in ids):
+            human = task.agents[task.human]
+            raise InputError(f"recorded action '{name}': expected an action of {human}'s", where, line)
+        names.append(name)
+    return tuple(names)

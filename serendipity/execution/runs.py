@@ -1,0 +1,313 @@
+"""Executions with a simulated person, run by run: what each of them came to."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields
+from fractions import Fraction
+from random import Random
+from typing import TYPE_CHECKING, Any, Final
+
+from search import PreparedTask
+from search.planner import canonical_human_plan
+from serendipity.execution.decided import event_lines
+from serendipity.execution.execution import Execution
+from serendipity.execution.faults import Faults, Unreliable
+from serendipity.execution.log import log_lines
+from serendipity.execution.persons import Person, moment_of
+from serendipity.execution.policies import Policy, policy_from, recorded_actions
+from serendipity.model.errors import PlanError, UsageError
+from serendipity.model.numbers import plain
+from serendipity.model.options import CHOICES
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.resources.processes import in_processes
+from serendipity.model.task.actions import apply
+from serendipity.model.task.execution import actions_named
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.recognition.candidates import candidate_goals
+
+if TYPE_CHECKING:
+    from serendipity.recognition import GoalsGiven
+
+SURE: Final = Fraction(9, 10)
+"""The posterior from which on a goal counts as known."""
+
+SCHEMA: Final = "serendipity.executions/1"
+
+TIES: Final = ("fixed", "drawn")
+"""Which of their optimal plans a person follows: the canonical one, or one that the dice draw."""
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """What one execution came to.
+
+    Attributes:
+        run: its number, from 1.
+        seed: of its dice.
+        reached: whether the person's goal holds in the end.
+        epochs: how many there were.
+        alone: what the person would have paid alone by an optimal plan; None where they have none.
+        human_cost: what the person paid, undiscounted.
+        cost: what the team paid.
+        helped: the number of epochs in which robots did something, or something with the person.
+        spoilt: the number of epochs in which what robots did made the plan that the person had in
+            mind impossible.
+        late: the number of epochs without a decision within the deadline.
+        slowest: seconds of the longest decision.
+        known: the epoch from which on the posterior of the person's goal was at least 0.9; None
+            where it never was, or there was nothing to recognise.
+        wrong: the number of epochs in which robots did something while they held another goal than
+            the person's for the most probable one.
+    """
+
+    run: int
+    seed: int
+    reached: bool
+    epochs: int
+    alone: float | None
+    human_cost: float
+    cost: float
+    helped: int
+    spoilt: int
+    late: int
+    slowest: float
+    known: int | None
+    wrong: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+@dataclass(frozen=True, slots=True)
+class Runs:
+    """Several executions of one task.
+
+    Attributes:
+        human: who the person was, as ``execute`` takes it.
+        rows: one a run.
+        logs: the lines of each run's log.
+    """
+
+    human: str
+    rows: tuple[Run, ...]
+    logs: tuple[tuple[dict[str, Any], ...], ...]
+
+    def summary(self) -> dict[str, Any]:
+        """Figures over all runs: shares are of runs, ``kept`` is of epochs, costs are means."""
+        count, epochs = len(self.rows), sum(row.epochs for row in self.rows)
+        pairs = [(row.human_cost, row.alone) for row in self.rows if row.alone is not None]
+        compared = {
+            "less": sum(paid < alone for paid, alone in pairs),
+            "same": sum(paid == alone for paid, alone in pairs),
+            "more": sum(paid > alone for paid, alone in pairs),
+        }
+        return {
+            "runs": count,
+            "reached": sum(row.reached for row in self.rows) / count,
+            **{name: number / len(pairs) if pairs else None for name, number in compared.items()},
+            "alone": sum(alone for _, alone in pairs) / len(pairs) if pairs else None,
+            "human_cost": sum(row.human_cost for row in self.rows) / count,
+            "cost": sum(row.cost for row in self.rows) / count,
+            "helped": sum(row.helped > 0 for row in self.rows) / count,
+            "spoilt": sum(row.spoilt for row in self.rows),
+            "kept": 1 - sum(row.late for row in self.rows) / epochs if epochs else 1.0,
+        }
+
+    def summary_lines(self) -> Iterator[str]:
+        """The same in words."""
+        found = self.summary()
+        runs = "run" if found["runs"] == 1 else "runs"
+        yield f"{found['runs']} {runs}, person: {self.human}; goal reached in {found['reached']:.2%}"
+        if found["alone"] is not None:
+            shares = ", ".join(f"{name} in {found[name]:.2%}" for name in ("less", "same", "more"))
+            yield f"the person pays {shares} of the runs than alone"
+            yield (
+                f"in the mean {plain(found['human_cost'])} instead of {plain(found['alone'])}; "
+                f"the team {plain(found['cost'])}"
+            )
+        yield f"a decision within the deadline in {found['kept']:.2%} of the epochs"
+
+    def story(self) -> Iterator[str]:
+        """The runs in words, epoch by epoch."""
+        for first, *events in self.logs:
+            for event in events:
+                yield from event_lines(event, first["human"])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return {
+            "schema": SCHEMA,
+            "human": self.human,
+            "rows": [row.to_dict() for row in self.rows],
+            "summary": self.summary(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class _Settings:
+    """What all runs of a call have in common."""
+
+    task: Task
+    policy: Policy
+    drawn: bool
+    faults: Faults
+    epochs: int
+    alone: Fraction | None
+    goal: str | None
+    arguments: Mapping[str, Any]
+    notes: Mapping[str, Any]
+
+
+def execute(
+    task: Task,
+    human: str | Sequence[str] = "observant",
+    *,
+    runs: int = 1,
+    seed: int = 0,
+    ties: str = "fixed",
+    faults: Faults | str | None = None,
+    human_model: str | None = None,
+    goals: "GoalsGiven | None" = None,
+    epochs: int | None = None,
+    jobs: int = 1,
+    on_progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> Runs:
+    """Let a simulated person, robots and the world go on epoch by epoch, again and again.
+
+    Args:
+        task: where things stand; its goal is the person's.
+        human: ``observant``, ``local``, ``omniscient``, ``noisy:P`` or ``recorded:FILE``; or the names of
+            recorded actions.
+        runs: how many.
+        seed: of the first run's dice; the others count on from it.
+        ties: ``fixed``: the person follows the canonical one of their optimal plans; ``drawn``: any.
+        faults: how unreliable robots are, ``"fail=0.1,slow=0.1,drop=0.01"`` for example.
+        human_model: what robots take the person to be; None: what they are, ``observant`` if in doubt.
+        goals: goals that the person may have; robots do not know which.
+        epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.
+        jobs: processes.
+        on_progress: called with the number of runs that are over, and of all.
+        **options: ``discount``, ``deadline``, ``beta`` and ``interference`` of :class:`Execution`.
+
+    Raises:
+        UsageError: an argument is wrong.
+        InputError: a file is wrong; it says where.
+    """
+    for name, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
+        if number < 1:
+            raise UsageError(f"{name}: expected at least 1, got {number}")
+    if ties not in TIES:
+        raise UsageError(f"ties: expected one of {', '.join(TIES)}, got '{ties}'")
+    if isinstance(human, str):
+        policy = policy_from(task, human)
+    else:
+        human, policy = "recorded", Policy("recorded", actions=recorded_actions(task, human))
+    if policy.told and goals is not None:
+        raise UsageError("goals: an omniscient person keeps to the robots' plan, so robots know the goal")
+    model = human_model or policy.human_model
+    if model not in CHOICES["human_model"]:
+        known = ", ".join(CHOICES["human_model"])
+        raise UsageError(f"human_model: expected one of {known}, got '{model}'")
+    wrong = Faults.parse(faults) if isinstance(faults, str) else faults or Faults()
+    plan = canonical_human_plan(PreparedTask(task), Deadline())
+    settings = _Settings(
+        task=task,
+        policy=policy,
+        drawn=ties == "drawn",
+        faults=wrong,
+        epochs=epochs or 100 + 10 * len(plan or ()),
+        alone=None if plan is None else task.cost_of(plan),
+        goal=None if goals is None else _name_of(task, goals),
+        arguments={"human_model": model, "goals": goals, "told": policy.told, **options},
+        notes={
+            "policy": human,
+            "ties": ties,
+            "faults": {f.name: getattr(wrong, f.name) for f in fields(wrong)},
+        },
+    )
+    Execution(task, **{**settings.arguments, "deadline": None})  # what is wrong shows before the first run
+    assignments = [(settings, number, seed + number - 1) for number in range(1, runs + 1)]
+    done: list[tuple[Run, tuple[dict[str, Any], ...]]] = []
+    for finished in map(_run, assignments) if jobs == 1 else in_processes(_run, assignments, jobs):
+        done.append(finished)
+        if on_progress is not None:
+            on_progress(len(done), runs)
+    done.sort(key=lambda pair: pair[0].run)
+    return Runs(human, tuple(row for row, _ in done), tuple(lines for _, lines in done))
+
+
+def _name_of(task: Task, goals: "GoalsGiven") -> str | None:
+    """What the candidate is called that is the person's goal; None if none is."""
+    literals = {(f, True) for f in task.goal.positive} | {(f, False) for f in task.goal.negative}
+    for candidate in candidate_goals(task, goals):
+        goal = candidate.goal
+        if literals == {(f, True) for f in goal.positive} | {(f, False) for f in goal.negative}:
+            return candidate.name
+    return None
+
+
+def _run(assignment: tuple[_Settings, int, int]) -> tuple[Run, tuple[dict[str, Any], ...]]:
+    settings, number, seed = assignment
+    task = settings.task
+    dice, luck = Random(f"person {seed}"), Random(f"robots {seed}")
+    robots = Unreliable(settings.faults, luck)
+    run = Execution(task, actuator=robots, **settings.arguments)
+    person = settings.policy.person(task, dice, drawn=settings.drawn)
+    spoilt = 0
+    left = [task.agents[i] for i in task.robots]
+    while not run.done and run.epoch <= settings.epochs:
+        gone = robots.dropped(left) if settings.faults.drop else []
+        if gone:
+            run.drop(gone)
+            left = [robot for robot in left if robot not in gone]
+        spoilt += _spoils(run, person)
+    row = Run(
+        run=number,
+        seed=seed,
+        reached=run.done,
+        epochs=len(run.passed),
+        alone=None if settings.alone is None else float(settings.alone),
+        human_cost=float(run.human_cost),
+        cost=float(run.cost),
+        helped=sum(any(len(s.agents) > 1 or s.agents[0] != run.human for s in p.steps) for p in run.passed),
+        spoilt=spoilt,
+        late=sum(passed.decided.verdict == "late" for passed in run.passed),
+        slowest=max((passed.decided.seconds for passed in run.passed), default=0.0),
+        **_recognised(run, settings.goal),
+    )
+    return row, tuple(log_lines(run, run=number, seed=seed, **settings.notes))
+
+
+def _spoils(run: Execution, person: Person) -> bool:
+    """Play an epoch; whether it is robots who made what the person had in mind impossible."""
+    before = run.state
+    passed = run.step(person.choose(moment_of(run)))
+    plan, own = person.plan, [step for step in passed.steps if run.human in step.agents]
+    if plan is None or any(len(step.agents) > 1 for step in own):
+        return False
+    named = [i for step in own for i in actions_named(run.task, step.action, step.agents)]
+    done = [run.task.actions[i] for i in named if run.task.actions[i].applicable(before)][:1]
+    return _works(run.task, plan, apply(before, *done)) and not _works(run.task, plan, run.state)
+
+
+def _works(task: Task, plan: HumanPlan, state: frozenset[int]) -> bool:
+    try:
+        task.at(state).variants_of(plan)
+    except PlanError:
+        return False
+    return True
+
+
+def _recognised(run: Execution, true: str | None) -> dict[str, Any]:
+    """``known`` and ``wrong`` of a row, by the name of the person's goal among the candidates."""
+    if true is None:
+        return {"known": None, "wrong": 0}
+    known, wrong = None, 0
+    for passed in run.passed:
+        goals = passed.decided.goals
+        sure = goals[true] >= SURE
+        known = (known or passed.epoch) if sure else None
+        acted = bool(passed.decided.actions or passed.decided.offers)
+        wrong += acted and max(goals, key=lambda name: goals[name]) != true
+    return {"known": known, "wrong": wrong}

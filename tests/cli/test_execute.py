@@ -1,0 +1,78 @@
+"""``serendipity execute``: text, JSON and CSV, logs and replays, and what it complains about."""
+
+import csv
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+
+CALL = "execute --example room2 --discount 0.6"
+
+
+def test_text_tells_the_story(run: Callable[[str], Run]) -> None:
+    told = run(CALL)
+    assert told.code == 0
+    lines = told.out.splitlines()
+    assert lines[0] == "epoch 1: commx move commx room13 hall8"
+    assert "epoch 6: commx hand_over robot commx mk2 hall4" in lines
+    assert "in the mean 11 instead of 13; the team 12.6" in lines
+
+
+def test_json_and_csv_hold_a_row_a_run(run: Callable[[str], Run]) -> None:
+    told = json.loads(run(f"{CALL} --human noisy:0.2 --runs 3 --seed 4 --format json").out)
+    assert told["schema"] == "serendipity.executions/1" and told["summary"]["runs"] == 3
+    text = run(f"{CALL} --human noisy:0.2 --runs 3 --seed 4 --format csv").out
+    rows = list(csv.DictReader(io.StringIO(text)))
+    assert [float(row["cost"]) for row in rows] == [row["cost"] for row in told["rows"]]
+    assert run(f"{CALL} -o rows.csv").code == 0 and Path("rows.csv").read_text().startswith(
+        "run,seed,reached"
+    )
+
+
+def test_a_log_is_played_again(run: Callable[[str], Run]) -> None:
+    assert run(f"{CALL} --runs 2 --faults fail=0.2,drop=0.05 --log runs.jsonl").code == 0
+    again = run("execute --example room2 --replay runs.jsonl")
+    assert again.code == 0 and [line[:21] for line in again.out.splitlines()] == [
+        "run 1: the same again",
+        "run 2: the same again",
+    ]
+    log = Path("runs.jsonl")
+    log.write_text(log.read_text().replace('"human_cost": 2.0', '"human_cost": 1.0', 1))
+    changed = run("execute --example room2 --replay runs.jsonl")
+    assert changed.code == 1 and "runs.jsonl:3: log: human_cost: comes out as 2.0" in changed.out
+
+
+def test_a_record_may_stand_behind_the_task(run: Callable[[str], Run]) -> None:
+    Path("record").write_text("noop\nmove commx room13 hall8\n")
+    first, second = (
+        run(f"execute --example room2 --human {words}").out.partition("\nrun ")[0]
+        for words in ("recorded record", "recorded:record")
+    )
+    assert first == second and first.startswith("epoch 1: commx waits\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ("--human psychic", "human: expected one of recorded:FILE"),
+        ("--human recorded", "expected recorded:FILE, or the FILE behind TASK"),
+        ("--human recorded:nowhere", "nowhere: there is no such file"),
+        ("--human noisy:x", "noisy: expected a finite number"),
+        ("--faults often", "faults: expected some of fail=P,slow=P,drop=P"),
+        ("--goals nowhere", "nowhere: there is no such file"),
+        ("--deadline soon", "deadline: expected"),
+        ("--discount 2", "discount: expected a number in [0, 1]"),
+        ("--runs 0", "runs: expected at least 1"),
+        ("--format xml", "--format: expected one of text, json, csv"),
+        ("--replay nowhere", "nowhere: there is no such file"),
+        ("--log no/where", "--log: there is no folder no"),
+        ("--person nobody", "nobody"),
+    ],
+)
+def test_wrong_input_is_one_line(run: Callable[[str], Run], arguments: str, complaint: str) -> None:
+    told = run(f"execute --example room2 {arguments}")
+    assert told.code == 2 and complaint in told.err and told.err.count("\n") == 1

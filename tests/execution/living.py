@@ -1,0 +1,50 @@
+"""Epochs lived through by a simulated person, with an oracle beside them that knows nothing of the search."""
+
+from itertools import count
+from random import Random
+
+from serendipity.execution import Execution, Person, moment_of
+from serendipity.model import Task
+from verify.base.optimal_plans import OptimalPlans
+from verify.simulator.person import Person as Oracle
+
+MOST_EPOCHS = 60
+
+
+def live(task: Task, run: Execution, person: Person, *, follows_prediction: bool = True) -> None:
+    """Go on to the goal, and hold robots to what they promise after every epoch.
+
+    Args:
+        task: where it begins; nothing is asked where the person has no plan alone.
+        run: the execution.
+        person: the person.
+        follows_prediction: whether what the person has in mind is what robots take them to follow.
+    """
+    oracle = Oracle(task, OptimalPlans(task))
+    alone = oracle.cost(task.init)
+    if alone is None:
+        return
+    for epoch in count(1):
+        if run.done:
+            break
+        assert epoch < MOST_EPOCHS, "the person never gets there"
+        run.step(person.choose(moment_of(run)))
+        rest = oracle.cost(run.state)
+        assert rest is not None, "robots took the person's last plan away"
+        assert run.human_cost + rest <= alone, "robots made it dearer"
+        together = any(len(step.agents) > 1 for step in run.passed[-1].steps)
+        if follows_prediction and not together:
+            works = oracle.cost_of(person.plan or (), run.state) is not None
+            assert works, "robots spoilt the plan that the person was following"
+    assert run.human_cost <= alone
+
+
+def other_goals(task: Task, dice: Random, most: int = 3) -> list[dict[str, object]]:
+    """The task's goal and a few others as candidates, in any order."""
+    own = [task.facts[f] for f in task.goal.positive] + [f"!{task.facts[f]}" for f in task.goal.negative]
+    goals: list[dict[str, object]] = [{"name": "own", "goal": own}]
+    for number in range(dice.randint(1, most)):
+        facts = dice.sample(range(len(task.facts)), min(len(task.facts), dice.randint(1, 2)))
+        goals.append({"name": f"other {number}", "goal": [task.facts[f] for f in facts]})
+    dice.shuffle(goals)
+    return goals

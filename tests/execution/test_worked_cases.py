@@ -1,0 +1,148 @@
+"""Executions that can be followed by hand."""
+
+import pytest
+
+import serendipity
+from serendipity.execution import Execution, Omniscient, Replanner, moment_of
+from serendipity.model import Condition, InputError, Task, UsageError
+from tests.support.builders import task as build
+from tests.support.builders import usar
+
+
+def _live(run: Execution, person: Replanner | Omniscient) -> list[str]:
+    while not run.done:
+        run.step(person.choose(moment_of(run)))
+    return [passed.decided.verdict for passed in run.passed]
+
+
+@pytest.fixture(name="room2")
+def _room2() -> Task:
+    return serendipity.example("room2")
+
+
+@pytest.mark.parametrize("human_model", ["observant", "local"])
+def test_the_paper_example_happens(room2: Task, human_model: str) -> None:
+    run = Execution(room2, discount="0.6", human_model=human_model)
+    verdicts = _live(run, Replanner(room2, human_model))
+    assert verdicts[:6] == ["waits", *["helps"] * 5] and set(verdicts[6:]) == {"aside"}
+    assert run.passed[5].human == "hand_over robot commx mk2 hall4"
+    assert (float(run.cost), run.human_cost) == (12.6, 11)
+
+
+def test_who_is_told_gets_the_plan_of_the_paper() -> None:
+    task = serendipity.example("room5")  # there the plan begins with the person's own kit
+    told = Execution(task, discount="0.9", human_model="omniscient", told=True)
+    _live(told, Omniscient(task))
+    assert float(told.cost) == 11.5
+    untold = Execution(task, discount="0.9", human_model="omniscient")
+    _live(untold, Replanner(task))
+    assert untold.human_cost == 13
+
+
+def test_the_person_turns_off(room2: Task) -> None:
+    run = Execution(room2, discount="0.6")
+    run.step("move commx room13 hall8")
+    run.step("move_reverse commx hall8 hall7")
+    assert run.passed[-1].decided.verdict == "helps"
+    for action in ("move_reverse commx hall7 room7", "move_reverse commx room7 room6"):
+        run.step(action)
+    assert not any(step.agents == ("robot",) for step in run.passed[-1].steps), "it sees that he is late"
+    assert "aside" in _live(run, Replanner(room2.at(run.state))) and run.done
+
+
+def test_the_person_takes_the_kit_themselves(room2: Task) -> None:
+    run = Execution(room2, discount="0.6")
+    run.change({"at mk2 room3": False, "has commx mk2": True, "has_medkit commx": True})
+    assert run.decided.reason == "stays out of the way: no help pays"
+
+
+def test_the_person_stands_still(room2: Task) -> None:
+    run = Execution(room2, discount="0.6")
+    for _ in range(12):
+        run.step(None)
+    assert run.human_cost == 0 and not run.done
+    assert _live(run, Replanner(room2)) and run.human_cost == 11
+
+
+def _crossing(goal: str = "conducted_triage h g") -> Task:
+    """A corridor to g with a kit behind d; the robot is one room away from another; x is next to a0.
+
+    To meet the person in c it has to set out in epoch 2.
+    """
+    task = usar(
+        "a0-a1-a2-a3-a4-c-d-g d-s c-r-r2 a0-x",
+        human="a0",
+        robots={"r": "r"},
+        kits={"k1": "s", "k2": "r2"},
+        triage="g",
+    )
+    return task.with_goal(Condition((task.facts.index(goal),)))
+
+
+GOALS = [{"name": "triage", "goal": ["conducted_triage h g"]}, {"name": "visit", "goal": ["at h x"]}]
+
+
+def test_with_two_goals_it_waits_until_it_is_sure() -> None:
+    task = _crossing()
+    run = Execution(task, discount="0.6", goals=GOALS)
+    assert _live(run, Replanner(task))[:3] == ["unsure", "helps", "helps"]
+    first, second = run.passed[0].decided, run.passed[1].decided
+    assert first.reason.startswith("waits: not sure which goal (triage 50%, visit 50%)")
+    assert second.goals["triage"] > 0.6
+    assert float(run.cost) == 10.6
+    other = _crossing("at h x")
+    run = Execution(other, discount="0.6", goals=GOALS)
+    assert _live(run, Replanner(other)) == ["unsure"] and run.cost == 1
+
+
+def test_what_would_be_in_vain_for_one_goal_and_pays_in_the_mean_is_done() -> None:
+    task = _crossing()
+    person = ["move h a0 a1", "move h a1 a2", "move h a2 a3"]
+    goals = [GOALS[0], {"name": "a3", "goal": ["at h a3"]}]
+    verdicts = {}
+    for discount in ("0.6", "0.9"):
+        run = Execution(task, discount=discount, goals=goals)
+        verdicts[discount] = [run.step(action).decided.verdict for action in person]
+    assert verdicts == {"0.6": ["unsure", "unsure", "aside"], "0.9": ["unsure", "helps", "helps"]}
+
+
+def test_robots_without_a_decision_in_time_do_nothing(room2: Task) -> None:
+    run = Execution(room2, discount="0.6", deadline=0)
+    assert set(_live(run, Replanner(room2))) == {"late"}
+    assert run.cost == run.human_cost == 13
+
+
+def test_robots_see_to_their_own_goals() -> None:
+    task = build(init="a", goal="b", robot_goal="done", actions={"go h": "a -> b !a", "tidy r": " -> done"})
+    run = Execution(task)
+    assert run.decided.verdict == "works"
+    assert [step.action for step in run.step("go h").steps] == ["go h", "tidy r"]
+
+
+def test_a_robot_that_is_out_of_order_is_not_counted_on(room2: Task) -> None:
+    run = Execution(room2, discount="0.6")
+    run.drop(["robot"])
+    assert run.decided.verdict == "aside" and not run.decided.actions
+    with pytest.raises(UsageError, match="expected one of robot, got 'commx'"):
+        run.drop(["commx"])
+
+
+def test_what_is_impossible_is_tried_in_vain(room2: Task) -> None:
+    run = Execution(room2)
+    passed = run.step("move_reverse commx hall8 hall7")
+    assert passed.in_vain and not passed.changes and run.human_cost == 0
+    with pytest.raises(UsageError, match="no action 'fly' that commx can do alone"):
+        run.step("fly")
+    with pytest.raises(UsageError, match="no action 'move robot room4 hall4' that commx can do alone"):
+        run.step("move robot room4 hall4")
+
+
+def test_wrong_arguments_are_refused(room2: Task) -> None:
+    with pytest.raises(UsageError, match="discount: expected a number in"):
+        Execution(room2, discount=2)
+    with pytest.raises(UsageError, match="deadline: expected"):
+        Execution(room2, deadline=-1)
+    with pytest.raises(InputError, match="there is no fact 'nowhere'"):
+        Execution(room2, goals=[{"goal": ["nowhere"]}])
+    with pytest.raises(UsageError, match="there is no fact 'nowhere'"):
+        Execution(room2).change({"nowhere": True})
