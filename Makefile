@@ -13,7 +13,7 @@ help:  ## list the targets
 
 .venv: $(READY)  ## make the virtual environment (with uv where it is installed, else with pip)
 
-$(READY): $(INSTALLED) search/kernel/kernel.c search/kernel/build.py
+$(READY): $(INSTALLED) $(wildcard search/kernel/*.[ch]) search/kernel/build.py
 	@$(BIN)/python -m search.kernel.build || true  # all works without it
 	@touch $@
 

@@ -41,7 +41,7 @@ def load(binary: Path, source: Path) -> "CDLL | None":
 
     Args:
         binary: where it is, if it is there.
-        source: what it has to be compiled from, if that is there.
+        source: what it has to be compiled from, if that is there, with the units beside it.
     """
     if not binary.is_file():
         return None
@@ -57,8 +57,14 @@ def load(binary: Path, source: Path) -> "CDLL | None":
     return None if stale else found
 
 
+def units(source: Path) -> list[Path]:
+    """The source and all that it includes: the headers beside it."""
+    return [source, *sorted(source.parent.glob("*.h"))]
+
+
 def source_hash(source: Path) -> str:
     """What tells one state of the source from another; a kernel returns it as ``kernel_source_hash()``."""
     import hashlib
 
-    return hashlib.sha256(source.read_bytes()).hexdigest()
+    hashes = (f"{unit.name} {hashlib.sha256(unit.read_bytes()).hexdigest()}" for unit in units(source))
+    return hashlib.sha256("\n".join(hashes).encode()).hexdigest()

@@ -137,6 +137,16 @@ def test_memory_is_asked_for() -> None:
     assert planner.bound(packed.init, Refusing(0)) == cost
 
 
+@pytest.mark.usefixtures("frugal")
+def test_what_was_allocated_is_kept_while_more_is_asked_for() -> None:
+    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
+    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    found = planner.first_plan(packed.init, Refusing(1e8))
+    assert found is not None
+    assert assert_leads_to_goal(packed, packed.init, found) >= cost
+    assert planner.first_plan(packed.init, Refusing(0)) == found
+
+
 @given(task=tasks())
 def test_answers_are_those_of_python(task: Task) -> None:
     def ask() -> list[object]:

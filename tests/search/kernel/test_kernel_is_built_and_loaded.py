@@ -3,6 +3,7 @@
 import ctypes
 import shlex
 import shutil
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -70,6 +71,25 @@ def test_none_where_the_source_has_changed(source: Path, binary: Path) -> None:
     assert library.load(binary, source) is None
     source.unlink()
     assert library.load(binary, source), "nothing says that it is stale"
+
+
+@needs_compiler
+@pytest.mark.parametrize("change", ["changed", "added", "removed", "renamed"])
+def test_none_where_a_unit_has_changed(change: str, source: Path, binary: Path) -> None:
+    unit, other = source.with_name("unit.h"), source.with_name("other.h")
+    unit.write_text("enum { ONE = 1 };", encoding="utf-8")
+    source.write_text(f'#include "unit.h"\n{SOURCE}', encoding="utf-8")
+    assert main(binary, source) == 0
+    assert library.load(binary, source)
+    if change == "changed":
+        unit.write_text("enum { ONE = 2 };", encoding="utf-8")
+    elif change == "added":
+        other.touch()
+    elif change == "removed":
+        unit.unlink()
+    else:
+        unit.rename(other)
+    assert library.load(binary, source) is None
 
 
 @needs_compiler
@@ -142,6 +162,15 @@ def test_the_first_compiler_that_there_is(source: Path, monkeypatch: pytest.Monk
     monkeypatch.setattr(shutil, "which", {}.get)
     monkeypatch.setattr("search.kernel.build.find_spec", {"ziglang": object()}.get)
     assert shlex.join(compiler() or []).endswith("-m ziglang cc -target native -mcpu=baseline -s")
+
+
+@needs_compiler
+@pytest.mark.parametrize("unit", library.units(library.SOURCE), ids=lambda unit: unit.name)
+def test_a_unit_includes_what_it_stands_on(unit: Path) -> None:
+    command = [*(compiler() or []), "-std=c11", "-fsyntax-only", "-Werror=implicit-function-declaration"]
+    main_file = f'#include "{unit}"\n'
+    done = subprocess.run([*command, "-x", "c", "-"], input=main_file, text=True, capture_output=True)
+    assert not done.returncode, done.stderr
 
 
 @needs_compiler

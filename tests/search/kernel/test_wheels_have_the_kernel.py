@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from search.kernel.build import compiler
-from search.kernel.library import BINARY, SOURCE, load
+from search.kernel.library import BINARY, SOURCE, load, units
 
 ROOT = Path(__file__).resolve().parents[3]
+UNITS = {f"search/kernel/{unit.name}" for unit in units(SOURCE)}
 
 
 def build(folder: Path, monkeypatch: pytest.MonkeyPatch, **environment: str) -> Path:
@@ -40,9 +41,11 @@ def test_a_wheel_for_this_platform(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     wheel = build(tmp_path, monkeypatch)
     assert "-py3-none-" in wheel.name
     assert not wheel.name.endswith("-any.whl")
-    assert kernels(wheel) == {"search/kernel/kernel.c", f"search/kernel/{BINARY.name}"}
+    assert kernels(wheel) == UNITS | {f"search/kernel/{BINARY.name}"}
     with zipfile.ZipFile(wheel) as archive:
-        assert load(Path(archive.extract(f"search/kernel/{BINARY.name}", tmp_path)), SOURCE)
+        folder = Path(archive.extract(f"search/kernel/{BINARY.name}", tmp_path)).parent
+        archive.extractall(tmp_path, UNITS)
+        assert load(folder / BINARY.name, folder / SOURCE.name)
         metadata = next(name for name in archive.namelist() if name.endswith("/WHEEL"))
         assert b"Root-Is-Purelib: false" in archive.read(metadata)
 
@@ -53,4 +56,4 @@ def test_a_wheel_for_any_platform(
 ) -> None:
     wheel = build(tmp_path, monkeypatch, **environment)
     assert wheel.name.endswith("-py3-none-any.whl")
-    assert kernels(wheel) == {"search/kernel/kernel.c"}
+    assert kernels(wheel) == UNITS

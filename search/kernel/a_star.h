@@ -1,0 +1,174 @@
+/* A*: a cheapest plan, or that none is below a limit.
+
+   A state is evaluated when it comes up, not when it is generated, and opened again at a lower cost.  Source: Hart,
+   Nilsson and Raphael, A formal basis for the heuristic determination of minimum cost paths (1968). */
+
+#pragma once
+
+#include <stdint.h>
+#include <stdlib.h>
+#include "evaluation.h"
+#include "heap.h"
+#include "learning.h"
+#include "lists.h"
+#include "problem.h"
+#include "relaxation.h"
+#include "state_table.h"
+#include "stubborn_sets.h"
+#include "successor_generator.h"
+#include "values.h"
+
+typedef struct {
+    const Problem *problem;
+    Relaxation *relaxation;
+    Evaluator evaluator;
+    Stubborn stubborn;
+    Table table;
+    Heap open;
+    Ints applicable, closed;
+    Word *row;
+    Cost limit, least; /* nothing from the limit on is of interest; no plan is cheaper than least */
+    uint32_t stamp;
+    int32_t start, end, serial;
+    int cut_off; /* whether something was left out because of the limit */
+    int64_t expanded, generated;
+} AStar;
+
+static int a_star_new(AStar *s, const Problem *p, Relaxation *r) {
+    s->problem = p, s->relaxation = r, s->table.words = p->words;
+    s->row = malloc((size_t)p->words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
+    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem) && stubborn_new(&s->stubborn, p);
+}
+
+static void a_star_free(AStar *s) {
+    evaluator_free(&s->evaluator), table_free(&s->table);
+    if (s->problem) stubborn_free(&s->stubborn, s->problem->n_ops);
+    free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->row);
+}
+
+static void open_node(AStar *s, int32_t id) {
+    const Node *node = node_of(&s->table, id);
+    if (node->rest == INFINITE_COST) return;
+    Cost total = node->spent + node->rest;
+    if (total >= s->limit) {
+        s->cut_off = 1;
+        return;
+    }
+    heap_push(&s->open, (Entry){total, node->rest, id, s->serial++});
+}
+
+static int finish(AStar *s, int outcome, Cost total) {
+    learn(&s->table, &s->closed, total);
+    s->least = total;
+    if (outcome == FOUND) learn_plan(&s->table, s->problem, s->start, s->end);
+    return outcome;
+}
+
+static int a_star_begin(AStar *s, const Word *state, Cost limit, size_t allowed) {
+    s->open.count = s->closed.count = 0;
+    s->least = 0;
+    s->table.allowed = allowed;
+    if (!reserve(&s->table, 1) || !heap_reserve(&s->open, 1, &s->table)) return MEMORY;
+    int is_new;
+    s->start = find(&s->table, state, &is_new);
+    Node *node = node_of(&s->table, s->start);
+    if (is_new) look_up(&s->evaluator, s->problem, node, state);
+    s->limit = limit, s->cut_off = 0, s->serial = 0;
+    s->stamp++;
+    node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = NONE;
+    open_node(s, s->start);
+    return RUNNING;
+}
+
+static void expand(AStar *s, int32_t id) {
+    const Problem *p = s->problem;
+    Node *node = node_of(&s->table, id);
+    const Word *state = state_of(&s->table, id);
+    int fresh = s->evaluator.rests_of == state;
+    node->closed = 1;
+    ints_push(&s->closed, id);
+    s->expanded++;
+    successors(p, state, &s->applicable);
+    leave_stubborn(&s->stubborn, p, &s->table, state, &s->applicable);
+    for (size_t i = 0; i < s->applicable.count; i++) {
+        int32_t op = s->applicable.at[i];
+        apply(p, op, state, s->row);
+        int is_new;
+        int32_t next = find(&s->table, s->row, &is_new);
+        Node *after = node_of(&s->table, next);
+        s->generated++;
+        Cost spent = node->spent + p->weight[op];
+        if (is_new) look_up(&s->evaluator, p, after, s->row);
+        if (after->stamp == s->stamp && after->spent <= spent) continue;
+        after->stamp = s->stamp, after->spent = spent, after->parent = id, after->op = op, after->closed = 0;
+        if (!after->exact) {
+            Cost rest = node->rest - p->weight[op];
+            Cost known = fresh ? rest_after(&s->evaluator, &s->relaxation->problem, op) : 0;
+            if (known > rest) rest = known;
+            if (after->rest < rest) after->rest = rest;
+        }
+        open_node(s, next);
+    }
+}
+
+static int a_star_run(AStar *s, double seconds, size_t allowed) {
+    const Problem *p = s->problem;
+    double end = now() + seconds;
+    s->table.allowed = allowed;
+    while (s->open.count) {
+        Entry entry = s->open.at[0];
+        Node *node = node_of(&s->table, entry.item);
+        if (node->closed || entry.key != node->spent + node->rest) {
+            heap_pop(&s->open);
+            continue;
+        }
+        if (entry.key > s->least) s->least = entry.key;
+        if (now() >= end) return RUNNING;
+        const Word *state = state_of(&s->table, entry.item);
+        if (!node->exact && is_goal(p, state)) node->rest = 0, node->exact = 1;
+        if (node->exact && node->spent + node->rest == entry.key) {
+            s->end = entry.item;
+            return finish(s, FOUND, entry.key);
+        }
+        look_up(&s->evaluator, p, node, state);
+        if (node->evaluated < N_TURNS && node->rest < INFINITE_COST && node->spent + node->rest == entry.key)
+            evaluate(&s->evaluator, p, s->relaxation, node, state);
+        if (node->rest == INFINITE_COST || node->spent + node->rest != entry.key) {
+            heap_pop(&s->open);
+            open_node(s, entry.item);
+            continue;
+        }
+        if (node->evaluated < N_TURNS) continue;
+        size_t more = (size_t)p->n_ops + 1;
+        if (!reserve(&s->table, (int32_t)more) || !heap_reserve(&s->open, more, &s->table)) return MEMORY;
+        heap_pop(&s->open);
+        expand(s, entry.item);
+    }
+    return s->cut_off ? finish(s, NOT_BELOW, s->limit) : finish(s, HOPELESS, INFINITE_COST);
+}
+
+/* Lower bound from a state; -1 where memory is missing. */
+static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
+    s->table.allowed = allowed;
+    if (!reserve(&s->table, 1)) return -1;
+    int is_new;
+    int32_t id = find(&s->table, asked, &is_new);
+    Node *node = node_of(&s->table, id);
+    const Word *state = state_of(&s->table, id);
+    if (is_new) look_up(&s->evaluator, s->problem, node, state);
+    if (!node->evaluated && node->rest < INFINITE_COST) evaluate(&s->evaluator, s->problem, s->relaxation, node, state);
+    return node->rest;
+}
+
+/* States for which orders of projections are chosen, the start and others that were met: how many; -1: no memory. */
+static int a_star_samples(AStar *s, int32_t most) {
+    Projections *all = &s->evaluator.projections;
+    size_t words = (size_t)s->problem->words;
+    int32_t count = s->table.count < most ? s->table.count : most;
+    if (!samples_new(all, s->problem, count)) return -1;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t id = i ? (int32_t)((int64_t)i * s->table.count / count) : s->start;
+        memcpy(all->samples + (size_t)i * words, state_of(&s->table, id), words * sizeof(Word));
+    }
+    return count;
+}

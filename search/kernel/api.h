@@ -1,0 +1,95 @@
+/* What Python calls: a planner for one problem, by ctypes (search/classical/planner.py).
+
+   Work goes on in slices: whoever calls looks at the time and the memory between two of them. */
+
+#pragma once
+
+#include <stdint.h>
+#include <stdlib.h>
+#include "a_star.h"
+#include "cost_partitioning.h"
+#include "greedy_search.h"
+#include "problem.h"
+#include "relaxation.h"
+#include "state_table.h"
+#include "successor_generator.h"
+#include "values.h"
+
+#if defined(_WIN32)
+#define API __declspec(dllexport)
+#else
+#define API __attribute__((visibility("default")))
+#endif
+
+typedef struct {
+    Problem problem;
+    Relaxation relaxation; /* both searches work with it */
+    AStar a_star;
+    Greedy greedy;
+} Planner;
+
+API void planner_free(Planner *s) {
+    if (!s) return;
+    a_star_free(&s->a_star), greedy_free(&s->greedy);
+    relaxation_free(&s->relaxation), problem_free(&s->problem);
+    free(s);
+}
+
+API Planner *planner_new(const Spec *spec) {
+    Planner *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    Problem *p = &s->problem;
+    if (problem_new(p, spec) && plant_all(p) && relaxation_new(&s->relaxation, p) &&
+        a_star_new(&s->a_star, p, &s->relaxation) && greedy_new(&s->greedy, p, &s->relaxation))
+        return s;
+    planner_free(s);
+    return NULL;
+}
+
+/* Optimal search, from a state, below a limit: slice by slice until it is no longer RUNNING. */
+API int planner_begin(Planner *s, const Word *state, Cost limit, size_t allowed) {
+    return a_star_begin(&s->a_star, state, limit, allowed);
+}
+API int planner_run(Planner *s, double seconds, size_t allowed) { return a_star_run(&s->a_star, seconds, allowed); }
+
+/* No plan from where it began is cheaper. */
+API Cost planner_least(const Planner *s) { return s->a_star.least; }
+
+/* No plan from a state is cheaper; -1 where memory is missing. */
+API Cost planner_bound(Planner *s, const Word *state, size_t allowed) { return a_star_bound(&s->a_star, state, allowed); }
+
+/* Greedy search, likewise. */
+API int planner_begin_greedy(Planner *s, const Word *state, size_t allowed) { return greedy_begin(&s->greedy, state, allowed); }
+API int planner_run_greedy(Planner *s, double seconds, size_t allowed) { return greedy_run(&s->greedy, seconds, allowed); }
+
+/* The operators of the way that was found, from its end back to the start; how many. */
+API int32_t planner_way(const Planner *s, int greedy, int32_t *ops, int32_t room) {
+    const Table *t = greedy ? &s->greedy.table : &s->a_star.table;
+    int32_t count = 0;
+    for (int32_t id = greedy ? s->greedy.goal : s->a_star.end; node_of(t, id)->parent != NONE; id = node_of(t, id)->parent) {
+        if (count < room) ops[count] = node_of(t, id)->op;
+        count++;
+    }
+    return count;
+}
+
+/* Bytes that were missing where there was not enough memory. */
+API size_t planner_wanted(const Planner *s) {
+    size_t optimal = s->a_star.table.wanted, greedy = s->greedy.table.wanted;
+    return optimal > greedy ? optimal : greedy;
+}
+
+/* States expanded, generated and evaluated so far. */
+API void planner_counts(const Planner *s, int64_t *counts) {
+    counts[0] = s->a_star.expanded, counts[1] = s->a_star.generated;
+    counts[2] = s->a_star.evaluator.evaluated + s->greedy.evaluated;
+}
+
+/* Tables for the optimal search: projections, then samples, then an order for one sample after another. */
+API int64_t planner_pattern(Planner *s, const int32_t *fields, int32_t count, int64_t most_transitions) {
+    return projections_add(&s->a_star.evaluator.projections, &s->problem, fields, count, most_transitions);
+}
+API int planner_samples(Planner *s, int32_t most) { return a_star_samples(&s->a_star, most); }
+API int planner_order(Planner *s, int32_t sample) {
+    return add_order(&s->a_star.evaluator.projections, &s->problem, sample);
+}

@@ -1,0 +1,36 @@
+/* What a finished search teaches about states, for searches from other states.
+
+   Source: adaptive heuristics of Koenig and Likhachev, Adaptive A* (2005). */
+
+#pragma once
+
+#include <stdint.h>
+#include "lists.h"
+#include "problem.h"
+#include "state_table.h"
+#include "values.h"
+
+/* Of the states that were expanded: from none of them is a plan cheaper than total - spent. */
+static void learn(Table *t, const Ints *closed, Cost total) {
+    for (size_t i = 0; i < closed->count; i++) {
+        Node *node = node_of(t, closed->at[i]);
+        if (node->exact) continue;
+        if (total == INFINITE_COST) {
+            node->rest = INFINITE_COST, node->exact = 1;
+        } else if (total - node->spent > node->rest) {
+            node->rest = total - node->spent;
+        }
+    }
+}
+
+/* Along the plan that was found: the exact costs. */
+static void learn_plan(Table *t, const Problem *p, int32_t start, int32_t end) {
+    Cost rest = node_of(t, end)->rest;
+    for (int32_t id = end;;) {
+        Node *node = node_of(t, id);
+        node->rest = rest, node->exact = 1;
+        if (id == start) break;
+        rest += p->weight[node->op];
+        id = node->parent;
+    }
+}
