@@ -1,17 +1,18 @@
 """Where goals are shared, composite plans bound the answer in every mode, and one of them may be it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import Final
 
 from search.classical.problem import NO_PLAN
 from search.context import SearchContext
-from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.best_first import Incumbent, Progress, Ties, best_first
 from search.engine.paths import path_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.spaces.factory import joint_space
-from search.spaces.from_composite import as_incumbent
+from search.spaces.from_composite import Suggestions
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan
@@ -20,7 +21,10 @@ _SHARE: Final = 0.4
 """What of the time that is left the joint optimum without a horizon may take, where it may be the answer."""
 
 _LITTLE: Final = 0.05
-"""The same where it only bounds the answer."""
+"""The same where it only bounds the answer, and for what one composite plan suggests."""
+
+_ALONG: Final = 0.15
+"""The same for what the team would do after each epoch of ``pi_H``."""
 
 _SOON: Final = 0.2
 """The same for a greedy search, for the sake of an answer on the way."""
@@ -36,6 +40,7 @@ class JointPlans:
         context: of the call.
         plan: ``pi_H``; None or none of its actions where there is none.
         horizon: ``T``, or None.
+        most_cost: largest scaled cost of an acceptable plan, or None.
         best: the call's incumbent, which is made better.
         progress: the call's; its bound is raised.
 
@@ -49,12 +54,14 @@ class JointPlans:
         context: SearchContext,
         plan: HumanPlan | None,
         horizon: int | None,
+        most_cost: int | None,
         best: Incumbent,
         progress: Progress,
     ) -> None:
         self._context = context
         self._plan = plan or ()
         self._horizon = horizon
+        self._most_cost = most_cost
         self._best = best
         self._progress = progress
         self.decide = horizon is not None and _decide(context)
@@ -82,8 +89,28 @@ class JointPlans:
         if best is not None:
             self._offer(schedule(task, best))
 
+    def along_human_plan(self) -> Iterator[None]:
+        """Robots begin at once with what would be best after an epoch of ``pi_H``; if time is limited.
+
+        Raises:
+            LimitReachedError: the deadline of the call came.
+        """
+        context, team = self._context, self._context.team
+        if team is None or context.deadline.left() is None or not self._plan:
+            return
+        whole, state = context.deadline.part(_ALONG), context.packed.init
+        for number, action in enumerate(self._plan[:-1], 1):
+            op = context.packed.op(action)
+            state = state & op.keep | op.put
+            with suppress(LimitReachedError):
+                best = team.best_plan(state, whole.part(2 / (len(self._plan) - number + 1)))
+                ops = [context.packed.op(action) for chosen in best or () for action in chosen]
+                self._suggest(partial(Suggestions.beside, ops=ops))
+            context.deadline.check()
+            yield
+
     def within_horizon(self, limit: int) -> Iterator[None]:
-        """The best composite plan within ``T``, which is the answer but for its window.
+        """A best composite plan within ``T``, which is the answer but for its window and for ties.
 
         Args:
             limit: key that it has to beat.
@@ -103,12 +130,13 @@ class JointPlans:
         context.deadline.check()
         progress = Progress(self._progress.bound, told_at=context.deadline.elapsed())
         space = joint_space(context, self._horizon, joint.key)
-        for _ in best_first(space, joint, progress, context.deadline):
+        shift = context.keys.objective_shift
+        for _ in best_first(space, joint, progress, context.deadline, Ties(shift, 0)):
             self._progress.expanded, self._progress.generated = progress.expanded, progress.generated
             self._raise_key(progress.bound)
             self._take(joint)
             yield
-        self._raise_key(joint.key)
+        self._raise_key(joint.key >> shift << shift)
 
     def _raise(self, amount: int) -> None:
         """No composite plan costs the team less than an amount."""
@@ -123,12 +151,21 @@ class JointPlans:
             self._offer(path_steps(joint.node))
 
     def _offer(self, steps: Sequence[Step]) -> None:
-        """A composite plan, which may be the best so far in this mode."""
-        if not self.decide or self._horizon is None:
+        """What a composite plan suggests may be the best so far in this mode."""
+        self._suggest(partial(Suggestions.of, steps=steps))
+
+    def _suggest(self, of: Callable[[Suggestions], Iterator[Incumbent]]) -> None:
+        context, options, best = self._context, self._context.options, self._best
+        in_order = options.preservation == "kernel" and not options.keep_prefix
+        if self._horizon is None or context.weights.announces or not in_order:
             return
-        found, best = as_incumbent(self._context, steps, self._plan, self._horizon), self._best
-        if found is not None and found.key < best.key:
-            best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
+        part = context.under(context.deadline.part(_LITTLE))
+        suggestions = Suggestions(part, self._plan, self._horizon, self._most_cost, best.key)
+        try:
+            for found in of(suggestions):
+                best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
+        except LimitReachedError:
+            context.deadline.check()
 
 
 def _decide(context: SearchContext) -> bool:

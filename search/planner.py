@@ -1,13 +1,14 @@
 """From a task and options to answers: which space, from which incumbent (semantics 3)."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
 from search.composite import CompositeCall, team_for
 from search.context import SearchContext
-from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
+from search.engine.best_first import Incumbent, Node, Progress, Space, Ties, best_first
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.heuristics.first_interaction import no_team_bound
 from search.human.plan_graph import PlanGraph
@@ -19,12 +20,15 @@ from search.prepared_task import PreparedTask
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
 from serendipity.model.answers.answer import Answer, saved
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans import Step, Window
 from serendipity.model.task.task import HumanPlan
+
+_SOON: Final = 0.15
+"""What of the time that is left a search for short windows may take, for the sake of an answer on the way."""
 
 _FEW: Final = 1_000
 """Nodes for the sake of a better window for the same objective."""
@@ -175,25 +179,34 @@ class _Call:
     def _improvements(self) -> Iterator[Incumbent]:
         """Each better incumbent, and now and then the same one; on return it is optimal."""
         if self.context.is_shared:
-            joint = JointPlans(self.context, self.plan, self.epochs, self.best, self.progress)
+            joint = JointPlans(
+                self.context, self.plan, self.epochs, self._most_cost(), self.best, self.progress
+            )
             joint.without_horizon()
             yield self.best
+            if not self._is_settled():
+                for _ in joint.along_human_plan():
+                    yield self.best
+                yield from self._in_one_epoch()
             if joint.decide and not self._is_settled():
                 for _ in joint.within_horizon(min(self.baseline.key, self.best.key)):
                     yield self.best
-                    if self._is_settled():
-                        break
-            if self._is_settled():
-                yield from self._settle_ties()
-                return
-        for _ in best_first(self._space(), self.best, self.progress, self.deadline):
+        ties = Ties(self.keys.objective_shift, _FEW) if self.context.is_shared else None
+        for _ in best_first(self._space(), self.best, self.progress, self.deadline, ties):
             yield self.best
-            if self._is_settled():
-                return
 
-    def _settle_ties(self) -> Iterator[Incumbent]:
-        """Better windows and fewer actions for the same objective, if they come soon."""
-        yield from best_first(self._space(), self.best, Progress(), self.deadline, _FEW)
+    def _in_one_epoch(self) -> Iterator[Incumbent]:
+        """Answers with the shortest window, where longer ones may be better, too; if time is limited."""
+        options, plan = self.options, self.plan
+        if not options.windowed or not plan or options.max_window == 1 or self.deadline.left() is None:
+            return
+        if options.window_weight >= self.task.cost_of(plan):
+            return
+        with suppress(LimitReachedError):
+            space, part = self._space(max_window=1), self.deadline.part(_SOON)
+            for _ in best_first(space, self.best, Progress(), part):
+                yield self.best
+        self.deadline.check()
 
     def _is_settled(self) -> bool:
         """Whether the objective can't be beaten, where that is enough (Decisions: objective first)."""
@@ -266,11 +279,14 @@ class _Call:
                 self.unaided = replace(self.best)
         self.settled = True
 
-    def _space(self, *, idle: bool = False) -> Space[Node, Incumbent]:
+    def _space(self, *, idle: bool = False, max_window: int | None = None) -> Space[Node, Incumbent]:
         most_cost = self._most_cost()
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
-            return window_space(self.context, self.plan, self.epochs, most_cost, self.best.key, idle=idle)
+            context = self.context
+            return window_space(
+                context, self.plan, self.epochs, most_cost, self.best.key, idle=idle, max_window=max_window
+            )
         return free_space(self.context, self.epochs, most_cost, self.best.key, idle=idle)
 
     def _most_cost(self) -> int | None:

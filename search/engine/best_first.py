@@ -96,28 +96,49 @@ class Space(Protocol[N, Improved]):
         """Bounded successors; complete plans met on the way are offered to ``best``."""
 
 
+class Ties(NamedTuple):
+    """For how many nodes a search goes on once the best objective is proved.
+
+    Attributes:
+        shift: keys without their lowest ``shift`` bits are objectives.
+        nodes: how many.
+    """
+
+    shift: int
+    nodes: int
+
+
 def best_first(
-    space: Space[N, Best], best: Best, progress: Progress, deadline: Deadline, most: int | None = None
+    space: Space[N, Best], best: Best, progress: Progress, deadline: Deadline, ties: Ties | None = None
 ) -> Iterator[Best]:
     """Yield each better incumbent, and now and then the same one where the bound has risen.
 
     Of nodes with equal bounds the latest comes first.  On return ``best`` is optimal and the bound is
-    its key, unless ``most`` nodes have been expanded.
+    its key, but for what ``ties`` leaves open.
+
+    Args:
+        space: what is searched.
+        best: the incumbent, which is made better.
+        progress: what is known so far, which is brought up to date.
+        deadline: polled.
+        ties: how far incumbents of the best objective are told apart; None: all the way.
 
     Raises:
         LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
     """
     queue = LevelQueue(space.roots())
     levels = queue.levels
-    known = best.key
+    known, left = best.key, 0 if ties is None else ties.nodes
     while (bound := queue.least) is not None and bound < best.key:
         node = queue.pop_latest()
         progress.bound = max(progress.bound, bound)
         if not space.alive(node):
             continue
         deadline.check()
-        if progress.expanded == most:
-            return
+        if ties is not None and progress.bound >> ties.shift >= best.key >> ties.shift:
+            if not left:
+                return
+            left -= 1
         progress.expanded += 1
         for child_bound, child in space.expand(node, best):
             deadline.tick()

@@ -1,75 +1,168 @@
-"""A composite plan as an incumbent of a mode: if it keeps the mode's rules, with the least window it fits."""
+"""Answers that a composite plan suggests: agents act as it says for a while, then the human goes on alone."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node
-from search.packed.operators import Operator
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import Operator, applicable
+from search.spaces.factory import suffix_rule
 from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan
 
 
-def as_incumbent(
-    context: SearchContext, steps: Sequence[Step], plan: HumanPlan, horizon: int
-) -> Incumbent | None:
-    """The plan as an incumbent, or None where it breaks a rule.
+class Suggestions:
+    """Incumbents of a mode from composite plans; each one beats those before it.
 
     Args:
-        context: of the call.
-        steps: a composite plan, some action in each of its epochs.
-        plan: ``pi_H``.
+        context: of the call; nothing is announced, and ``pi_H`` need not be kept to out of order.
+        plan: ``pi_H``; empty where there is none.
         horizon: ``T``.
+        most_cost: largest scaled cost of an acceptable plan, or None.
+        limit: key that they have to beat.
     """
-    epochs = _epochs(context, steps)
-    if len(epochs) > horizon or (context.options.windowed and not plan):
-        return None
-    if not context.options.windowed:
-        node = _nodes(context, epochs, 0)
-        return Incumbent(node.key, node)
-    start = min(_prefix(context, epochs, plan), len(plan) - 1) + 1
-    end = max(_robots_last(context, epochs) + 1, start)
-    node = _nodes(context, epochs[:end], start, waiting=max(0, end - len(epochs)))
-    tail = [op for ops in epochs[end:] for op in ops]
-    rest = sum(map(context.weights.team, tail))
-    if context.alone.key(node.state) != rest:
-        return None
-    opened = context.keys.of_start(start, horizon) + (end - start + 1) * context.keys.epoch_weight
-    key = node.key + opened + rest
-    return Incumbent(key, node, end + 1, tuple(op.action for op in tail))
+
+    def __init__(
+        self, context: SearchContext, plan: HumanPlan, horizon: int, most_cost: int | None, limit: int
+    ) -> None:
+        self._context = context
+        self._plan = [context.packed.op(action) for action in plan]
+        self._horizon = horizon
+        self._most_cost = most_cost
+        self._limit = limit
+        self._suffix = suffix_rule(context, plan)
+
+    def of(self, steps: Sequence[Step]) -> Iterator[Incumbent]:
+        """What a composite plan suggests.
+
+        Raises:
+            LimitReachedError: the context's deadline came.
+        """
+        epochs = self._epochs(steps)
+        if not self._context.options.windowed:
+            yield from self._whole(epochs)
+        if self._plan:
+            yield from self._cut_short(epochs)
+            yield from self.beside([op for ops in epochs for op in ops])
+
+    def _epochs(self, steps: Sequence[Step]) -> list[list[Operator]]:
+        last = max((step.epoch for step in steps), default=0)
+        found: list[list[Operator]] = [[] for _ in range(last)]
+        for step in steps:
+            found[step.epoch - 1].append(self._context.packed.op(step.action))
+        return found
+
+    def _whole(self, epochs: list[list[Operator]]) -> Iterator[Incumbent]:
+        """The plan itself."""
+        node = self._root()
+        for ops in epochs[: self._horizon]:
+            node = self._after(node, ops)
+        if all(goal.holds(node.state) for goal in self._context.goals):
+            yield from self._better(node.key, Incumbent(node.key, node))
+
+    def _cut_short(self, epochs: list[list[Operator]]) -> Iterator[Incumbent]:
+        """The plan up to an epoch; the window opens where the human leaves ``pi_H``."""
+        human, node, followed = self._context.packed.human_bit, self._root(), True
+        start = 1
+        for ops in epochs[: self._horizon]:
+            node = self._after(node, ops)
+            planned = self._plan[start - 1 : start]
+            yield from self._ended(node._replace(start=start))
+            followed = followed and [op for op in ops if op.agents & human] == planned
+            if followed and start < len(self._plan):
+                start += 1
+
+    def beside(self, ops: Sequence[Operator]) -> Iterator[Incumbent]:
+        """What robots do of some actions, while the human follows ``pi_H``; a window of one epoch.
+
+        Args:
+            ops: in their order; the human's are left out.
+
+        Raises:
+            LimitReachedError: the context's deadline came.
+        """
+        human, node = self._context.packed.human_bit, self._root()
+        left = [op for op in ops if not op.agents & human]
+        for epoch in range(1, min(len(self._plan), self._horizon) + 1):
+            freely = self._chosen(node.state, epoch, left, keeps=False)
+            yield from self._ended(self._after(node, freely)._replace(start=epoch))
+            careful = self._chosen(node.state, epoch, left, keeps=True)
+            node = self._after(node, careful)
+            for op in careful[1:]:
+                left.remove(op)
+
+    def _chosen(self, state: int, epoch: int, left: list[Operator], *, keeps: bool) -> list[Operator]:
+        """The human's step of ``pi_H``, and what robots, each in its order, can do of what is left.
+
+        Args:
+            state: before the epoch.
+            epoch: which it is.
+            left: what robots have not done yet.
+            keeps: whether the rest of ``pi_H`` stays applicable.
+        """
+        context, chosen = self._context, [self._plan[epoch - 1]]
+        busy = chosen[0].agents
+        for op in left:
+            if not op.agents & busy and applicable(op, state):
+                fits = all(
+                    context.packed.compatible(op.action, other.action, context.options.strict)
+                    for other in chosen
+                )
+                if fits and (not keeps or self._goes_on(_changed(state, [*chosen, op]), epoch)):
+                    chosen.append(op)
+            busy |= op.agents
+        return chosen
+
+    def _goes_on(self, state: int, epoch: int) -> bool:
+        """Whether the rest of ``pi_H`` is applicable after an epoch."""
+        for op in self._plan[epoch:]:
+            if not applicable(op, state):
+                return False
+            state = _changed(state, [op])
+        return True
+
+    def _root(self) -> Node:
+        return Node(0, 0, self._context.packed.init, 0, 0, None, ())
+
+    def _after(self, node: Node, ops: Sequence[Operator]) -> Node:
+        key = node.key + sum(map(self._context.weights.team, ops))
+        state = _changed(node.state, ops)
+        return Node(key, node.epoch + 1, state, 0, node.start, node, tuple(op.action for op in ops))
+
+    def _ended(self, node: Node) -> Iterator[Incumbent]:
+        """Offer the plan in which the human goes on alone after a node, with its window if there is one."""
+        context, start = self._context, node.start
+        key, length = node.key, node.epoch - start + 1
+        if context.options.windowed:
+            if length > (context.options.max_window or length):
+                return
+            key += context.keys.of_start(start, self._horizon) + length * context.keys.epoch_weight
+        left = self._horizon - node.epoch
+        limit = self._limit - key
+        if limit <= 0:
+            return
+        rest = self._suffix.key(node.state, left, start, limit)
+        if rest >= min(limit, INFINITE_KEY):
+            return
+        tail = self._suffix.actions(node.state, left, start)
+        if context.options.windowed:
+            found = Incumbent(key + rest, node._replace(key=key), node.epoch + 1, tail)
+        else:
+            for action in tail:
+                node = self._after(node, [context.packed.op(action)])
+            found = Incumbent(node.key, node)
+        yield from self._better(key + rest, found)
+
+    def _better(self, key: int, found: Incumbent) -> Iterator[Incumbent]:
+        if key < self._limit and not self._context.keys.exceeds(key, self._most_cost):
+            self._limit = key
+            yield found
 
 
-def _epochs(context: SearchContext, steps: Sequence[Step]) -> list[list[Operator]]:
-    last = max((step.epoch for step in steps), default=0)
-    found: list[list[Operator]] = [[] for _ in range(last)]
-    for step in steps:
-        found[step.epoch - 1].append(context.packed.op(step.action))
-    return found
-
-
-def _prefix(context: SearchContext, epochs: list[list[Operator]], plan: HumanPlan) -> int:
-    """In how many epochs the human does what is planned, and nothing jointly."""
-    human = context.packed.human_bit
-    for epoch, (ops, planned) in enumerate(zip(epochs, plan, strict=False)):
-        if [op.action for op in ops if op.agents & human] != [planned]:
-            return epoch
-    return min(len(epochs), len(plan))
-
-
-def _robots_last(context: SearchContext, epochs: list[list[Operator]]) -> int:
-    """The last epoch, from 0, in which a robot takes part; -1 without one."""
-    human = context.packed.human_bit
-    return max((t for t, ops in enumerate(epochs) if any(op.agents & ~human for op in ops)), default=-1)
-
-
-def _nodes(context: SearchContext, epochs: list[list[Operator]], start: int, waiting: int = 0) -> Node:
-    """The node after some epochs; in the last ones of them all may wait."""
-    node = Node(0, 0, context.packed.init, 0, start, None, ())
-    for ops in [*epochs, *([] for _ in range(waiting))]:
-        state, key = node.state, node.key
-        for op in ops:
-            state = state & op.keep
-        for op in ops:
-            state |= op.put
-            key += context.weights.team(op)
-        node = Node(key, node.epoch + 1, state, 0, start, node, tuple(op.action for op in ops))
-    return node
+def _changed(state: int, ops: Sequence[Operator]) -> int:
+    """The state after an epoch in which ops happen together."""
+    for op in ops:
+        state &= op.keep
+    for op in ops:
+        state |= op.put
+    return state

@@ -91,3 +91,18 @@ def test_a_fact_that_two_must_add_at_once() -> None:
     )
     answer = serendipity.plan(task, mode="composite", horizon="inf")
     assert (answer.status, answer.cost) == ("optimal", 2)
+
+
+@given(calls(modes=("serendipity", "communication"), ties=False, of=family_tasks()))
+def test_with_answers_on_the_way(call: Call) -> None:
+    """Where time is limited, composite plans and short windows give answers first; the last is the same."""
+    try:
+        optimum = best(call.task, call.options, call.human_plan)
+    except UsageError:
+        return
+    options = {name: getattr(call.options, name) for name in call.options.to_dict()} | {"time_limit": 60}
+    *early, answer = serendipity.plan_anytime(call.task, human_plan=call.human_plan_names, **options)
+    expected = None if optimum.cost is None else float(optimum.cost)
+    assert (answer.status, answer.cost) == (optimum.status, expected)
+    for some in early:
+        assert serendipity.check(call.task, some).refuted is None
