@@ -40,8 +40,10 @@ demo: $(READY)  ## the paper's example III-C: plan, proof, what the person will 
 	@$(BIN)/serendipity plan --example room2 --discount 0.6 --quiet -o build/demo/room2.json
 	@echo && $(BIN)/serendipity verify --example room2 build/demo/room2.json
 	@echo && echo "The same, with the integer program left to HiGHS, and to the CBC of PuLP:"
-	@$(BIN)/serendipity verify --example room2 build/demo/room2.json --method program
+	@$(BIN)/serendipity verify --example room2 build/demo/room2.json --proof build/demo/proof.json.gz
 	@$(BIN)/serendipity verify --example room2 build/demo/room2.json --method program --solver cbc
+	@echo && echo "And checked with integers only, without a solver:"
+	@$(BIN)/serendipity check-proof build/demo/proof.json.gz --example room2 build/demo/room2.json
 	@echo && $(BIN)/serendipity simulate --example room2 build/demo/room2.json --human-model observant
 	@$(BIN)/serendipity show --example room2 build/demo/room2.json -o build/demo/room2.html
 	@echo && echo "Open build/demo/room2.html in a browser to see it."

@@ -21,7 +21,7 @@ from time import perf_counter, process_time
 import serendipity
 from serendipity.model import Result
 from verify.certificate.certify import certify
-from verify.programs.minimise import METHODS
+from verify.programs.effort import METHODS
 
 KEY = ("test", "mode", "discount", "encoding", "solver", "method")
 FIELDS = (*KEY, "verdict", "processor", "seconds", "load", "variables", "constraints", "calls")
@@ -34,7 +34,7 @@ def main() -> None:
     arguments = _arguments()
     done = _read(arguments.csv)
     rows = list(done.values())
-    for folder in _folders(arguments):
+    for folder in folders(arguments):
         for mode in arguments.mode or MODES:
             for discount in arguments.discount or DISCOUNTS:
                 key = (folder.name, mode, discount, *_settings(arguments))
@@ -66,18 +66,17 @@ def _arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _folders(arguments: argparse.Namespace) -> list[Path]:
-    folders = sorted(
-        (p for p in arguments.folder.iterdir() if p.is_dir()), key=lambda p: (len(p.name), p.name)
-    )
-    return folders[:: arguments.stride][: arguments.limit]
+def folders(arguments: argparse.Namespace) -> list[Path]:
+    """The tasks that are asked for: every ``stride``-th of ``folder``, ``limit`` at most."""
+    found = sorted((p for p in arguments.folder.iterdir() if p.is_dir()), key=lambda p: (len(p.name), p.name))
+    return found[:: arguments.stride][: arguments.limit]
 
 
 def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespace) -> dict[str, str]:
     task = serendipity.load(folder, human=arguments.human)
     planned = serendipity.plan(task, mode=mode, discount=discount)
     data = planned.to_dict()
-    started, worked = perf_counter(), _processor()
+    started, worked = perf_counter(), processor()
     task = serendipity.load(folder, human=arguments.human)
     loaded = perf_counter()
     certificate = certify(
@@ -88,7 +87,7 @@ def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespa
         method=arguments.method,
         time_limit=arguments.time_limit,
     )
-    seconds, processor = perf_counter() - started, _processor() - worked
+    seconds, spent = perf_counter() - started, processor() - worked
     return {
         "test": folder.name,
         "mode": mode,
@@ -97,7 +96,7 @@ def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespa
         "solver": arguments.solver,
         "method": arguments.method,
         "verdict": certificate.verdict,
-        "processor": f"{processor:.4f}",
+        "processor": f"{spent:.4f}",
         "seconds": f"{seconds:.4f}",
         "load": f"{loaded - started:.4f}",
         "variables": str(certificate.size.get("variables", 0)),
@@ -106,7 +105,7 @@ def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespa
     }
 
 
-def _processor() -> float:
+def processor() -> float:
     """Seconds of processor time so far, those of finished children (CBC is one) included."""
     times = os.times()
     return process_time() + times.children_user + times.children_system

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from serendipity.facade.interruptibility import interruptions
     from serendipity.facade.loading import load, load_agents, load_pddl
     from serendipity.facade.planning import plan, plan_anytime
+    from serendipity.facade.proofs import check_proof
     from serendipity.facade.session import Session
     from serendipity.facade.simulation import simulate
     from serendipity.lint import Finding, TaskReport, check_task
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
         Options,
         PlanError,
         PlanStep,
+        ProofCheck,
         Result,
         SerendipityError,
         Task,
@@ -56,6 +58,7 @@ __all__ = [
     "Options",
     "PlanError",
     "PlanStep",
+    "ProofCheck",
     "Recognition",
     "Result",
     "SerendipityError",
@@ -67,6 +70,7 @@ __all__ = [
     "Window",
     "__version__",
     "check",
+    "check_proof",
     "check_task",
     "example",
     "execute",
@@ -95,6 +99,7 @@ _HOMES = {
     "Session": "serendipity.facade.session",
     "simulate": "serendipity.facade.simulation",
     "check": "serendipity.facade.certify",
+    "check_proof": "serendipity.facade.proofs",
     "check_task": "serendipity.lint",
     "Finding": "serendipity.lint",
     "TaskReport": "serendipity.lint",
@@ -113,6 +118,7 @@ _HOMES = {
 _NEED_SIBLINGS = (
     "serendipity.facade.planning",
     "serendipity.facade.certify",
+    "serendipity.facade.proofs",
     "serendipity.facade.interruptibility",
     "serendipity.facade.loading",
     "serendipity.execution",

@@ -7,6 +7,8 @@ EXAMPLES: Final = (
     "serendipity plan --example room2 --discount 0.6",
     "serendipity plan --example room7 --discount 0.6 --mode communication --format json -o help.json",
     "serendipity verify --example room7 help.json",
+    "serendipity verify --example room7 help.json --proof proof.json.gz",
+    "serendipity check-proof proof.json.gz --example room7 help.json",
     "serendipity simulate --example room7 help.json --human-model local",
     "serendipity plan --example room2 --discount 0.9 --human-model observant",
     "serendipity execute --example room2 --discount 0.6 --log run.jsonl",

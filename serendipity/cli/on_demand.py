@@ -15,6 +15,7 @@ NAMES: Final = (
     "plan",
     "check-task",
     "verify",
+    "check-proof",
     "simulate",
     "execute",
     "explain",

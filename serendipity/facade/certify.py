@@ -1,5 +1,6 @@
 """The facade over the verifier: a result in, a certificate out."""
 
+from pathlib import Path
 from time import perf_counter
 
 from serendipity.model import Certificate, Deadline, Result, Task
@@ -46,6 +47,7 @@ def verify(
     solver: str = "highs",
     encoding: str = "automata",
     method: str = "auto",
+    proof: str | Path | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -62,6 +64,9 @@ def verify(
         encoding: ``automata``, or ``paper`` for the paper's own equations.
         method: ``auto``, or ``program``: a solver decides every integer program, also where reachability
             and shortest paths could.
+        proof: a file for what convinced, to be checked by :func:`serendipity.check_proof`; packed by gzip
+            where its name ends in ``.gz``.  The method is ``program`` then, and there is a file only
+            where the certificate is proved.
         time_limit: seconds for the whole certificate, or None.
         memory_limit: what this process and a solver's may have in memory, in MiB, or None.
         deadline: one that other work shares, such as loading the task; it holds beside the limits.
@@ -71,9 +76,19 @@ def verify(
 
     Raises:
         InputError: the result is for another task.
-        UsageError: there is no such solver, encoding or method, or a limit has no legal value.
+        UsageError: there is no such solver, encoding or method, or a limit has no legal value; there are
+            no programs for a proof of such a result.
+        OSError: the file can't be written.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
+    from serendipity.facade.proofs import write_proof
     from verify.certificate.certify import certify  # loads the solvers
+    from verify.proofs.book import ProofWriter
 
-    return certify(task, result, encoding=encoding, solver=solver, method=method, deadline=limits)
+    writer = None if proof is None else ProofWriter()
+    certificate = certify(
+        task, result, encoding=encoding, solver=solver, method=method, proof=writer, deadline=limits
+    )
+    if writer is not None and proof is not None:
+        write_proof(Path(proof), writer, certificate, result)
+    return certificate

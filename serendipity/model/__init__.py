@@ -8,6 +8,7 @@ Serendipity" (Chakraborti et al., IROS 2015), as made precise in
 
 from serendipity.model.answers.certificate import Certificate, Claim
 from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
+from serendipity.model.answers.proof_check import ProofCheck, RefutedProgram
 from serendipity.model.answers.result import Result
 from serendipity.model.answers.trace import Trace, TraceEpoch, TraceSkip
 from serendipity.model.errors import InputError, LimitReachedError, PlanError, SerendipityError, UsageError
@@ -35,6 +36,8 @@ __all__ = [
     "PlanError",
     "PlanStep",
     "Policy",
+    "ProofCheck",
+    "RefutedProgram",
     "Result",
     "SerendipityError",
     "StateDelta",

@@ -14,7 +14,7 @@ from serendipity.pddl.write import write_pddl
 from tests.support.cases import case_4, case_10
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
-from verify.programs import minimise
+from verify.programs import effort
 from verify.solvers.mip import SolverOutcome
 
 
@@ -87,7 +87,7 @@ def test_what_is_undecided_still_has_a_bound(
     def stopped(*_: object, **__: object) -> SolverOutcome:
         return SolverOutcome("undecided", bound=None if known is None else known * 5, reason="time limit")
 
-    monkeypatch.setattr(minimise, "optimise", stopped)
+    monkeypatch.setattr(effort, "optimise", stopped)
     claims = certify(task, answer, encoding="paper").claims
     optimal = next(claim for claim in claims if claim.claim == "optimal")
     assert (optimal.verdict, optimal.bound) == ("undecided", said)

@@ -15,7 +15,7 @@ from tests.verify.results import result
 from tests.verify.valid import CASE_4_PI_H
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
-from verify.programs.minimise import METHODS
+from verify.programs.effort import METHODS
 
 
 def _claim(certificate: Certificate, name: str) -> Claim:

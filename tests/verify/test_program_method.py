@@ -13,7 +13,7 @@ from tests.support.strategies import Call, calls
 from tests.verify.doctored import dearer
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
-from verify.programs import minimise
+from verify.programs import effort
 from verify.solvers.mip import SOLVERS, SolverOutcome, optimise
 
 
@@ -87,7 +87,7 @@ def test_what_a_limit_leaves_is_no_counter_example(monkeypatch: pytest.MonkeyPat
             optimise(*arguments, **settings), status="undecided", reason="the time limit came first"
         )
 
-    monkeypatch.setattr(minimise, "optimise", stopped)
+    monkeypatch.setattr(effort, "optimise", stopped)
     certificate = certify(task, answer, method="program")
     optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
     assert (optimal.verdict, optimal.counterexample) == ("undecided", None)

@@ -11,7 +11,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import Solution
 from verify.calls.call import Call, Score
 from verify.exhaustive.uniform_cost import cheapest
-from verify.programs.minimise import Effort
+from verify.programs.effort import Effort
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,8 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import EXACT, FREE, WINDOW, Prices, Solution, Subproblem, prices
 from verify.base.undecided import UndecidedError
 from verify.exhaustive.baseline_without_horizon import cheapest_following
-from verify.programs.minimise import Effort, Minimum, minimise
+from verify.programs.effort import Effort, Minimum
+from verify.programs.minimise import minimise
 
 Score = tuple[int, int]
 """Objective and cost in units: the order of semantics 3.1 as far as it is proved."""

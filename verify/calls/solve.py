@@ -14,7 +14,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import END_SHARE, UNDECIDED, why
 from verify.calls.answer import Answer, answer, calls
 from verify.calls.results import to_result
-from verify.programs.minimise import Effort
+from verify.programs.effort import Effort
 from verify.solvers.mip import solver_version
 
 

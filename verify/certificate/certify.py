@@ -24,11 +24,13 @@ from verify.base.undecided import END_SHARE, UNDECIDED, why
 from verify.calls.call import Call
 from verify.certificate.claims import Examiner
 from verify.certificate.humans import HumanExaminer
+from verify.certificate.provable import require_programs
 from verify.certificate.tied import combined
 from verify.goals.check import claims_by_rules, examine, unexamined
 from verify.goals.proof import GoalsProof
 from verify.policy import check_policy
-from verify.programs.minimise import Effort
+from verify.programs.effort import Effort
+from verify.proofs.book import ProofReader, ProofWriter
 from verify.rules import Checker, RuleReport
 from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
@@ -44,6 +46,7 @@ def certify(
     encoding: str = "automata",
     solver: str = "highs",
     method: str = "auto",
+    proof: ProofWriter | ProofReader | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -60,6 +63,8 @@ def certify(
         solver: ``highs`` or ``cbc``.
         method: ``auto``, or ``program``: the solver decides every program, also where reachability and
             shortest paths could.
+        proof: where the programs that convinced are written down, or read from instead of asking a
+            solver; the method is ``program`` then.
         time_limit: seconds for the whole certificate, or None.
         memory_limit: what this process and a solver's may have in memory, in MiB, or None.
         deadline: one that other work shares, such as loading the task; it holds beside the limits.
@@ -69,10 +74,13 @@ def certify(
 
     Raises:
         InputError: the result is for another task.
-        UsageError: there is no such encoding, solver or method.
+        UsageError: there is no such encoding, solver or method, or no program that proves such a result.
     """
     limits = (deadline or Deadline()).within(time_limit, memory_limit).sooner(END_SHARE)
-    effort = Effort(encoding, solver, limits, method)
+    if proof is not None:
+        require_programs(result, method)
+        method = "program"
+    effort = Effort(encoding, solver, limits, method, proof)
     with no_collection():  # beside a large task a collection takes longer than a short limit
         return _certify(task, result, effort)
 

@@ -13,7 +13,8 @@ from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
 from verify.calls.call import Call, Score
 from verify.calls.results import found_result, plan_steps
 from verify.exhaustive.uniform_cost import cheapest
-from verify.programs.minimise import SolverCall, minimise
+from verify.programs.effort import SolverCall
+from verify.programs.minimise import minimise
 from verify.rules import Checker
 from verify.solvers.mip import solver_version
 

@@ -18,7 +18,7 @@ from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import during
 from verify.calls.call import Call
 from verify.exhaustive.uniform_cost import LeastLeft
-from verify.programs.minimise import Minimum
+from verify.programs.effort import Minimum
 from verify.simulator import Moment, Person, Play
 
 MOST_MOMENTS: Final = 200_000

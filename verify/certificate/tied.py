@@ -10,7 +10,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.calls.answer import answer, calls
 from verify.calls.call import Call
 from verify.certificate.humans import human_cost
-from verify.programs.minimise import Effort
+from verify.programs.effort import Effort
 from verify.rules.tied import tied_answers
 
 Verdict = tuple[str, str]

@@ -11,7 +11,7 @@ from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
 from verify.exhaustive.uniform_cost import Bundle, JointSearch
-from verify.programs.minimise import Minimum
+from verify.programs.effort import Minimum
 
 
 def cheapest_following(question: Subproblem) -> Minimum:

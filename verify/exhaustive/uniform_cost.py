@@ -20,7 +20,7 @@ from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import during
 from verify.programs.automata.network import FAR, distances, goal_states
 from verify.programs.automata.product import automata
-from verify.programs.minimise import Minimum
+from verify.programs.effort import Minimum
 
 MOST_STATES: Final = 500_000
 

@@ -13,7 +13,7 @@ from verify.calls.call import Call
 from verify.goals.check import beyond_rules
 from verify.goals.timelines import Timeline, close, mean
 from verify.goals.together import Better, Rank, Together
-from verify.programs.minimise import Effort
+from verify.programs.effort import Effort
 
 _ROUNDED = 1 - Fraction(1, 10**9)
 """A bound that was summed from rounded probabilities may be too high by its last digits."""

@@ -19,7 +19,7 @@ from verify.base.undecided import UndecidedError
 from verify.calls.answer import best_plan
 from verify.calls.call import Call, Score
 from verify.exhaustive.uniform_cost import LeastLeft
-from verify.programs.minimise import replans
+from verify.programs.mending import replans
 
 MOST_NODES: Final = 20_000
 

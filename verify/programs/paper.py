@@ -74,11 +74,13 @@ class PaperEncoding:
 
     def equations_1_and_2(self) -> None:
         """The initial state."""
+        self.model.family = "eq. 1, 2"
         for f in range(len(self.task.facts)):
             self.model.add({self.y[f, 0]: 1}, "==", int(f in self.task.init))
 
     def equation_3(self) -> None:
         """The goals hold in the last state."""
+        self.model.family = "eq. 3"
         conditions = [self.task.goal]
         if self.question.robots_goal:
             conditions.append(self.task.robot_goal)
@@ -90,6 +92,7 @@ class PaperEncoding:
 
     def equation_4(self) -> None:
         """Preconditions, negative ones too."""
+        self.model.family = "eq. 4"
         for (a, t), x in self.x.items():
             for f in self.task.actions[a].pre:
                 self.model.add({x: 1, self.y[f, t - 1]: -1}, "<=", 0)
@@ -98,6 +101,7 @@ class PaperEncoding:
 
     def equation_5(self) -> None:
         """A fact becomes true by an add effect only, and then it does: the exact frame."""
+        self.model.family = "eq. 5"
         for f in range(len(self.task.facts)):
             adders = [a for a in self.deadline.each(self.actions) if f in self.task.actions[a].add]
             for t in self.epochs:
@@ -108,6 +112,7 @@ class PaperEncoding:
 
     def equation_6(self) -> None:
         """A fact becomes false by one delete effect only, and then it does."""
+        self.model.family = "eq. 6"
         for f in range(len(self.task.facts)):
             deleters = [a for a in self.deadline.each(self.actions) if f in self.task.actions[a].delete]
             for t in self.epochs:
@@ -119,6 +124,7 @@ class PaperEncoding:
 
     def equation_10(self) -> None:
         """Each agent takes part in at most one action an epoch."""
+        self.model.family = "eq. 10"
         for agent in range(len(self.task.agents)):
             his = [a for a in self.deadline.each(self.actions) if agent in self.task.actions[a].participants]
             for t in self.epochs:
@@ -128,6 +134,7 @@ class PaperEncoding:
 
     def strict_interference(self) -> None:
         """For-all-step semantics, where asked for: nobody spoils what another action needs."""
+        self.model.family = "strict interference"
         if not self.question.options.strict:
             return
         for a in self.actions:
@@ -140,6 +147,7 @@ class PaperEncoding:
 
     def equation_11(self) -> None:
         """Limits on objective and cost."""
+        self.model.family = "eq. 11"
         question = self.question
         if question.most is not None and self.model.objective:
             self.model.add(dict(self.model.objective), "<=", question.most)
@@ -150,6 +158,7 @@ class PaperEncoding:
 
     def executes_pi_h(self) -> None:
         """The human does ``pi_H[t]`` in each epoch, and nothing after its end."""
+        self.model.family = "pi_H"
         for t in self.epochs:
             planned = self._planned(t)
             for a in self.his:
@@ -174,6 +183,7 @@ class PaperEncoding:
 
     def equation_12(self) -> None:
         """xi1 < xi2, both exist, and ``K (xi2 - xi1)`` joins the objective."""
+        self.model.family = "eq. 12"
         model, weight = self.model, self.question.prices.epoch
         model.add(dict.fromkeys(self.begins.values(), 1), "==", 1)
         model.add(dict.fromkeys(self.ends.values(), 1), "==", 1)
@@ -186,6 +196,7 @@ class PaperEncoding:
 
     def equation_7b(self) -> None:
         """Before xi1 the human does ``pi_H[t]``; by (10) nothing else, joint actions included (7a)."""
+        self.model.family = "eq. 7b"
         for t in self.epochs:
             planned = self._planned(t)
             if planned is not None:
@@ -193,6 +204,7 @@ class PaperEncoding:
 
     def second_equation_7b(self) -> None:
         """Before xi1 the human does actions of ``pi_H`` only, or waits."""
+        self.model.family = "eq. 7b"
         planned = in_plan(self.task, self.question.human_plan)
         for t in self.epochs:
             for a in self.his:
@@ -201,12 +213,14 @@ class PaperEncoding:
 
     def equation_8(self) -> None:
         """From xi2 on no robot takes part in anything, joint actions included."""
+        self.model.family = "eq. 8"
         for (a, t), x in self.x.items():
             if self.task.actions[a].participants != (self.human,):
                 self.model.add({x: 1, **self._ended(t, 1)}, "<=", 1)
 
     def equation_9(self) -> None:
         """Def. 2.0: from xi2 on a subsequence of ``pi_H``, each index once and in order."""
+        self.model.family = "eq. 9"
         place = {(k, t): self.model.binary() for k in self._indices for t in self.epochs}
         self._follow_indices(place)
         for k in self._indices:
@@ -214,6 +228,7 @@ class PaperEncoding:
 
     def preserved_state(self) -> None:
         """Def. 3.1 read literally: the state contains ``delta(I, pi_H[1..j])``; ``pi_H[j+1..]`` follows."""
+        self.model.family = "Def. 3.1"
         model, expected = self.model, expected_states(self.question)
         place = {(k, t): model.binary() for k in self._indices for t in self.epochs}
         chosen = [model.binary() for _ in expected]
@@ -280,6 +295,7 @@ class PaperEncoding:
 
     def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
         """A suffix from ``state`` at ``xi2`` adds at least ``least``; with None there is none."""
+        self.model.family = "Def. 2.0a"
         differs: _Sum = {self.ends[xi2]: 1}
         true = 0
         for f in self.deadline.each(range(len(self.task.facts))):

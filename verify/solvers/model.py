@@ -40,6 +40,8 @@ class Model:
         coefficients: their coefficients.
         ends: for each row, the end of its terms in both.
         heads: for each row, its sense and right-hand side.
+        families: for each row, what it stands for.
+        family: what the rows that are added next stand for.
     """
 
     def __init__(self, deadline: Deadline | None = None, *, presolve: bool = False) -> None:
@@ -52,6 +54,8 @@ class Model:
         self.coefficients: list[int] = []
         self.ends: list[int] = []
         self.heads: list[tuple[str, int]] = []
+        self.families: list[str] = []
+        self.family = ""
         self._deadline = deadline or Deadline()
 
     def binary(self) -> int:
@@ -85,6 +89,7 @@ class Model:
         self.coefficients.extend(terms.values())
         self.ends.append(len(self.index))
         self.heads.append((sense, right))
+        self.families.append(self.family)
 
     @property
     def rows(self) -> Iterator[Row]:

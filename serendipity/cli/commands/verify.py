@@ -18,6 +18,7 @@ def verify(
     solver: program_options.Solver = "highs",
     encoding: program_options.Encoding = "automata",
     method: program_options.Method = "auto",
+    proof: program_options.Proof = None,
     time_limit: limits.TimeLimit = None,
     memory_limit: limits.MemoryLimit = None,
     format: output.Format = None,  # noqa: A002 - the option's name
@@ -27,6 +28,7 @@ def verify(
 ) -> int:
     """Check a result of `plan --format json` claim by claim, independently of the search."""
     form = output.prepare(format, output_file, verbose)
+    output.check_output(proof, "--proof")
     modules = ("serendipity.facade.certify", "verify.certificate.certify", "serendipity.cli.text.answers")
     deadline = limits.begin(time_limit, memory_limit, *modules)
     named, answer, result = read_result(files, "verify")
@@ -34,10 +36,18 @@ def verify(
     try:
         with progress.working("verifying", quiet=quiet):
             certificate = serendipity.verify(
-                task, result, solver=solver, encoding=encoding, method=method, deadline=deadline
+                task,
+                result,
+                solver=solver,
+                encoding=encoding,
+                method=method,
+                proof=proof,
+                deadline=deadline,
             )
     except InputError as error:
         raise InputError(error.message, answer) from None
+    if proof is not None and certificate.verdict != "proved":
+        output.warn((f"--proof: {proof} is not written: there is no proof",), quiet=quiet)
     if form == "json":
         output.write_answer(output.as_json(certificate.to_dict()), output_file)
     else:

@@ -1,5 +1,6 @@
 """Options of the commands that ask an integer program."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -16,4 +17,8 @@ Method = Annotated[
         help="What proves that nothing is better; program: the solver, even where reachability could.",
         **choices("auto", "program"),
     ),
+]
+Proof = Annotated[
+    Path | None,
+    typer.Option("--proof", metavar="FILE", help="Write what convinced it, for `check-proof`; .gz packs it."),
 ]

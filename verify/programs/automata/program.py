@@ -74,6 +74,7 @@ class Program:
 
     def _flows(self) -> None:
         for k, network in enumerate(self.setting.networks):
+            self.model.family = f"eq. 10: {self.task.agents[k]}"
             columns, by_action, inflow = [], [], []
             before: dict[int, _Sum] = {}
             for epoch, layer in enumerate(network.layers, start=1):
@@ -113,6 +114,7 @@ class Program:
 
     def _joint_actions(self) -> None:
         """Every participant does its part of a joint action, or none does (eq. 10)."""
+        self.model.family = "eq. 10: joint actions"
         for i in self.deadline.each(self.setting.part.actions):
             agents = self.task.actions[i].participants
             for t in range(self.setting.horizon) if len(agents) > 1 else ():
@@ -152,6 +154,7 @@ class Program:
 
     def _value_flow(self, group: frozenset[int]) -> None:
         """One unit of flow over the values of an exactly-one group; keeping a value is an arc."""
+        self.model.family = "eq. 5, 6: values"
         for f in group:
             self.values[f] = [Linear({}, int(f in self.task.init))]
         for epoch in range(1, self.setting.horizon + 1):
@@ -186,6 +189,7 @@ class Program:
 
     def _frame(self, f: int) -> None:
         """The exact frame of one fact: (5) and (6) with their lower counterparts."""
+        self.model.family = "eq. 5, 6: facts"
         model = self.model
         ys = [model.column(1, 1) if f in self.task.init else model.column(0, 0)]
         self.frames[f] = ys
@@ -240,6 +244,7 @@ class Program:
 
     def _preconditions(self) -> None:
         """Eq. (4) for facts outside the participants' automata, summed over one agent's actions."""
+        self.model.family = "eq. 4"
         for epoch in range(1, self.setting.horizon + 1):
             positive: dict[tuple[int, int], _Sum] = defaultdict(dict)
             negative: dict[tuple[int, int], _Sum] = defaultdict(dict)
@@ -261,6 +266,7 @@ class Program:
 
     def _needs(self) -> None:
         """Facts that must hold where a suffix starts (preservation = state)."""
+        self.model.family = "Def. 3.1"
         network, columns = self.setting.human, self.columns[self.task.human]
         for epoch, layer in enumerate(network.layers, start=1):
             wanted: dict[int, _Sum] = defaultdict(dict)
@@ -272,6 +278,7 @@ class Program:
 
     def _goals(self) -> None:
         """Eq. (3), and what the last state must contain where the suffix is empty."""
+        self.model.family = "eq. 3"
         last = self.setting.horizon
         inside = self.setting.human.automaton.facts
         robot_goal = self.task.robot_goal if self.question.robots_goal else Condition()
@@ -295,6 +302,7 @@ class Program:
 
     def _conflicts(self) -> None:
         """Eq. (5), (6): no fact is deleted twice, or added and deleted, by different actions."""
+        self.model.family = "eq. 5, 6: conflicts"
         for epoch in range(1, self.setting.horizon + 1):
             deleters: dict[int, list[int]] = defaultdict(list)
             adders: dict[int, list[int]] = defaultdict(list)
@@ -350,6 +358,7 @@ class Program:
 
     def _idle_robots(self) -> None:
         """Eq. (8), with joint actions: no robot acts in an epoch of the suffix."""
+        self.model.family = "eq. 8"
         human = self.setting.human
         for epoch, layer in enumerate(human.layers, start=1):
             columns = self.columns[self.task.human][epoch - 1]
@@ -369,6 +378,7 @@ class Program:
 
     def _limits(self) -> None:
         """The cut-off: nothing cheaper than the candidate (eq. 11)."""
+        self.model.family = "eq. 11"
         question = self.question
         if question.most is not None and self.model.objective:
             self.model.add(dict(self.model.objective), "<=", question.most)

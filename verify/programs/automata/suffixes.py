@@ -23,6 +23,7 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
         sign = 1 if f in state else -1
         literals = plus(literals, terms, sign)
         constant += fixed - 1 if f in state else -fixed
+    program.model.family = "Def. 2.0a"
     if least is None:
         program.model.add(literals, "<=", -1 - constant)
     else:

@@ -1,0 +1,109 @@
+"""The facade over proof files: written beside a certificate, and checked."""
+
+from pathlib import Path
+from time import perf_counter
+
+from serendipity.model import (
+    Certificate,
+    Deadline,
+    InputError,
+    ProofCheck,
+    RefutedProgram,
+    Result,
+    Task,
+    UsageError,
+)
+from serendipity.model.resources.limits import limits_from
+from serendipity.writing.together import write_together
+from verify.certificate.provable import main_claim
+from verify.proofs import checker
+from verify.proofs.book import ProofWriter, packed
+
+
+def write_proof(path: Path, writer: ProofWriter, certificate: Certificate, result: Result) -> bool:
+    """Write down what convinced, packed where the name ends in ``.gz``; whether there is anything to write.
+
+    Args:
+        path: the file.
+        writer: what was collected.
+        certificate: of a result.
+        result: the result.
+
+    Raises:
+        OSError: the file can't be written.
+    """
+    claim = main_claim(result)
+    if certificate.verdict != "proved" or claim is None or not writer.programs:
+        return False
+    data = writer.to_dict(claim, certificate.encoding or "")
+    write_together({path: packed(data, small=path.suffix == ".gz")})
+    return True
+
+
+def check_proof(
+    path: str | Path,
+    task: Task | None = None,
+    result: Result | None = None,
+    *,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+) -> ProofCheck:
+    """Check a proof file with integers only; no solver is loaded.
+
+    Args:
+        path: the file, packed by gzip or not.
+        task: the task that the proof is about; with ``result``: the programs are made again and compared.
+        result: the result that it proves.
+        time_limit: seconds, or None.
+        memory_limit: what this process may have in memory, in MiB, or None.
+        deadline: one that other work shares, such as loading the task; it holds beside the limits.
+
+    Returns:
+        Whether every program is refuted and, with a task and a result, whether the result follows all
+        rules and the programs are those of its claim.
+
+    Raises:
+        InputError: the file is no proof file, or the result is for another task.
+        UsageError: a task without a result, or the other way round; no program proves such a result.
+        LimitReachedError: a limit came first.
+    """
+    started, file = perf_counter(), Path(path)
+    if (task is None) != (result is None):
+        raise UsageError("check_proof: expected a task and a result, or neither")
+    limits = limits_from(time_limit, memory_limit, deadline)
+    programs: tuple[RefutedProgram, ...] = ()
+    try:
+        data = checker.read(file)
+        programs = tuple(RefutedProgram(*found) for found in checker.check(data))
+        reason = None
+    except checker.MalformedProofError as error:
+        raise InputError(str(error), file) from None
+    except checker.RejectedProofError as error:
+        reason = str(error)
+    limits.check()
+    compared = task is not None and result is not None and reason is None
+    if task is not None and result is not None and reason is None:
+        from verify.certificate.against import difference
+
+        reason = difference(task, result, data, limits)
+    return ProofCheck(
+        "accepted" if reason is None else "rejected",
+        reason or _accepted(programs, compared=compared),
+        data["claim"],
+        compared,
+        programs,
+        perf_counter() - started,
+    )
+
+
+def _accepted(programs: tuple[RefutedProgram, ...], *, compared: bool) -> str:
+    leaves = sum(program.leaves for program in programs)
+    words = f"{_counted(len(programs), 'program')} refuted, {_counted(leaves, 'leaf', 'leaves')}"
+    if compared:
+        return f"{words}; made again from task and result: the same"
+    return f"{words}; whether of the claim's programs takes TASK and RESULT.json to tell"
+
+
+def _counted(number: int, one: str, more: str | None = None) -> str:
+    return f"{number:,} {one if number == 1 else more or f'{one}s'}"

@@ -1,0 +1,69 @@
+"""What checking a proof file has found (schema ``serendipity.proof-check/1``)."""
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+SCHEMA: Final = "serendipity.proof-check/1"
+
+
+@dataclass(frozen=True, slots=True)
+class RefutedProgram:
+    """An integer program of a proof that holds.
+
+    Attributes:
+        name: what it is about.
+        columns: their number.
+        rows: their number.
+        leaves: of the tree that refutes it.
+        limit: nothing has an objective at or below it, in the program's unit; None: nothing satisfies it.
+        optimum: what its solution has, one above ``limit``; None where it has no solution.
+    """
+
+    name: str
+    columns: int
+    rows: int
+    leaves: int
+    limit: int | None
+    optimum: int | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+
+@dataclass(frozen=True, slots=True)
+class ProofCheck:
+    """What checking a proof file has found.
+
+    Attributes:
+        verdict: ``accepted`` or ``rejected``.
+        reason: one line for people.
+        claim: what the file says that it proves.
+        compared: whether the programs were made again from a task and a result, too.
+        programs: those of a proof whose arithmetic holds.
+        elapsed_seconds: time from file to verdict.
+    """
+
+    verdict: str
+    reason: str
+    claim: str
+    compared: bool
+    programs: tuple[RefutedProgram, ...]
+    elapsed_seconds: float
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the verdict is ``accepted``."""
+        return self.verdict == "accepted"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return {
+            "schema": SCHEMA,
+            "verdict": self.verdict,
+            "reason": self.reason,
+            "claim": self.claim,
+            "compared": self.compared,
+            "programs": [program.to_dict() for program in self.programs],
+            "elapsed_seconds": self.elapsed_seconds,
+        }

@@ -1,0 +1,129 @@
+"""Whatever is in a file, the checker has one line to say and an exit code; it never crashes."""
+
+import gzip
+import json
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from serendipity.cli.app import main
+from tests.verify.proofs.samples import sample
+from verify.proofs.checker import MalformedProofError, RejectedProofError, check, read
+
+_SMALL = ("branched", "given plan", "no plan", "suffixes")
+
+_VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers(-3, 3) | st.floats() | st.text(max_size=3) | st.just("1/1"),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=3),
+    max_leaves=8,
+)
+
+
+def _survives(data: Any) -> None:
+    try:
+        check(data)
+    except (MalformedProofError, RejectedProofError) as error:
+        assert "\n" not in str(error)
+
+
+def _places(data: Any) -> list[tuple[Any, Any]]:
+    """Every container with a key in it."""
+    found: list[tuple[Any, Any]] = []
+    waiting = [data]
+    while waiting:
+        here = waiting.pop()
+        keys = here.keys() if isinstance(here, dict) else range(len(here)) if isinstance(here, list) else ()
+        for key in keys:
+            found.append((here, key))
+            waiting.append(here[key])
+    return found
+
+
+@given(st.sampled_from(_SMALL), st.integers(0, 10**9), _VALUES)
+def test_any_value_anywhere(name: str, seed: int, value: Any) -> None:
+    data = json.loads(json.dumps(sample(name).proof))
+    dice = Random(seed)
+    where, key = dice.choice(_places(data))
+    where[key] = value
+    _survives(data)
+
+
+@given(st.sampled_from(_SMALL), st.integers(0, 10**9))
+def test_any_field_removed(name: str, seed: int) -> None:
+    data = json.loads(json.dumps(sample(name).proof))
+    where, key = Random(seed).choice(_places(data))
+    del where[key]
+    _survives(data)
+
+
+@given(_VALUES)
+def test_any_json(value: Any) -> None:
+    _survives(value)
+
+
+@pytest.mark.parametrize("packed", [False, True], ids=["json", "gzip"])
+def test_any_bytes(packed: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    content = json.dumps(sample("branched").proof).encode()
+    if packed:
+        content = gzip.compress(content, mtime=0)
+    dice, file, codes = Random(7), tmp_path / "proof.json", set()
+    for _ in range(150):
+        broken = bytearray(content)
+        for _ in range(dice.randint(1, 3)):
+            broken[dice.randrange(len(broken))] = dice.randrange(256)
+        file.write_bytes(broken[: dice.choice((len(broken), dice.randrange(len(broken))))])
+        code = main(["check-proof", str(file)])
+        said = capsys.readouterr()
+        codes.add(code)
+        assert code in (0, 1, 2)
+        assert "Traceback" not in said.out + said.err
+        assert said.err.count("\n") == (code == 2)
+    assert 2 in codes
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"", "expected JSON"),
+        (b"\x1f\x8b", "expected a whole gzip file"),
+        (b"\xff\xfe", "expected JSON in UTF-8"),
+        (b"[" * 100_000, "expected JSON"),
+        (b'{"a":' * 100_000, "expected JSON"),
+        (b"9" * 10_000, "expected JSON"),
+        (b"NaN", "expected an object with 'schema'"),
+        (b'{"schema": 1, "schema": 2}', "each field of an object once"),
+        (b"null", "expected an object with 'schema'"),
+    ],
+)
+def test_files_that_are_no_proofs(
+    content: bytes, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "proof.json"
+    file.write_bytes(content)
+    assert main(["check-proof", str(file)]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f"Error: {file}: ")
+    assert (said in error, error.count("\n")) == (True, 1)
+
+
+def test_files_that_are_not_there(tmp_path: Path) -> None:
+    for path in (tmp_path / "none.json", tmp_path):
+        with pytest.raises(MalformedProofError, match="can't be read"):
+            read(path)
+
+
+@pytest.mark.parametrize(
+    "text", ["1/1" * 9, "1/" + "9" * 61, "9" * 61 + "/1", "1", "/1", " 1/1", "1/1\n", "١/1"]
+)
+def test_multipliers_are_plain_numbers(text: str) -> None:
+    data = json.loads(json.dumps(sample("branched").proof))
+    node = data["programs"][0]["tree"]
+    while "down" in node:
+        node = node["down"]
+    node["multipliers"][0][1] = text
+    with pytest.raises(MalformedProofError, match="expected numerator/denominator"):
+        check(data)

@@ -1,0 +1,140 @@
+"""How questions are put to solvers: the encodings, the settings, and what was spent and found."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final, Protocol
+
+from serendipity.model import Deadline, Step, UsageError, Window
+from verify.base.execution import State
+from verify.base.subproblem import Solution, Subproblem
+from verify.base.undecided import UndecidedError
+from verify.programs.automata import AutomataEncoding
+from verify.programs.paper import PaperEncoding
+from verify.proofs.book import ProofReader, ProofWriter
+from verify.solvers.mip import SOLVERS, Model, SolverOutcome, optimise
+
+
+class ProgramEncoding(Protocol):
+    """What an encoding offers; ``model`` is None where there is provably no plan."""
+
+    @property
+    def model(self) -> Model | None:
+        """The integer program."""
+
+    def plan(self, values: tuple[int, ...]) -> tuple[tuple[Step, ...], Window | None]:
+        """The plan and the window of a solution."""
+
+    def bound_suffix(self, xi2: int, state: State, least: int | None) -> None:
+        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none.
+
+        Args:
+            xi2: first epoch of the suffix.
+            state: facts that hold at its begin.
+            least: units of the objective, or None.
+        """
+
+
+ENCODINGS: Final[dict[str, Callable[[Subproblem], ProgramEncoding]]] = {
+    "automata": AutomataEncoding,
+    "paper": PaperEncoding,
+}
+"""The encodings by name; the first is the default."""
+
+
+METHODS: Final = ("auto", "program")
+"""What decides a question; ``program``: the solver, also where the encoding could."""
+
+
+@dataclass(slots=True)
+class SolverCall:
+    """A program that was given to a solver.
+
+    Attributes:
+        columns: their number.
+        rows: their number.
+        objective: of the best plan that the program allows, in units; None where there is none, or
+            none is known.
+        cost: that plan's, in units.
+    """
+
+    columns: int
+    rows: int
+    objective: int | None = None
+    cost: int | None = None
+
+
+@dataclass(slots=True)
+class Effort:
+    """The solver's settings, and what was spent under them.
+
+    Attributes:
+        encoding: one of :data:`ENCODINGS`.
+        solver: one of ``verify.solvers.mip.SOLVERS``.
+        deadline: when to stop.
+        method: one of :data:`METHODS`.
+        proof: where what convinced is written down, or read from instead of asking a solver.
+        programs: number of questions that were put to an encoding.
+        calls: the solver's; fewer where an encoding sees by itself that there is no plan.
+    """
+
+    encoding: str = "automata"
+    solver: str = "highs"
+    deadline: Deadline = field(default_factory=Deadline)
+    method: str = "auto"
+    proof: ProofWriter | ProofReader | None = None
+    programs: int = 0
+    calls: list[SolverCall] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if self.method not in METHODS:
+            raise UsageError(f"method: expected one of {', '.join(METHODS)}, got {self.method!r}")
+        if self.encoding not in ENCODINGS:
+            raise UsageError(f"encoding: expected one of {', '.join(ENCODINGS)}, got {self.encoding!r}")
+        if self.solver not in SOLVERS:
+            raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {self.solver!r}")
+
+    @property
+    def size(self) -> dict[str, int]:
+        """Columns and rows of the largest program so far."""
+        largest = max(self.calls, key=lambda call: call.columns, default=SolverCall(0, 0))
+        return {"variables": largest.columns, "constraints": largest.rows}
+
+    def encode(self, question: Subproblem) -> "ProgramEncoding":
+        """The program of a question."""
+        self.programs += 1
+        if self.method == "program" and self.encoding == "automata":
+            return AutomataEncoding(question, pruned=False)
+        return ENCODINGS[self.encoding](question)
+
+    def solve(self, model: Model) -> SolverOutcome:
+        """Have a program solved."""
+        self.calls.append(SolverCall(len(model.upper), len(model.ends)))
+        return optimise(model, solver=self.solver, deadline=self.deadline)
+
+
+@dataclass(frozen=True, slots=True)
+class Minimum:
+    """The answer to a question.
+
+    Attributes:
+        status: ``found`` (proved best), ``none`` (proved: no plan within the limits) or
+            ``undecided``.
+        found: the best plan, or for ``undecided`` some plan, if any.
+        bound: proved lower bound on the objective in units, or None.
+        reason: why it is undecided.
+    """
+
+    status: str
+    found: Solution | None = None
+    bound: int | None = None
+    reason: str = ""
+
+    def settled(self) -> Solution | None:
+        """Some plan, best or not; None: there is provably none.
+
+        Raises:
+            UndecidedError: neither is known; with the bound that is.
+        """
+        if self.found is None and self.status == "undecided":
+            raise UndecidedError(self.reason, self.bound)
+        return self.found

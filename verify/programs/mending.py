@@ -1,0 +1,85 @@
+"""What a program's solution stands for: a plan, with an optimal plan of the human's as its suffix."""
+
+from serendipity.model import Step, Window
+from verify.base.execution import State, by_epoch, states_along
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.subproblem import WINDOW, Solution, Subproblem
+
+
+def replay(question: Subproblem, steps: tuple[Step, ...]) -> list[State] | None:
+    """States ``s_0 .. s_T`` of a plan, or None if it is not executable or misses a goal."""
+    task, sets = question.task, by_epoch(steps)
+    epochs = (sets.get(epoch, ()) for epoch in range(1, question.horizon + 1))
+    states = states_along(task, epochs, strict=question.options.strict)
+    return states if states is not None and goals_hold(question, states[-1]) else None
+
+
+def goals_hold(question: Subproblem, state: State) -> bool:
+    """Whether a state satisfies all goals that are asked for."""
+    task = question.task
+    return task.goal.holds(state) and (not question.robots_goal or task.robot_goal.holds(state))
+
+
+def replans(question: Subproblem) -> bool:
+    """Whether suffixes have to be optimal plans of the human's own (Def. 2.0a)."""
+    options = question.options
+    return question.rule == WINDOW and options.suffix == "replan" and options.preservation == "kernel"
+
+
+def mended(
+    question: Subproblem,
+    steps: tuple[Step, ...],
+    window: Window | None,
+    states: list[State],
+    plans: OptimalPlans,
+) -> Solution | None:
+    """The plan with an optimal suffix: its own, or another one; None if no optimal suffix fits."""
+    if not replans(question) or window is None or window.end > question.horizon:
+        return Solution(steps, window, *question.measure(steps, window))
+    suffix = best_suffix(question, states[window.end - 1], window.end, plans)
+    if suffix is None:
+        return None
+    head = tuple(step for step in steps if step.epoch < window.end)
+    tail = tuple(Step(window.end + k, i) for k, i in enumerate(suffix))
+    found = Solution(head + tail, window, *question.measure(head + tail, window))
+    return found if question.most is None or found.objective <= question.most else None
+
+
+def suffix_least(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> int | None:
+    """What the suffix of :func:`best_suffix` adds to the objective, in units; None: there is none."""
+    suffix = best_suffix(question, state, xi2, plans)
+    if suffix is None:
+        return None
+    return sum(question.prices.team[i] + question.prices.talk[i] for i in suffix)
+
+
+def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> tuple[int, ...] | None:
+    """The optimal plan alone that is best for the objective and reaches all goals, if it fits.
+
+    Args:
+        question: goals and prices.
+        state: facts that hold at the begin of ``xi2``.
+        xi2: first epoch of the suffix.
+        plans: the human's optimal plans.
+    """
+    worth = plans.worth(state)
+    if worth is None or worth[1] > question.horizon - xi2 + 1:
+        return None
+    known: dict[State, tuple[int, tuple[int, ...]] | None] = {}
+
+    def best_from(here: State) -> tuple[int, tuple[int, ...]] | None:
+        if here not in known:
+            known[here] = None
+            here_worth = plans.worth(here)
+            if here_worth is not None and here_worth[1] == 0:
+                reached = not question.robots_goal or question.task.robot_goal.holds(here)
+                known[here] = (0, ()) if reached else None
+            for i, after in plans.steps(here):
+                rest = best_from(after)
+                if rest is not None:
+                    choice = (question.prices.talk[i] + rest[0], (i, *rest[1]))
+                    known[here] = min(known[here] or choice, choice)
+        return known[here]
+
+    found = best_from(state)
+    return None if found is None else found[1]

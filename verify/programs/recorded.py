@@ -1,0 +1,192 @@
+"""Programs on their way to a proof file and back: what refutes them, and that they are a question's own."""
+
+from collections.abc import Callable, Iterable
+from typing import Any, Final
+
+from verify.base.execution import State
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.subproblem import ALONE, EXACT, FREE, WINDOW, Solution, Subproblem
+from verify.base.undecided import UndecidedError, during
+from verify.programs.effort import Minimum, ProgramEncoding
+from verify.programs.mending import goals_hold, mended, replay, suffix_least
+from verify.proofs import checker
+from verify.proofs.book import Entry, ProofReader, ProofWriter, require_same
+from verify.proofs.tree import refutation
+from verify.solvers.mip import Model
+
+Cut = tuple[int, State]
+"""The first epoch of a suffix, and the facts that hold at its begin."""
+
+_WORDS: Final = {
+    FREE: "all plans",
+    WINDOW: "every window",
+    EXACT: "pi_H as planned",
+    ALONE: "the human alone",
+}
+
+
+def write(
+    writer: ProofWriter,
+    question: Subproblem,
+    model: Model,
+    minimum: Minimum,
+    *,
+    cuts: Iterable[Cut] = (),
+    values: Iterable[int] = (),
+) -> None:
+    """Refute what is better than the answer to a question, and write it down.
+
+    Args:
+        writer: gets the entry.
+        question: what was asked.
+        model: its program, with what it has learned.
+        minimum: the answer: proved best, or proved that there is none within the limit.
+        cuts: what the program has learned about suffixes, in order.
+        values: of the columns, in the program's best solution; empty where it has none.
+
+    Raises:
+        UndecidedError: the program could not be refuted.
+        LimitReachedError: the deadline came first.
+    """
+    limit = question.most if minimum.found is None else minimum.found.objective - 1
+    entry = _described(question, model) | {"limit": limit}
+    if cuts:
+        entry["suffixes"] = [{"epoch": xi2, "state": _names(question, state)} for xi2, state in cuts]
+    solution = {x: value for x, value in enumerate(values) if value}
+    if solution and sum(solution.get(x, 0) * c for x, c in model.objective.items()) - 1 == limit:
+        entry["solution"] = [[x, value] for x, value in solution.items()]
+    with during("writing a proof down"):
+        entry["tree"] = refutation(model, limit, question.deadline)
+    try:
+        checker.refute(checker.program(entry, "program"))
+    except (checker.MalformedProofError, checker.RejectedProofError) as error:
+        raise UndecidedError(f"no proof: {error}") from None
+    writer.add(entry)
+
+
+def read(
+    reader: ProofReader,
+    question: Subproblem,
+    encode: Callable[[Subproblem], ProgramEncoding],
+    plans: OptimalPlans,
+) -> Minimum:
+    """The answer to a question that a proof gives; no solver is asked.
+
+    Args:
+        reader: the programs, which the checker has accepted.
+        question: what is asked.
+        encode: makes a question's program.
+        plans: the human's optimal plans.
+
+    Raises:
+        UndecidedError: the next program is another one, or does not answer the question.
+    """
+    entry = reader.take()
+    encoding = encode(question.but(most=None))
+    for xi2, state in _cuts(entry, question):
+        encoding.bound_suffix(xi2, state, suffix_least(question, state, xi2, plans))
+    assert encoding.model is not None
+    require_same(entry, _described(question, encoding.model))
+    if "solution" in entry and entry["limit"] != question.most:
+        return _answered(entry, question, _found(entry, question, encoding, plans))
+    return _answered(entry, question, None)
+
+
+def read_without_epochs(reader: ProofReader, question: Subproblem, minimum: Minimum) -> Minimum:
+    """The same where there is no epoch, so that the answer is known.
+
+    Raises:
+        UndecidedError: the next program is another one, or does not answer the question.
+    """
+    entry = reader.take()
+    require_same(entry, _described(question, without_epochs(question)))
+    return _answered(entry, question, minimum.found)
+
+
+def without_epochs(question: Subproblem) -> Model:
+    """The program of a question without epochs: the empty plan, or none."""
+    model = Model(question.deadline)
+    model.family = "eq. 3"
+    model.add({}, "<=", 0 if goals_hold(question, question.task.init) else -1)
+    model.family = "eq. 12"
+    model.add({}, "<=", 0 if question.rule != WINDOW else -1)
+    if question.most_cost is not None:
+        model.family = "eq. 11"
+        model.add({}, "<=", question.most_cost)
+    return model
+
+
+def _answered(entry: Entry, question: Subproblem, found: Solution | None) -> Minimum:
+    """What is proved where an entry's limit is refuted."""
+    name, limit = entry["name"], entry["limit"]
+    if found is not None:
+        if limit != found.objective - 1 or (question.most is not None and found.objective > question.most):
+            raise UndecidedError(f"program {name!r}: the limit is not one below the claim's optimum")
+        return Minimum("found", found, found.objective)
+    if limit != question.most:
+        raise UndecidedError(f"program {name!r}: the limit is {limit}, the claim's is {question.most}")
+    return Minimum("none")
+
+
+def _found(
+    entry: Entry, question: Subproblem, encoding: ProgramEncoding, plans: OptimalPlans
+) -> Solution | None:
+    """The plan that an entry's solution stands for."""
+    assert encoding.model is not None
+    values = [0] * len(encoding.model.upper)
+    for x, value in entry["solution"]:
+        values[x] = value
+    steps, window = encoding.plan(tuple(values))
+    states = replay(question, steps)
+    found = None if states is None else mended(question, steps, window, states, plans)
+    if found is None:
+        raise UndecidedError(f"program {entry['name']!r}: its solution is no plan")
+    return found
+
+
+def _described(question: Subproblem, model: Model) -> Entry:
+    words = f"{_WORDS[question.rule]}, {question.horizon} epochs"
+    if not question.robots:
+        words += ", robots idle"
+    if question.most_cost is not None:
+        words += f", cost at most {question.most_cost}"
+    rows = zip(model.rows, model.families, strict=True)
+    return {
+        "name": words,
+        "unit": f"1/{question.prices.scale}",
+        "columns": [list(bounds) for bounds in zip(model.lower, model.upper, strict=True)],
+        "objective": [[x, weight] for x, weight in sorted(model.objective.items())],
+        "rows": [
+            {
+                "family": family,
+                "terms": [[x, coefficient] for x, coefficient in row.terms.items()],
+                "sense": row.sense,
+                "right": row.right,
+            }
+            for row, family in question.deadline.each(list(rows))
+        ],
+    }
+
+
+def _names(question: Subproblem, state: State) -> list[str]:
+    return [question.task.facts[f] for f in sorted(state)]
+
+
+def _cuts(entry: Entry, question: Subproblem) -> list[Cut]:
+    """The suffixes that an entry names.
+
+    Raises:
+        UndecidedError: it names something else.
+    """
+    numbers = {name: f for f, name in enumerate(question.task.facts)}
+    found: list[Cut] = []
+    listed: Any = entry.get("suffixes", [])
+    try:
+        for suffix in listed:
+            xi2 = suffix["epoch"]
+            if type(xi2) is not int or not 1 < xi2 <= question.horizon:
+                raise ValueError
+            found.append((xi2, frozenset(numbers[name] for name in suffix["state"])))
+    except (KeyError, TypeError, ValueError):
+        raise UndecidedError(f"program {entry['name']!r}: suffixes: expected epochs and facts") from None
+    return found

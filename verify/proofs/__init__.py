@@ -1,0 +1,1 @@
+"""Proof files: integer programs that nothing satisfies, and why, for anybody to check with integers."""
