@@ -51,8 +51,8 @@ demo: $(READY)  ## the paper's example III-C: plan, proof, what the person will 
 test: $(READY)  ## run the tests
 	@$(BIN)/python -m pytest
 
-test-browser: browser  ## play the page of `show` in a headless Chromium, which it installs where it may
-	@$(BIN)/python -m pytest -m browser -rs tests/show
+test-browser: browser  ## play the pages of `show` and `play` in a headless Chromium, which it installs where it may
+	@$(BIN)/python -m pytest -m browser -rs tests/show tests/live
 
 pictures: browser  ## photograph that page again for the documentation
 	@$(BIN)/python -m docs.pictures

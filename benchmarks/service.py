@@ -112,7 +112,7 @@ def serving(workers: int) -> Iterator[tuple[int, int]]:
         found = re.search(r":(\d+)", process.stdout.readline())
         assert found is not None
         yield int(found[1]), process.pid
-        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
 
 
 def run(port: int, pid: int, asked: list[Any], given: argparse.Namespace, disturbed: bool) -> Tally:

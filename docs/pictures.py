@@ -1,22 +1,27 @@
 """Makes docs/images again (``make pictures``): what `show` makes of examples.
 
-Stills of those that are shipped beside the paper's, and photographs of the page for its III-C.
+Stills of those that are shipped beside the paper's, and photographs of the page for its III-C; and
+one of `play`.
 """
 
 import io
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from PIL import Image
 
 import serendipity
 from serendipity.show import build_scene, draw
+from tests.live.server import serving
 from tests.show.browser import chromium, chromium_path
 
 IMAGES = Path(__file__).parent / "images"
 STILLS = ("parcels", "flights", "taxis")
 EPOCHS = (1, 6, 11)
+WALK = ("hall8", "hall7", "hall6", "hall5", "hall4")
+"""Until the robot is met, in III-C."""
 SIZE = {"width": 1300, "height": 900}
 COLOURS = 128
 
@@ -40,11 +45,23 @@ def main() -> int:
         for epoch in EPOCHS:
             page.locator("#slider").fill(str(epoch))
             page.locator("#slider").blur()
-            shot = Image.open(io.BytesIO(page.screenshot(full_page=True))).convert("RGB")
-            image = IMAGES / f"room2-epoch-{epoch}.png"
-            shot.quantize(COLOURS, dither=Image.Dither.NONE).save(image, optimize=True)
-            sys.stdout.write(f"{image.relative_to(Path.cwd())}\n")
+            photograph(page, f"room2-epoch-{epoch}.png")
+        with serving(command="play") as server:
+            page.goto(server.url)
+            page.click("#think")
+            for place in WALK:
+                page.click(f'.reach[data-place="{place}"]')
+                page.wait_for_selector(f'.reach[data-place="{place}"]', state="detached")
+            photograph(page, "play-epoch-6.png")
     return 0
+
+
+def photograph(page: Any, name: str) -> None:
+    """The whole page as an image of the documentation."""
+    shot = Image.open(io.BytesIO(page.screenshot(full_page=True))).convert("RGB")
+    image = IMAGES / name
+    shot.quantize(COLOURS, dither=Image.Dither.NONE).save(image, optimize=True)
+    sys.stdout.write(f"{image.relative_to(Path.cwd())}\n")
 
 
 def drawn(name: str, discount: str, suffix: str) -> str | bytes:

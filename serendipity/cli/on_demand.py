@@ -28,6 +28,7 @@ NAMES: Final = (
     "bench",
     "examples",
     "generate",
+    "play",
     "serve",
 )
 """As ``--help`` lists them: each a function in a module, both of its name, or a group ``app`` there."""

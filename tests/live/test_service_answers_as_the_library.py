@@ -90,6 +90,8 @@ def test_anytime_answers_get_better_and_the_last_one_stands(server: Server) -> N
 def test_certificates(server: Server) -> None:
     result = server.post("/plan", {"task": ROOM2, "options": {"discount": 0.6}}).json()
     assert server.post("/verify", {"task": ROOM2, "result": result}).json()["verdict"] == "proved"
+    exactly = {"task": ROOM2, "result": result, "method": "program"}
+    assert server.post("/verify", exactly).json()["verdict"] == "proved"
     better = {**result, "cost": 1.0}
     assert server.post("/verify", {"task": ROOM2, "result": better}).json()["verdict"] == "refuted"
 

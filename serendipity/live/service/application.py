@@ -69,7 +69,7 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         responses=REFUSALS,
         middleware=[
             Middleware(Counted, metrics=metrics),
-            Middleware(Headed),
+            Middleware(Headed, inline=True),
             Middleware(Access, hosts=hosts, token=token),
             Middleware(BodyLimits, most=limits.body, seconds=limits.body_seconds),
         ],

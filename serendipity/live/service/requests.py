@@ -82,6 +82,7 @@ class VerifyRequest(Asked):
     result: dict[str, Any] = Field(description="what `/plan` answered")
     solver: str | None = Field(None, examples=["highs"])
     encoding: str | None = Field(None, examples=["automata"])
+    method: str | None = Field(None, examples=["auto"])
 
 
 class SessionRequest(Asked):

@@ -67,7 +67,7 @@ class Handle:
             EOFError: it was killed.
         """
         frame = await self._incoming.next()
-        if frame.head["kind"] != "answer":
+        if frame.head["kind"] in ("end", "error"):
             self.working = False
             self.resident = frame.head["resident"]
         return frame

@@ -47,7 +47,7 @@ def verify(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
     """A certificate for a result."""
     result = Result.from_dict(asked["result"])
     task = desk.tasks.task(asked["task"], deadline)
-    how = {name: asked[name] for name in ("solver", "encoding") if asked.get(name) is not None}
+    how = {name: asked[name] for name in ("solver", "encoding", "method") if asked.get(name) is not None}
     yield serendipity.verify(task, result, deadline=deadline, **how).to_dict()
 
 

@@ -107,17 +107,23 @@ class Pool:
             BusyError: there is no room for it now.
             LostError: its worker was killed.
         """
-        for attempt in range(1, _ATTEMPTS + 1):
-            said = False
+        lost = 0
+        for _ in range(self.limits.workers + _ATTEMPTS):
+            begun = said = False
             try:
                 async with aclosing(self._attempt(job, body)) as frames:
                     async for frame in frames:
-                        said = True
-                        yield frame
+                        if frame.head["kind"] == "begun":
+                            begun = True
+                        else:
+                            said = True
+                            yield frame
                 return
             except EOFError:
-                if said or attempt == _ATTEMPTS:
-                    raise LostError("the worker process of this request was killed: try again") from None
+                lost += begun  # one that was killed before has nothing to do with the job
+                if said or lost == _ATTEMPTS:
+                    break
+        raise LostError("the worker process of this request was killed: try again")
 
     async def _attempt(self, job: str, body: bytes) -> AsyncGenerator[Frame, None]:
         async with self._worker() as worker:

@@ -62,6 +62,7 @@ class Worker:
         _end()
 
     def _work(self, job: Frame, cancelled: threading.Event) -> None:
+        self._say({"kind": "begun"})
         deadline = Deadline(job.head["time_limit"], self._memory_limit, cancelled)
         try:
             for answer in JOBS[job.head["job"]](self._desk, json.loads(job.body), deadline):

@@ -1,0 +1,230 @@
+"""One round: a person's actions in, and out comes what their page shows."""
+
+from typing import Any
+
+import serendipity
+from serendipity.execution import VERDICTS, Decided, Execution, Passed
+from serendipity.live.play.eyes import Eyes
+from serendipity.live.play.setting import Setting
+from serendipity.live.play.stage import Stage
+from serendipity.live.play.words import Words
+from serendipity.model import GroundAction, UsageError
+from serendipity.model.task.execution import actions_named
+from serendipity.model.task.plans import PlanStep
+from serendipity.show.map.places import find_places
+
+_EXPLAINING = 10.0
+"""Seconds for an explanation at the end."""
+
+
+class Game:
+    """A person, robots and the world.
+
+    Args:
+        setting: what is played.
+
+    Raises:
+        UsageError: the person has no way to reach the goal alone.
+    """
+
+    def __init__(self, setting: Setting) -> None:
+        self.setting = setting
+        task = setting.task
+        alone = serendipity.plan(task, mode="individual")
+        if alone.cost is None:
+            raise UsageError(f"{setting.name}: {task.agents[task.human]} can't reach the goal alone")
+        self.alone = alone.cost
+        self.run = Execution(
+            task,
+            discount=setting.discount,
+            human_model=setting.view,
+            goals=setting.goals,
+            deadline=setting.deadline,
+            told=setting.condition == "announced",
+        )
+        if setting.condition == "none":
+            self.run.drop(task.agents[robot] for robot in task.robots)
+        places = find_places(task)
+        self._words = Words(task, places)
+        self._eyes = Eyes(task, setting.view)
+        self._stage = Stage(task, places, self._eyes)
+        self._stage.look(self.run.state)
+        self._seen: list[dict[str, Any]] = []
+        self.human = task.agents[task.human]
+
+    @property
+    def done(self) -> bool:
+        """Whether the goal is reached."""
+        return self.run.done
+
+    def act(self, action: str | None) -> Passed:
+        """The person does something, or waits.
+
+        Raises:
+            UsageError: the round is over, or there is no such action.
+        """
+        if self.run.done:
+            raise UsageError("the round is over")
+        near, before = self._stage.here, self.run.state
+        passed = self.run.step(action)
+        own = next((step for step in passed.steps if self.human in step.agents), None)
+        self._eyes.look(self.run.state, None if own is None else self._ground(own, before))
+        self._stage.look(self.run.state)
+        self._seen.insert(0, self._told(passed, near))
+        return passed
+
+    # -- what the page shows
+
+    def view(self) -> dict[str, Any]:
+        """Everything that the page shows of the round."""
+        run = self.run
+        decided = None if run.done else run.decided
+        return {
+            "scenario": self.setting.name,
+            "condition": self.setting.condition,
+            "sight": "everywhere" if self._eyes.everywhere else "here",
+            "human": self.human,
+            "goal": self._words.goal(),
+            "epoch": run.epoch,
+            "map": self._stage.picture(),
+            "legend": self._stage.legend(),
+            "facts": None if self._stage.here else self._facts(),
+            "can": [] if decided is None else self._choices(decided),
+            "paid": float(run.human_cost),
+            "team": float(run.cost),
+            "alone": self.alone,
+            "discount": float(self.setting.discount),
+            "log": self._seen,
+            "thinking": None if decided is None else self._thinking(decided),
+            "said": None if decided is None else self._said(decided),
+            "done": run.done,
+            "end": self._end() if run.done else None,
+        }
+
+    def explanation(self) -> list[dict[str, str]]:
+        """Why help comes as it does in this task, in sentences by topic."""
+        found = serendipity.explain(self.setting.task, discount=self.setting.discount, time_limit=_EXPLAINING)
+        return [{"topic": topic, "text": text} for topic, text in found.sentences]
+
+    def _ground(self, step: PlanStep, state: frozenset[int]) -> GroundAction:
+        """The action of a step, in the variant that is possible in a state where one is."""
+        actions = self.setting.task.actions
+        same = [actions[i] for i in actions_named(self.setting.task, step.action, step.agents)]
+        return next((action for action in same if action.applicable(state)), same[0])
+
+    def _facts(self) -> list[str]:
+        """What the person knows to be true, where there is no map."""
+        names = self.setting.task.facts
+        hidden = {disjunction.fact for disjunction in self.setting.task.disjunctions}
+        return [names[fact] for fact in sorted(self._eyes.belief) if fact not in hidden]
+
+    def _choices(self, decided: Decided) -> list[dict[str, Any]]:
+        """What the person can do, as far as they know: what robots offer first, waiting last."""
+        task = self.setting.task
+        choices = [
+            {
+                "action": step.action,
+                "text": self._words.step(step),
+                "with": self._words.robots(step),
+                "kind": "offer",
+                "cost": step.cost,
+                "place": None,
+            }
+            for step in decided.offers
+        ]
+        known: dict[str, dict[str, Any]] = {}
+        for i in task.human_actions:
+            action = task.actions[i]
+            if action.applicable(self._eyes.belief) and action.name not in known:
+                place = self._words.target(action, task.human)
+                known[action.name] = {
+                    "action": action.name,
+                    "text": self._words.action(action),
+                    "kind": "do" if place is None else "go",
+                    "cost": float(action.cost),
+                    "place": place,
+                }
+        own = sorted(known.values(), key=lambda choice: choice["kind"])
+        return [*choices, *own, {"action": None, "text": "wait", "kind": "wait", "cost": 0, "place": None}]
+
+    def _thinking(self, decided: Decided) -> dict[str, Any]:
+        return {
+            "verdict": decided.verdict,
+            "meaning": VERDICTS[decided.verdict],
+            "reason": decided.reason,
+            "goals": [{"name": name, "share": share} for name, share in decided.goals.items()],
+            "plan": [self._planned(step) for step in decided.plan or ()],
+            "expected": None if decided.expected is None else self._words.step(decided.expected),
+            "window": None if decided.window is None else decided.window.to_dict(),
+            "cost": decided.cost,
+            "alone": decided.alone,
+            "milliseconds": round(1000 * decided.seconds),
+        }
+
+    def _planned(self, step: PlanStep) -> dict[str, Any]:
+        """A step of the robots' plan, with the epoch counted from the beginning."""
+        return {
+            "epoch": self.run.epoch + step.epoch - 1,
+            "agents": list(step.agents),
+            "text": self._words.step(step),
+            "help": list(step.agents) != [self.human],
+        }
+
+    def _said(self, decided: Decided) -> str | None:
+        """What robots say aloud, where they do."""
+        if self.setting.condition != "announced" or decided.verdict not in ("helps", "waits"):
+            return None
+        mine = [s for s in decided.plan or () if list(s.agents) != [self.human]]
+        if not mine:
+            return None
+        steps = [f"{self._words.step(step)} (epoch {self.run.epoch + step.epoch - 1})" for step in mine]
+        wish = "" if decided.expected is None else f" Please {self._words.step(decided.expected)} now."
+        return f"I am going to {', '.join(steps)}.{wish}"
+
+    def _told(self, passed: Passed, near: str | None) -> dict[str, Any]:
+        """An epoch as the person has seen it."""
+        own = next((step for step in passed.steps if self.human in step.agents), None)
+        if own is not None:
+            robots = self._words.robots(own)
+            did = self._words.step(own) + (f", with {robots}" if robots else "")
+        elif passed.in_vain:
+            did = f"tried to {passed.human}, in vain"
+        else:
+            did = "waited"
+        others = []
+        for step in passed.steps:
+            if self.human not in step.agents and self._noticed(step, near):
+                others.append(f"{self._words.robots(step)}: {self._words.step(step)}")
+        return {"epoch": passed.epoch, "you": did, "others": others}
+
+    def _noticed(self, step: PlanStep, near: str | None) -> bool:
+        """Whether the person was where a robot did something, or it came to where they are."""
+        if self._eyes.everywhere:
+            return True
+        action = self._ground(step, self.run.state)
+        facts = (*action.pre, *action.add)
+        return any(self._eyes.sees(fact, self.run.state) for fact in facts) and near is not None
+
+    def _end(self) -> dict[str, Any]:
+        """What the round came to."""
+        run, discount = self.run, self.setting.discount
+        paid, team = float(run.human_cost), float(run.cost)
+        helped = [p for p in run.passed for s in p.steps if {*s.agents} != {self.human}]
+        lines = []
+        for passed in run.passed:
+            for step in passed.steps:
+                if list(step.agents) != [self.human]:
+                    who = " and ".join(step.agents)
+                    lines.append({"epoch": passed.epoch, "text": f"{who}: {self._words.step(step)}"})
+        return {
+            "paid": paid,
+            "team": team,
+            "alone": self.alone,
+            "saved": round(self.alone - team, 9),
+            "spared": round(self.alone - paid, 9),
+            "epochs": len(run.passed),
+            "help": lines,
+            "helped": bool(helped),
+            "discount": float(discount),
+            "reasons": [{"epoch": p.epoch, "text": p.decided.reason} for p in run.passed],
+        }

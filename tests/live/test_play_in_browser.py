@@ -1,0 +1,257 @@
+"""Rounds that somebody plays on the page, in a real Chromium: by clicks, by keys, on a phone, in a study."""
+
+import json
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.live.play_tasks import DOMAIN, two_goals, with_third_kit
+from tests.live.server import Server, serving
+from tests.show.browser import chromium, chromium_path
+
+pytestmark = pytest.mark.browser
+
+TO_ROOM1 = ("hall3", "hall2", "hall1", "room1")
+Opened = Callable[..., Any]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no chromium: `make test-browser` installs it where it may")
+    pytest.importorskip("playwright", reason="no playwright: `make test-browser` installs it")
+    with chromium(path) as running:
+        yield running
+
+
+@pytest.fixture
+def opened(browser: Any) -> Iterator[Opened]:
+    """Open a page; nobody may complain on its console, nor ask for anything of elsewhere."""
+    complaints: list[str] = []
+    pages = []
+
+    def opens(server: Server, width: int = 1440, height: int = 900) -> Any:
+        page = browser.new_page(viewport={"width": width, "height": height})
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on(
+            "request", lambda asked: None if server.url[7:] in asked.url else complaints.append(asked.url)
+        )
+        page.goto(server.url)
+        pages.append(page)
+        return page
+
+    yield opens
+    for page in pages:
+        page.close()
+    assert [c for c in complaints if "ERR_CONNECTION_REFUSED" not in c and "/live" not in c] == []
+
+
+def go(page: Any, *places: str) -> None:
+    for place in places:
+        page.click(f'.reach[data-place="{place}"]')
+        page.wait_for_selector(f'.reach[data-place="{place}"]', state="detached")
+
+
+def choose(page: Any, text: str) -> None:
+    page.click(f'#can button:has-text("{text}")')
+
+
+def fits(page: Any) -> bool:
+    return bool(page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth"))
+
+
+def verdicts(server: Server) -> list[str]:
+    return [e["verdict"] for e in server.client.get("/export.json").json() if e["event"] == "epoch"]
+
+
+def pddl(problem: Path) -> tuple[str, ...]:
+    return (str(DOMAIN), str(problem), "--human", "commx", "--robot", "robot")
+
+
+def test_the_papers_example_by_clicks(opened: Opened) -> None:
+    with serving("--example", "room2", command="play") as server:
+        page = opened(server)
+        page.click("#think")
+        go(page, "hall8", "hall7", "hall6", "hall5", "hall4")
+        assert page.inner_text("#can .offer .word").split("\n")[-1] == "hand over mk2"
+        assert page.inner_text("#thought .verdict") == "helps"
+        choose(page, "hand over mk2")
+        go(page, *TO_ROOM1)
+        choose(page, "conduct triage")
+        page.wait_for_selector("#finish")
+        assert page.inner_text("#finish-text") == "11 epochs. You paid 11 instead of 13."
+        costs = page.locator("#finish-costs td").all_inner_texts()
+        assert costs == ["11", "12.6", "13", "0.4"]
+        assert "epoch 6: commx and robot: hand over mk2" in page.inner_text("#finish-help")
+        page.click("#ask-why")
+        page.wait_for_selector('#why:has-text("12.6")')
+        events = server.client.get("/export.json").json()
+        last = events[-1]
+        assert (last["team_cost"], last["alone_cost"], last["human_cost"]) == (12.6, 13.0, 11.0)
+        met = next(event for event in events if event.get("epoch") == 6)
+        assert met["steps"] == ["commx+robot: hand_over robot commx mk2 hall4"]
+        table = server.client.get("/export.csv").text.splitlines()
+        assert len(table) == 1 + len(events)
+        page.click("#again")
+        page.wait_for_selector('#epoch:text-is("1")')
+
+
+def test_the_papers_example_by_keys(opened: Opened) -> None:
+    with serving(command="play") as server:
+        page = opened(server)
+        page.wait_for_selector("#can button")
+        for count, key in enumerate(["ArrowUp", *["ArrowLeft"] * 4, "1", *["ArrowLeft"] * 4], start=2):
+            page.keyboard.press(key)
+            page.wait_for_selector(f'#epoch:text-is("{count}")')
+        page.keyboard.press("1")
+        page.wait_for_selector("#finish")
+        assert page.locator("#finish-costs td").all_inner_texts()[1] == "12.6"
+
+
+def test_somebody_turns_off_towards_another_kit(opened: Opened, tmp_path: Path) -> None:
+    problem = with_third_kit(tmp_path, "room6")
+    with serving(*pddl(problem), command="play") as server:
+        page = opened(server)
+        go(page, "hall8", "hall7", "room7", "room6")
+        choose(page, "pick up medkit")
+        go(page, "room7", "hall7", "hall6", "hall5", "hall4", *TO_ROOM1)
+        choose(page, "conduct triage")
+        page.wait_for_selector("#finish")
+        said = verdicts(server)
+        assert said[:2] == ["waits", "helps"]
+        assert set(said[-4:]) == {"aside"}, "nothing is left to be helped with"
+        events = [e for e in server.client.get("/export.json").json() if e["event"] == "epoch"]
+        assert events[-1]["human_cost"] == 15.0, "help did not make anything dearer"
+        assert not any("hand_over" in step for event in events for step in event["steps"])
+
+
+def test_two_goals_are_possible(opened: Opened, tmp_path: Path) -> None:
+    problem, goals = with_third_kit(tmp_path, "room8", robot="room3"), two_goals(tmp_path)
+    with serving(*pddl(problem), "--goals", str(goals), command="play") as server:
+        page = opened(server)
+        page.click("#think")
+        assert page.locator("#thought .share output").all_inner_texts() == ["50 %", "50 %"]
+        assert "not sure which goal" in page.inner_text("#thought")
+        go(page, "hall8", "hall7", "hall6", "hall5", "hall4")
+        assert page.locator("#thought .share output").all_inner_texts()[0] == "100 %"
+        choose(page, "hand over mk2")
+        go(page, *TO_ROOM1)
+        choose(page, "conduct triage")
+        page.wait_for_selector("#finish")
+        assert verdicts(server)[:6] == ["unsure", "unsure", "helps", "helps", "helps", "helps"]
+        assert page.locator("#finish-costs td").all_inner_texts()[1] == "12.2"
+
+
+def test_two_pages_a_reload_and_a_server_that_stops(opened: Opened) -> None:
+    with serving(command="play") as server:
+        one, two = opened(server), opened(server, 390, 844)
+        go(one, "hall8")
+        two.wait_for_selector('#epoch:text-is("2")')
+        assert fits(two)
+        stale = {"do": "act", "round": 1, "epoch": 1, "action": "move commx room13 hall8"}
+        two.evaluate(
+            "m => new Promise(r => { const s = new WebSocket(`ws://${location.host}/live`);"
+            "s.onopen = () => s.send(m); s.onmessage = () => setTimeout(() => { s.close(); r(); }, 200); })",
+            json.dumps(stale),
+        )
+        go(two, "hall7")
+        one.wait_for_selector('#epoch:text-is("3")')
+        one.reload()
+        one.wait_for_selector('#epoch:text-is("3")')
+        assert one.locator("#log li").count() == 2
+        saved = httpx.get(f"{server.url}/export.json").json()
+        assert len([event for event in saved if event["event"] == "epoch"]) == 2
+        assert server.stop(signal.SIGTERM)[0] == 130
+        one.wait_for_selector("#lost")
+        assert one.inner_text("#epoch") == "3"
+
+
+def test_local_view_on_a_phone(opened: Opened) -> None:
+    with serving("--view", "local", command="play") as server:
+        page = opened(server, 390, 844)
+        page.wait_for_selector("#can button")
+        assert page.locator("#map .unseen").count() == 20
+        assert page.locator("#map .remembered").count() == 3
+        go(page, "hall8", "hall7", "hall6", "hall5")
+        assert "robot" not in page.inner_text("#log")
+        go(page, "hall4")
+        assert "robot: go to hall4" in page.inner_text("#log")
+        assert page.locator("#map [data-token=agent-1].remembered").count() == 0
+        assert fits(page)
+
+
+def test_where_there_is_no_map_there_are_lists(opened: Opened, tmp_path: Path) -> None:
+    (tmp_path / "d.pddl").write_text(
+        "(define (domain d) (:requirements :strips) (:predicates (open ?a) (done ?a) (is ?a))"
+        "(:action open_it :parameters (?a) :precondition (is ?a) :effect (open ?a))"
+        "(:action finish :parameters (?a) :precondition (open ?a) :effect (done ?a)))"
+    )
+    (tmp_path / "p.pddl").write_text(
+        "(define (problem p) (:domain d) (:objects h r) (:init (is h) (is r)) (:goal (done h)))"
+    )
+    task = (str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl"), "--human", "h", "--robot", "r")
+    with serving(*task, command="play") as server:
+        page = opened(server)
+        page.wait_for_selector('#facts:has-text("Nothing")')
+        choose(page, "open it")
+        page.wait_for_selector('#facts:has-text("open h")')
+        choose(page, "finish")
+        page.wait_for_selector("#finish")
+
+
+def test_a_study_from_consent_to_thanks(opened: Opened, tmp_path: Path) -> None:
+    folder = tmp_path / "study"
+    with serving("--study", str(folder), "--rounds", "2", command="play") as server:
+        page = opened(server, 800, 1000)
+        page.wait_for_selector("#consent-text p")
+        assert page.is_disabled("#start")
+        page.check("#agree")
+        page.click("#start")
+        for number in (1, 2):
+            page.wait_for_selector(f'#participant:has-text("round {number}")')
+            assert page.is_hidden("#thinking")
+            play_alone(page, server)
+            page.click("#go-on")
+            page.wait_for_selector("#asked fieldset")
+            if number == 1:
+                page.reload()
+                page.wait_for_selector("#asked fieldset")
+            for question in range(4):
+                page.click(f'#asked fieldset >> nth={question} >> label:has-text("{question + 2}")')
+            page.fill("#comment", "=1+1")
+            page.click("#send")
+        page.wait_for_selector("#number")
+        events = server.client.get("/export.json").json()
+        kinds = [event["event"] for event in events]
+        assert kinds.count("begun") == 2
+        assert [e["answer"] for e in events if e["event"] == "answer"] == [2, 3, 4, 5, "=1+1"] * 2
+        assert kinds[-1] == "end"
+        assert "'=1+1" in server.client.get("/export.csv").text, "no spreadsheet computes it"
+        page.click("#next")
+        page.wait_for_selector('#participant:has-text("P002")')
+    written = [json.loads(line) for line in (folder / "P001.jsonl").read_text().splitlines()]
+    assert written == events
+
+
+def play_alone(page: Any, server: Server) -> None:
+    """The way that the person would take alone, as a planner knows it."""
+    import serendipity
+    from serendipity.live.play.scenarios import scenarios
+
+    begun = [e for e in server.client.get("/export.json").json() if e["event"] == "begun"][-1]
+    task = dict(scenarios(2, 1, serendipity.Options(discount=0.6).discount))[begun["scenario"]]
+    plan = serendipity.plan(task, mode="individual").human_plan or ()
+    for epoch, action in enumerate(plan, start=1):
+        sent = {"do": "act", "round": begun["round"], "epoch": epoch, "action": action}
+        page.evaluate(
+            "m => new Promise(r => { const s = new WebSocket(`ws://${location.host}/live`); let heard = 0;"
+            "s.onopen = () => s.send(m); s.onmessage = () => { if (++heard === 2) { s.close(); r(); } }; })",
+            json.dumps(sent),
+        )
+    page.wait_for_selector("#finish")
