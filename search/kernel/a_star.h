@@ -67,7 +67,7 @@ static int finish(AStar *s, int outcome, Cost total) {
 static int a_star_begin(AStar *s, const Word *state, Cost limit, size_t allowed) {
     s->open.count = s->closed.count = 0;
     s->least = 0;
-    s->table.allowed = allowed;
+    grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !heap_reserve(&s->open, 1, &s->table)) return MEMORY;
     int is_new;
     s->start = find(&s->table, state, &is_new);
@@ -114,7 +114,7 @@ static void expand(AStar *s, int32_t id) {
 static int a_star_run(AStar *s, double seconds, size_t allowed) {
     const Problem *p = s->problem;
     double end = now() + seconds;
-    s->table.allowed = allowed;
+    grant(&s->table, allowed);
     while (s->open.count) {
         Entry entry = s->open.at[0];
         Node *node = node_of(&s->table, entry.item);
@@ -149,7 +149,7 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
 
 /* Lower bound from a state; -1 where memory is missing. */
 static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
-    s->table.allowed = allowed;
+    grant(&s->table, allowed);
     if (!reserve(&s->table, 1)) return -1;
     int is_new;
     int32_t id = find(&s->table, asked, &is_new);

@@ -45,7 +45,7 @@ static void greedy_free(Greedy *s) {
 static int greedy_begin(Greedy *s, const Word *state, size_t allowed) {
     table_clear(&s->table);
     s->all.count = s->preferred.count = 0;
-    s->table.allowed = allowed;
+    grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !heap_reserve(&s->all, 1, &s->table)) return MEMORY;
     s->serial = 0, s->turn_all = s->turn_preferred = 0;
     s->best_rest = INFINITE_COST, s->goal = NONE;
@@ -82,7 +82,7 @@ static void expand_greedily(Greedy *s, int32_t id, Cost rest) {
 
 static int greedy_run(Greedy *s, double seconds, size_t allowed) {
     double end = now() + seconds;
-    s->table.allowed = allowed;
+    grant(&s->table, allowed);
     while (s->all.count || s->preferred.count) {
         if (now() >= end) return RUNNING;
         size_t more = (size_t)s->problem->n_ops + 1;

@@ -46,6 +46,8 @@ static size_t hash(const Word *state, int32_t words) {
     return (size_t)(h ^ (h >> 32));
 }
 
+static void grant(Table *t, size_t allowed) { t->allowed = allowed, t->wanted = 0; }
+
 static int allow(Table *t, size_t size) {
     if (size > t->allowed) {
         t->wanted = size;
