@@ -71,13 +71,20 @@ class OwnActions:
 
     def applicable(self, state: int) -> list[Operator]:
         """The operators that are applicable in a state."""
+        return [operator for _, operator in self._usable(state)]
+
+    def steps(self, state: int) -> list[tuple[int, int]]:
+        """The actions that are applicable in a state, by ids, each with the state after it."""
+        return [(i, state & ~operator.delete | operator.add) for i, operator in self._usable(state)]
+
+    def _usable(self, state: int) -> list[tuple[int, Operator]]:
         found = []
         watched = self._watched
         for bit in chain((0,), each_bit(state)):
             for action in watched.get(bit, ()):
                 operator = self._operator(action)
                 if state & operator.pre == operator.pre and not state & operator.neg:
-                    found.append(operator)
+                    found.append((action, operator))
         return found
 
     def may_reach(self, state: int, goal: Condition, deadline: Deadline) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import (
@@ -22,13 +23,14 @@ from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import END_SHARE, UNDECIDED, why
 from verify.calls.call import Call
-from verify.certificate.claims import Examiner
+from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.humans import HumanExaminer
 from verify.certificate.provable import require_programs
 from verify.certificate.tied import combined
 from verify.goals.check import claims_by_rules, examine, unexamined
 from verify.goals.proof import GoalsProof
 from verify.policy import check_policy
+from verify.programs.alone import least_alone
 from verify.programs.effort import Effort
 from verify.proofs.book import ProofReader, ProofWriter
 from verify.rules import Checker, RuleReport
@@ -199,7 +201,8 @@ class _Certifier:
             yield from self._ties(wanted)
             return
         if self.result.mode == "individual":
-            yield from self._individual(wanted)
+            first = examiner.claim(wanted[0], self._individual)
+            yield from (replace(first, claim=name, bound=None) for name in wanted)
             return
         figures = examiner.claim("cost", lambda: examiner.savings() or ("proved", "", None))
         if figures.verdict != "proved":
@@ -240,22 +243,13 @@ class _Certifier:
         kind = Examiner if result.options.human_model == "omniscient" else HumanExaminer
         return kind(call, result, steps, self.checker)
 
-    def _individual(self, wanted: list[str]) -> Iterator[Claim]:
-        """Mode ``individual``: the human's least cost alone, by exhaustive search."""
-        started = perf_counter()
-        try:
-            verdict, reason = self._alone()
-        except UNDECIDED as error:
-            verdict, reason = "undecided", why(error)
-        for name in wanted:
-            yield Claim(name, verdict, reason, seconds=perf_counter() - started)
-
-    def _alone(self) -> tuple[str, str]:
-        result, worth = self.result, self.plans.worth(self.task.init)
-        if worth is None:
+    def _individual(self) -> Verdict:
+        """Mode ``individual``: the human's least cost alone, by a search over states or by a program."""
+        result, cost = self.result, self._least_alone()
+        if cost is None:
             right = result.cost is None
-            return "proved" if right else "refuted", wording.NOT_ALONE
-        least = float(worth[0])
+            return "proved" if right else "refuted", wording.NOT_ALONE, None
+        least = float(cost)
         right = result.lower_bound is None or result.lower_bound <= least
         if result.status == "feasible":
             right = right and result.cost is not None and result.cost >= least
@@ -263,8 +257,14 @@ class _Certifier:
             right = right and result.cost == least
             if result.human_plan is not None:
                 given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
-                right = right and result.saving_alone == float(given - worth[0])
-        return "proved" if right else "refuted", wording.least_alone(least)
+                right = right and result.saving_alone == float(given - cost)
+        return "proved" if right else "refuted", wording.least_alone(least), None
+
+    def _least_alone(self) -> Fraction | None:
+        if self.effort.method == "program":
+            return least_alone(self.task, self.result.options, self.effort)
+        worth = self.plans.worth(self.task.init)
+        return None if worth is None else worth[0]
 
     def _ties(self, wanted: list[str]) -> Iterator[Claim]:
         """Each optimal ``pi_H`` is solved; the answers have to give the result's figures."""

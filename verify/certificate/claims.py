@@ -13,6 +13,7 @@ from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
 from verify.calls.call import Call, Score
 from verify.calls.results import found_result, plan_steps
 from verify.exhaustive.uniform_cost import cheapest
+from verify.programs.alone import least_alone
 from verify.programs.effort import SolverCall
 from verify.programs.minimise import minimise
 from verify.rules import Checker
@@ -174,13 +175,19 @@ class Examiner:
         """There is no plan at all."""
         call = self.call
         if call.needs_pi_h and call.human_plan is None:
-            if call.plans.worth(call.task.init) is None:
+            if not self._has_plan_alone():
                 return "proved", wording.ALL_VISITED, None
             return "refuted", wording.HE_HAS_A_PLAN, None
         given: Answer = answer(call)
         if given.cost is None:
             return "proved", wording.NOTHING_SATISFIES, None
         return "refuted", wording.PLAN, given.found or call.idle_robots_plan
+
+    def _has_plan_alone(self) -> bool:
+        call = self.call
+        if call.effort.method == "program":
+            return least_alone(call.task, call.options, call.effort) is not None
+        return call.plans.worth(call.task.init) is not None
 
     # -- helpers
 

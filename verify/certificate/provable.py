@@ -23,8 +23,10 @@ def require_programs(result: Result, method: str = "program") -> None:
 
 def _decided_otherwise(result: Result) -> str | None:
     options = result.options
-    if result.mode in ("individual", "assistance"):
-        return f"mode {result.mode}"
+    if result.mode == "assistance":
+        return "mode assistance"
+    if result.mode == "individual":
+        return None
     if options.human_model != "omniscient":
         return "a human who replans"
     if result.says("goals"):

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 from typing import Any, Final
 
+from serendipity.model import Deadline
 from verify.base.execution import State
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import ALONE, EXACT, FREE, WINDOW, Solution, Subproblem
@@ -49,14 +50,40 @@ def write(
         LimitReachedError: the deadline came first.
     """
     limit = question.most if minimum.found is None else minimum.found.objective - 1
-    entry = _described(question, model) | {"limit": limit}
+    entry = _described(question, model)
     if cuts:
         entry["suffixes"] = [{"epoch": xi2, "state": _names(question, state)} for xi2, state in cuts]
+    refute(writer, entry, model, limit, values, question.deadline)
+
+
+def refute(
+    writer: ProofWriter,
+    entry: Entry,
+    model: Model,
+    limit: int | None,
+    values: Iterable[int],
+    deadline: Deadline,
+) -> None:
+    """Write down why a program allows nothing at or below a limit.
+
+    Args:
+        writer: gets the entry.
+        entry: what describes the program.
+        model: the program.
+        limit: of the objective; None: nothing at all is allowed.
+        values: of the columns, in the program's best solution; empty where it has none.
+        deadline: when to stop.
+
+    Raises:
+        UndecidedError: the program could not be refuted.
+        LimitReachedError: the deadline came first.
+    """
+    entry["limit"] = limit
     solution = {x: value for x, value in enumerate(values) if value}
     if solution and sum(solution.get(x, 0) * c for x, c in model.objective.items()) - 1 == limit:
         entry["solution"] = [[x, value] for x, value in solution.items()]
     with during("writing a proof down"):
-        entry["tree"] = refutation(model, limit, question.deadline)
+        entry["tree"] = refutation(model, limit, deadline)
     try:
         checker.refute(checker.program(entry, "program"))
     except (checker.MalformedProofError, checker.RejectedProofError) as error:
@@ -150,10 +177,22 @@ def _described(question: Subproblem, model: Model) -> Entry:
         words += ", robots idle"
     if question.most_cost is not None:
         words += f", cost at most {question.most_cost}"
+    return described(words, question.prices.scale, model, question.deadline)
+
+
+def described(name: str, scale: int, model: Model, deadline: Deadline) -> Entry:
+    """What of an entry follows from the program.
+
+    Args:
+        name: which plans it allows.
+        scale: units of its objective per unit of the domain's cost.
+        model: the program.
+        deadline: polled.
+    """
     rows = zip(model.rows, model.families, strict=True)
     return {
-        "name": words,
-        "unit": f"1/{question.prices.scale}",
+        "name": name,
+        "unit": f"1/{scale}",
         "columns": [list(bounds) for bounds in zip(model.lower, model.upper, strict=True)],
         "objective": [[x, weight] for x, weight in sorted(model.objective.items())],
         "rows": [
@@ -163,7 +202,7 @@ def _described(question: Subproblem, model: Model) -> Entry:
                 "sense": row.sense,
                 "right": row.right,
             }
-            for row, family in question.deadline.each(list(rows))
+            for row, family in deadline.each(list(rows))
         ],
     }
 

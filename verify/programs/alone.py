@@ -1,0 +1,137 @@
+"""The human alone, without a horizon, as a program: one unit of flow through the states that they reach."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Final
+
+from serendipity.model import Options, Task
+from verify.base.operators import OwnActions
+from verify.base.subproblem import prices
+from verify.base.undecided import TooManyStatesError, UndecidedError, during
+from verify.programs.effort import Effort
+from verify.programs.recorded import described, refute
+from verify.proofs.book import Entry, ProofReader, require_same
+from verify.solvers.mip import BYTES_A_TERM, Model
+
+_MOST_STATES: Final = 50_000
+
+_BYTES_A_MOVE: Final = 350 + 3 * BYTES_A_TERM
+
+
+def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None:
+    """The least cost of a plan of the human's own, by a program; None: there is no plan.
+
+    Args:
+        task: the task.
+        options: the call's; they decide on units only.
+        effort: the solver's settings; where it reads a proof, that answers instead of the solver.
+
+    Raises:
+        UndecidedError: neither was proved, or the proof is of something else.
+        LimitReachedError: the deadline came first.
+    """
+    effort.programs += 1
+    with during("writing a program for what the human can do alone"):
+        program = _Alone(task, options, effort)
+    units = program.read(effort.proof) if isinstance(effort.proof, ProofReader) else program.solve()
+    return None if units is None else Fraction(units, program.scale)
+
+
+class _Alone:
+    """Columns are moves between states; a cycle adds cost, so the best flow is a path."""
+
+    def __init__(self, task: Task, options: Options, effort: Effort) -> None:
+        self._task = task
+        self._effort = effort
+        self._deadline = effort.deadline
+        chosen = prices(task, options, (), self._deadline)
+        self.scale = chosen.scale
+        self._team = chosen.team
+        self._own = OwnActions(task, self._deadline)
+        self._number: dict[int, int] = {}
+        self.model = Model(self._deadline)
+        self._write()
+
+    def _write(self) -> None:
+        moves = self._moves()
+        self._deadline.require(len(moves) * _BYTES_A_MOVE)
+        rows: list[dict[int, int]] = [{} for _ in self._number]
+        arrivals: dict[int, int] = {}
+        ends = set(self._ends)
+        for source, target, action in moves:
+            x = self.model.binary()
+            if self._team[action]:
+                self.model.objective[x] = self._team[action]
+            rows[source][x] = 1
+            if target in ends:
+                arrivals[x] = 1
+            else:
+                rows[target][x] = rows[target].get(x, 0) - 1
+        self.model.family = "flow"
+        for state, terms in enumerate(rows):
+            if state not in ends:
+                self.model.add(terms, "==", 1 if state == 0 else 0)
+        self.model.family = "eq. 3"
+        if 0 not in ends:
+            self.model.add(arrivals, ">=", 1)
+
+    def _moves(self) -> list[tuple[int, int, int]]:
+        """All moves from states that the human reaches, the goal's left out: source, target, action."""
+        own, goal = self._own, self._task.goal
+        wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
+        states = [own.bits.of(self._task.init)]
+        self._number[states[0]] = 0
+        self._ends: list[int] = []
+        moves: list[tuple[int, int, int]] = []
+        for number, state in enumerate(states):  # grows while it is walked
+            self._deadline.check()
+            if state & wanted == wanted and not state & unwanted:
+                self._ends.append(number)
+                continue
+            for action, after in own.steps(state):
+                if after not in self._number:
+                    if len(states) >= _MOST_STATES:
+                        raise TooManyStatesError
+                    self._number[after] = len(states)
+                    states.append(after)
+                moves.append((number, self._number[after], action))
+        return moves
+
+    def solve(self) -> int | None:
+        """The least cost in units, by the solver; None: there is no plan.
+
+        Raises:
+            UndecidedError: the solver does not say, or what it says could not be written down.
+        """
+        outcome = self._effort.solve(self.model)
+        if outcome.status == "undecided":
+            raise UndecidedError(outcome.reason)
+        values: Sequence[int] = outcome.values or ()
+        units = None
+        if outcome.status == "optimal":
+            units = sum(weight * values[x] for x, weight in self.model.objective.items())
+            self._effort.calls[-1].objective = self._effort.calls[-1].cost = units
+        proof = self._effort.proof
+        if proof is not None and not isinstance(proof, ProofReader):
+            limit = None if units is None else units - 1
+            refute(proof, self._described(), self.model, limit, values, self._deadline)
+        return units
+
+    def read(self, proof: ProofReader) -> int | None:
+        """The same from a proof that the checker has accepted.
+
+        Raises:
+            UndecidedError: its next program is another one, or leaves the answer open.
+        """
+        entry = proof.take()
+        require_same(entry, self._described())
+        limit: int | None = entry["limit"]
+        if limit is None:
+            return None
+        if "solution" not in entry and self.model.upper:
+            raise UndecidedError(f"program {entry['name']!r}: a solution is missing")
+        return limit + 1
+
+    def _described(self) -> Entry:
+        words = f"the human alone, {len(self._number)} states"
+        return described(words, self.scale, self.model, self._deadline)
