@@ -94,7 +94,7 @@ class _Writer:
         costs: dict[InstantaneousAction, Any] = {}
         for i in actions:
             action = self._action(i, kinds)
-            problem.add_action(action)
+            problem.actions.append(action)  # add_action looks through all others for its name
             costs[action] = _number(self._task.team_cost(self._task.actions[i], discount) * scale)
         for goal in goals:
             self._goal(goal, problem.add_goal)
