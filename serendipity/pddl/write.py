@@ -68,10 +68,9 @@ def composite_files(task: Task, discount: Fraction) -> ClassicalFiles:
     costs = [task.team_cost(action, discount) for action in task.actions]
     scale = lcm(*(cost.denominator for cost in costs))
     facts = _fact_names(task)
-    used: set[str] = set()
     actions = {
-        _unique(_legal(action.name), used): replace(action, cost=cost * scale)
-        for action, cost in zip(task.actions, costs, strict=True)
+        name: replace(action, cost=cost * scale)
+        for name, action, cost in zip(composite_names(task), task.actions, costs, strict=True)
     }
     everything = set(range(len(facts)))
     goals = (task.goal, task.robot_goal)
@@ -79,6 +78,12 @@ def composite_files(task: Task, discount: Fraction) -> ClassicalFiles:
     return ClassicalFiles(
         _domain(actions, facts, everything), _problem(task, facts, everything, literals), scale
     )
+
+
+def composite_names(task: Task) -> list[str]:
+    """What :func:`composite_files` calls the actions of a task, in their order."""
+    used: set[str] = set()
+    return [_unique(_legal(action.name), used) for action in task.actions]
 
 
 def _mentioned(actions: Iterable[GroundAction]) -> set[int]:

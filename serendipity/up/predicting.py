@@ -3,17 +3,19 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Final
 
 from unified_planning.engines import CompilationKind, PlanGenerationResultStatus
 from unified_planning.environment import get_environment
 from unified_planning.exceptions import UPException
-from unified_planning.model import Problem
+from unified_planning.model import Problem, ProblemKind
+from unified_planning.model.problem_kind_versioning import LATEST_PROBLEM_KIND_VERSION
 from unified_planning.plans import SequentialPlan
 
 from serendipity.model import Task, UsageError
 from serendipity.up.writing import own_problem
 
-_NO_PLAN = (
+_NO_PLAN: Final = (
     PlanGenerationResultStatus.UNSOLVABLE_PROVEN,
     PlanGenerationResultStatus.UNSOLVABLE_INCOMPLETELY,
 )
@@ -30,6 +32,16 @@ class Solved:
 
     status: PlanGenerationResultStatus
     actions: tuple[int, ...] | None
+
+    @property
+    def optimal(self) -> bool:
+        """Whether it says that there is no better plan."""
+        return bool(self.status == PlanGenerationResultStatus.SOLVED_OPTIMALLY)
+
+    @property
+    def impossible(self) -> bool:
+        """Whether it says that it has proved that there is no plan."""
+        return bool(self.status == PlanGenerationResultStatus.UNSOLVABLE_PROVEN)
 
     @property
     def unsolvable(self) -> bool:
@@ -66,10 +78,8 @@ def solve_with(engine: str, problem: Problem, time_limit: float | None = None) -
         UsageError: there is no such engine, or it can't have such problems.
     """
     factory = get_environment().factory
-    if engine not in factory.engines:
-        raise UsageError(f"engine '{engine}': expected one of {', '.join(sorted(factory.engines))}")
     try:
-        with _no_credits(), factory.OneshotPlanner(name=engine) as planner:
+        with _no_credits(), factory.OneshotPlanner(name=_known(engine)) as planner:
             if planner.supports(problem.kind):
                 result = planner.solve(problem, timeout=time_limit)
                 return _solved(problem, result.status, result.plan)
@@ -83,6 +93,23 @@ def solve_with(engine: str, problem: Problem, time_limit: float | None = None) -
             return _solved(problem, result.status, plan)
     except UPException as error:
         raise UsageError(f"engine '{engine}': {' '.join(str(error).split())}") from None
+
+
+def counts_actions_only(engine: str) -> bool:
+    """Whether an engine can't have actions of different costs.
+
+    Raises:
+        UsageError: there is no such engine.
+    """
+    kind = ProblemKind(("ACTION_BASED", "ACTIONS_COST"), version=LATEST_PROBLEM_KIND_VERSION)
+    return not get_environment().factory.engine(_known(engine)).supports(kind)
+
+
+def _known(engine: str) -> str:
+    engines = get_environment().factory.engines
+    if engine not in engines:
+        raise UsageError(f"engine '{engine}': expected one of {', '.join(sorted(engines))}")
+    return engine
 
 
 def _solved(problem: Problem, status: PlanGenerationResultStatus, plan: SequentialPlan | None) -> Solved:

@@ -2,7 +2,7 @@
 
 import secrets
 from collections.abc import Iterable
-from functools import partial
+from functools import partial, reduce
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -32,6 +32,22 @@ def crosscheck(
     judges: Annotated[
         str, typer.Option(help="Who answers, separated by commas: search, automata, paper, cbc.")
     ] = "search,automata,paper",
+    judge: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--judge",
+            help="A judge from outside: up:ENGINE (unified-planning) or package.module:function.",
+            metavar="NAME",
+        ),
+    ] = None,
+    judge_command: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--judge-command",
+            help="One as a command line; {domain}, {problem} and {plan} in it stand for files.",
+            metavar="COMMAND",
+        ),
+    ] = None,
     time_limit: Annotated[
         float | None,
         typer.Option(min=0, help="Seconds for each answer and each certificate.", metavar="SECONDS"),
@@ -50,6 +66,9 @@ def crosscheck(
     The search must also answer alike, and claim no more than is so, however it is asked: under limits,
     on the way to its answer, after other calls, in a session; that takes long, and is left out where
     a limit is set.
+
+    Judges from outside are asked for the best plan of all agents: where there are any, every call is
+    one in composite mode without a horizon.
     """
     output.start_logging(verbose)
     from serendipity.evaluation.crosscheck import (
@@ -61,6 +80,7 @@ def crosscheck(
         shrink,
         write_case,
     )
+    from serendipity.evaluation.crosscheck.outside import by_command, by_name
 
     chosen = {}
     for name in judges.split(","):
@@ -68,7 +88,10 @@ def crosscheck(
             raise UsageError(f"judges: expected some of {', '.join(JUDGES)}, got '{name}'")
         chosen[name] = JUDGES[name]
 
-    judged = partial(compare, judges=chosen, time_limit=time_limit, memory_limit=memory_limit)
+    outside = [*map(by_name, judge or ()), *map(by_command, judge_command or ())]
+    judged = partial(
+        compare, judges=chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
+    )
     calls: Iterable[PlanCall]
     if not files and not agent and example is None:
         first = seed
@@ -79,21 +102,27 @@ def crosscheck(
     else:
         reading = Deadline(time_limit, memory_limit)
         task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=reading)
-        calls = [PlanCall(task, {"mode": mode, "discount": d}) for mode in _MODES for d in _DISCOUNTS]
+        modes = ("composite",) if outside else _MODES
+        calls = [PlanCall(task, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS]
         total = len(calls)
+    calls = (reduce(lambda call, stranger: stranger.fitted(call), outside, call) for call in calls)
     with progress.counting("calls", quiet=quiet) as on_progress:
         for checked, call in enumerate(calls):
             on_progress(checked, total)
             found = judged(call)
             if found is not None:
-                smallest = shrink(
-                    found.call, shows_it_too(found, chosen, time_limit=time_limit, memory_limit=memory_limit)
+                again = shows_it_too(
+                    found, chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
                 )
+                smallest = shrink(found.call, again)
                 found = judged(smallest) or found
                 break
         else:
-            output.say(f"{total} calls, {', '.join(chosen)}: 0 disagreements\n")
+            names = ", ".join([*chosen, *(stranger.name for stranger in outside)])
+            output.say(f"{total} calls, {names}: 0 disagreements\n")
             return ExitCode.ANSWERED
-    commands = write_case(found, folder)
+    words = [word for name in judge or () for word in ("--judge", name)]
+    words += [word for text in judge_command or () for word in ("--judge-command", text)]
+    commands = write_case(found, folder, words)
     output.say(f"after {checked} calls without, a disagreement: {found}\nreproduce: {commands}\n")
     return ExitCode.REFUTED

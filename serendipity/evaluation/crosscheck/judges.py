@@ -1,12 +1,14 @@
 """The judges: independent answers to one call, and whether they agree."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
 from serendipity.evaluation.crosscheck.calls import PlanCall
 from serendipity.evaluation.crosscheck.laws import LAWS, Law
+from serendipity.evaluation.crosscheck.outside.claims import OutsideJudge, fault
+from serendipity.evaluation.crosscheck.outside.claims import said as said_by
 from serendipity.evaluation.crosscheck.refusals import may_be_refused
 from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
@@ -80,6 +82,7 @@ def compare(
     judges: Mapping[str, Judge],
     laws: Mapping[str, Law] = LAWS,
     *,
+    outside: Sequence[OutsideJudge] = (),
     time_limit: float | None = None,
     memory_limit: float | None = None,
 ) -> Disagreement | None:
@@ -93,6 +96,7 @@ def compare(
         call: what is asked.
         judges: by name.
         laws: by name.
+        outside: judges from outside; the call is one that they can be asked.
         time_limit: seconds for each answer, and for each certificate; or None.
         memory_limit: what the process may have in memory, in MiB, or None.
     """
@@ -111,6 +115,11 @@ def compare(
             known.add(figures)
         if answer is not None:
             answers[name] = answer
+    proved = next((a for a in answers.values() if a.status in ("optimal", "infeasible")), None)
+    for stranger in outside:
+        words, agrees = _asked_outside(call, stranger, proved, limits)
+        said[stranger.name] = words
+        sound = sound and agrees
     if not sound or len(known) > 1:
         return Disagreement(call, said)
     if "search" in answers and time_limit is None and memory_limit is None:
@@ -123,6 +132,7 @@ def shows_it_too(
     found: Disagreement,
     judges: Mapping[str, Judge],
     *,
+    outside: Sequence[OutsideJudge] = (),
     time_limit: float | None = None,
     memory_limit: float | None = None,
 ) -> Callable[[PlanCall], bool]:
@@ -131,13 +141,13 @@ def shows_it_too(
     Args:
         found: the disagreement.
         judges: by name.
+        outside: judges from outside.
         time_limit: seconds for each answer and certificate, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
     """
     if found.law is None:
-        return lambda call: (
-            compare(call, judges, {}, time_limit=time_limit, memory_limit=memory_limit) is not None
-        )
+        differ = partial(compare, outside=outside, time_limit=time_limit, memory_limit=memory_limit)
+        return lambda call: differ(call, judges, {}) is not None
     law, search = {found.law: LAWS[found.law]}, {"search": judges["search"]}
 
     def broken(call: PlanCall) -> bool:
@@ -166,6 +176,19 @@ def _asked(
     if refuted is not None:
         return None, f"{figures} (refuted: {refuted.claim}: {refuted.reason})", result
     return figures, str(figures), result if result.status != "unknown" else None
+
+
+def _asked_outside(
+    call: PlanCall, judge: OutsideJudge, proved: Result | None, limits: Callable[[], Deadline]
+) -> tuple[str, bool]:
+    """What a judge from outside says, and whether it can be so."""
+    try:
+        claim = judge.answer(call, limits())
+        wrong = fault(call, claim, proved)
+    except Exception as error:  # whatever it is, it is found
+        return _crash(error), False
+    words = said_by(call, claim)
+    return (words, True) if wrong is None else (f"{words} (refuted: {wrong})", False)
 
 
 def _broken(call: PlanCall, answer: Result, laws: Mapping[str, Law]) -> Iterator[tuple[str, str]]:

@@ -1,20 +1,27 @@
 """A disagreement as files: the task in PDDL and the command lines that show it."""
 
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
 from serendipity.evaluation.crosscheck.calls import PlanCall
 from serendipity.evaluation.crosscheck.judges import Disagreement
-from serendipity.pddl.write import task_files
+from serendipity.model.numbers import exact
+from serendipity.pddl.write import composite_files, task_files
 from serendipity.writing.together import write_together
 
 PLAN: Final = "plan.txt"
 """File of the human plan that is given."""
 
 
-def write_case(found: Disagreement, folder: Path) -> Path:
+def write_case(found: Disagreement, folder: Path, outside: Sequence[str] = ()) -> Path:
     """Write ``folder`` (task, ``plan.txt`` where a plan is given, ``commands.txt``) whole; returns the last.
+
+    Args:
+        found: the disagreement.
+        folder: where to.
+        outside: the words that name judges from outside: then what they were given is written, too.
 
     Raises:
         OSError: it can't be written.
@@ -27,11 +34,16 @@ def write_case(found: Disagreement, folder: Path) -> Path:
     }
     if call.human_plan is not None:
         texts[folder / PLAN] = "".join(f"{_written(name)}\n" for name in call.human_plan)
+    if outside:
+        files = composite_files(call.task, exact(call.options.get("discount", "0"), "discount"))
+        texts |= {folder / "joint-domain.pddl": files.domain, folder / "joint-problem.pddl": files.problem}
     lines = [f"# {judge}: {words}" for judge, words in found.said.items()]
     if len(call.task.named) < len(call.task.actions):
         lines.append("# variants of one action are written under names of their own, which may hide it")
     if call.seed is not None:
-        lines.append(f"serendipity crosscheck --count 1 --seed {call.seed}")
+        lines.append(
+            shlex.join(["serendipity", *f"crosscheck --count 1 --seed {call.seed}".split(), *outside])
+        )
     lines += [command_line(call, folder, command) for command in ("plan", "solve", "solve --encoding paper")]
     commands = folder / "commands.txt"
     texts[commands] = "\n".join([*lines, ""])
