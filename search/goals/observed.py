@@ -6,6 +6,7 @@ matched) is exact; a plan that does not embed them never matches the last one.
 """
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -40,30 +41,52 @@ class Likelihood:
     plan: HumanPlan | None
 
 
-def explanations(
-    task: Task, goals: Sequence[Condition], observed: Sequence[str], deadline: Deadline | None = None
-) -> list[Likelihood]:
-    """One explanation for each goal.
+class Explainer:
+    """What explains observations, for each of several goals; tables are kept from question to question.
 
     Args:
         task: the task; robots idle, its own goal plays no part.
         goals: the candidate goals.
-        observed: names of actions, in the order in which the human did them.
-        deadline: deadline and cancellation.
     """
-    deadline = deadline or Deadline()
-    nothing = Condition()
-    return [_Search(task.with_goal(goal, nothing), tuple(observed), deadline).explanation() for goal in goals]
+
+    def __init__(self, task: Task, goals: Sequence[Condition]) -> None:
+        nothing = Condition()
+        self._prepared = [PreparedTask(task.with_goal(goal, nothing)) for goal in goals]
+
+    def explain(self, observed: Sequence[str], deadline: Deadline | None = None) -> list[Likelihood]:
+        """One explanation for each goal.
+
+        Args:
+            observed: names of actions, in the order in which the human did them.
+            deadline: deadline and cancellation.
+        """
+        deadline = deadline or Deadline()
+        return [_Search(one, tuple(observed), deadline).explanation() for one in self._prepared]
+
+    def at(self, state: frozenset[int]) -> "Explainer":
+        """The same from another state."""
+        moved = copy(self)
+        moved._prepared = [one.at(state) for one in self._prepared]
+        return moved
+
+
+def explanations(
+    task: Task, goals: Sequence[Condition], observed: Sequence[str], deadline: Deadline | None = None
+) -> list[Likelihood]:
+    """One explanation for each goal; see :class:`Explainer`."""
+    return Explainer(task, goals).explain(observed, deadline)
 
 
 class _Search:
     """A* over what matters to one goal and to the observations."""
 
-    def __init__(self, task: Task, observed: tuple[str, ...], deadline: Deadline) -> None:
+    def __init__(self, prepared: PreparedTask, observed: tuple[str, ...], deadline: Deadline) -> None:
+        task = prepared.task
         seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
         asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
-        prepared = PreparedTask(task)
-        tables = prepared.including(frozenset(asked), deadline)
+        tables = prepared.plain(deadline)
+        if not all(map(tables.packed.is_useful, seen)):  # what they ask for is packed otherwise
+            tables = prepared.including(frozenset(asked), deadline)
         context = SearchContext(prepared, Options(), deadline, tables=tables)
         packed = context.packed
         own = sorted({op.action for op in packed.own} | seen)

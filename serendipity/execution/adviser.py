@@ -9,6 +9,9 @@ from serendipity.facade.session import Session
 from serendipity.model.answers.result import Result
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import apply
+from serendipity.model.task.execution import actions_named
+from serendipity.model.task.plans import PlanStep, Window
 from serendipity.model.task.task import Task
 
 _MOST: Final = 3
@@ -31,6 +34,7 @@ class Adviser:
             "interference": options.interference,
         }
         self._sessions: OrderedDict[frozenset[int], Session] = OrderedDict()
+        self._kept: dict[frozenset[int], tuple[frozenset[int], Result]] = {}
 
     def advise(
         self,
@@ -47,18 +51,42 @@ class Adviser:
             removed: ids of actions that nobody may do.
             deadline: of the call; the best answer by then counts.
         """
-        session = self._session(removed)
-        changed = session.task.init ^ state
-        session.change({self._task.facts[fact]: fact in state for fact in sorted(changed)})
-        session.follow(expected)
-        return session.plan(deadline=deadline)
+        kept = self._kept.get(removed)
+        if kept is None or kept[0] != state:
+            session = self._session(removed)
+            changed = session.task.init ^ state
+            session.change({self._task.facts[fact]: fact in state for fact in sorted(changed)})
+            session.follow(expected)
+            result = session.plan(deadline=deadline)
+        else:
+            result = kept[1]
+        self._keep(state, removed, result)
+        return result
+
+    def _keep(self, state: frozenset[int], removed: frozenset[int], result: Result) -> None:
+        """What is left of a plan that is proved to be the best stays so while all goes as planned."""
+        if result.status != "optimal" or result.plan is None:
+            self._kept.pop(removed, None)
+            return
+        now, rest = [], []
+        for step in result.plan:
+            if step.epoch > 1:
+                rest.append(PlanStep(step.epoch - 1, step.agents, step.action, step.cost))
+            else:
+                ids = actions_named(self._task, step.action, step.agents)
+                actions = [self._task.actions[i] for i in ids]
+                now.append(next(action for action in actions if action.applicable(state)))
+        window = result.window
+        if window is not None:
+            window = None if window.start == 1 else Window(window.start - 1, window.end - 1)
+        self._kept[removed] = apply(state, *now), replace(result, plan=tuple(rest), window=window)
 
     def _session(self, removed: frozenset[int]) -> Session:
         session = self._sessions.get(removed)
         if session is None:
             session = self._sessions[removed] = Session(self._without(removed), **self._options)
             if len(self._sessions) > _MOST:
-                self._sessions.popitem(last=False)
+                self._kept.pop(self._sessions.popitem(last=False)[0], None)
         self._sessions.move_to_end(removed)
         return session
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from search.goals import explanations
+from search.goals import Explainer
 from serendipity.model.numbers import Number
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
@@ -30,7 +30,8 @@ class Beliefs:
 
     def __init__(self, task: Task, candidates: Sequence[CandidateGoal], beta: float) -> None:
         self.candidates = tuple(candidates)
-        self._start = task
+        self._task = task
+        self._explainer = Explainer(task, [candidate.goal for candidate in candidates])
         self._beta = beta
         self._priors = [candidate.prior for candidate in candidates]
         self._observed: list[str] = []
@@ -52,7 +53,7 @@ class Beliefs:
 
     def saw(self, own: int | None, executed: Sequence[int]) -> None:
         """Take in an epoch: what the person did alone, and everything that took place."""
-        actions = self._start.actions
+        actions = self._task.actions
         if own is not None:
             self._observed.append(actions[own].name)
         others = (actions[i] for i in executed if i != own)
@@ -78,14 +79,13 @@ class Beliefs:
         self._rule_out()
         if self._disturbed:
             self._priors, self._observed = list(self.weights), []
-            self._start = self._start.at(state)
+            self._explainer = self._explainer.at(state)
             self._disturbed = False
 
     def _weigh(self, deadline: Deadline) -> None:
-        goals = [candidate.goal for candidate in self.candidates]
-        found = explanations(self._start, goals, self._observed, deadline)
+        found = self._explainer.explain(self._observed, deadline)
         weighed = [replace(c, prior=prior) for c, prior in zip(self.candidates, self._priors, strict=True)]
-        recognition = posterior(self._start, weighed, tuple(self._observed), found, self._beta)
+        recognition = posterior(self._task, weighed, tuple(self._observed), found, self._beta)
         self.weights = [goal.weight for goal in recognition.goals]
 
     def possible(self) -> list[int]:

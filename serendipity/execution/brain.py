@@ -1,9 +1,8 @@
 """The robots' side: what they know of the person, and what they decide in each epoch."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from serendipity.execution.adviser import Adviser
 from serendipity.execution.beliefs import Beliefs
@@ -25,27 +24,8 @@ if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
 
 
-@dataclass(frozen=True, slots=True)
-class _Course:
-    """A plan that robots are on.
-
-    Attributes:
-        prospect: the plan, for a goal.
-        began: the epoch that is its first.
-        removed: ids of the actions that it had to do without.
-        expected: the state before the next epoch, if all goes as planned.
-    """
-
-    prospect: Prospect
-    began: int
-    removed: frozenset[int]
-    expected: frozenset[int]
-
-    def at(self, epoch: int) -> tuple[PlanStep, ...]:
-        """What is left of the plan, its epochs counted from the given one."""
-        past = epoch - self.began
-        steps = self.prospect.result.plan or ()
-        return tuple(PlanStep(s.epoch - past, s.agents, s.action, s.cost) for s in steps if s.epoch > past)
+_TIME_TO_TELL: Final = 0.5
+"""The share of the time that has to be left for finding out why nothing is done."""
 
 
 class Brain:
@@ -70,7 +50,6 @@ class Brain:
         self._promises = Promises(tasks, strict=options.strict, told=told)
         self._advisers = [Adviser(one, options) for one in tasks]
         self._words = Words(task, self._beliefs)
-        self._course: _Course | None = None
         self._human = task.agents[task.human]
         self._agents = {name: i for i, name in enumerate(task.agents)}
 
@@ -89,18 +68,12 @@ class Brain:
 
     def surprised(self) -> None:
         """The world is other than what actions have made it."""
-        self._course = None
         if self._beliefs is not None:
             self._beliefs.disturbed()
 
     def drop(self, robots: Iterable[int]) -> None:
         """Robots are out of order: nothing that they take part in is possible any more."""
         self._out |= self._promises.hands.of(tuple(robots))
-        self._course = None
-
-    def forget(self) -> None:
-        """Give up the plan that robots are on."""
-        self._course = None
 
     # -- what they decide
 
@@ -124,17 +97,14 @@ class Brain:
         unable = self._out | self._promises.hands.of(busy)
         removed = untouched | unable
         while not self._promises.hands.all <= removed:
-            course = self._on_course(outlook, removed, weights) or self._planned(
-                outlook, removed, weights, deadline
-            )
-            if course is None:
+            prospect = self._planned(world, removed, weights, deadline)
+            if prospect is None:
                 torn = self._torn(world, {goal: unable | own for goal, own in off.items()}, deadline)
                 return self._idle(outlook, *(self._words.unsure() if torn else self._words.nothing()))
-            plan = course.at(outlook.epoch)
-            own, offers = self._now(outlook, plan)
+            own, offers = self._now(outlook, prospect)
             broken = self._promises.broken_by([*running, *own], offers, world, weights, deadline)
             if broken is None:
-                return self._decided(outlook, course, plan, [*running, *own], offers)
+                return self._decided(outlook, prospect, [*running, *own], offers)
             if broken in running:
                 running.remove(broken)
             else:
@@ -148,32 +118,20 @@ class Brain:
         self._beliefs.update(state, deadline)
         return {goal: self._beliefs.weights[goal] for goal in self._beliefs.possible()}
 
-    def _on_course(
-        self, outlook: Outlook, removed: frozenset[int], weights: dict[int, Fraction]
-    ) -> _Course | None:
-        """The plan that robots are on, where nothing has changed that could make another one better."""
-        course = self._course
-        if course is None or len(weights) > 1 or course.prospect.goal not in weights:
-            return None
-        proved = course.prospect.result.status == "optimal"
-        same = course.expected == outlook.world.state and course.removed == removed
-        return course if proved and same else None
-
     def _planned(
-        self, outlook: Outlook, removed: frozenset[int], weights: dict[int, Fraction], deadline: Deadline
-    ) -> _Course | None:
+        self, world: World, removed: frozenset[int], weights: dict[int, Fraction], deadline: Deadline
+    ) -> Prospect | None:
         """The plan that costs least in the mean over the goals, or None where idling costs no more."""
         total = sum(weights.values())
         prospects = []
         for goal, weight in weights.items():
             following = self._promises.to(goal)
-            result = self._advised(goal, outlook.world, removed, deadline)
+            result = self._advised(goal, world, removed, deadline)
             if result is not None:
                 promise = following.promise()
                 prospects.append(Prospect(goal, result, following.prepared, promise, weight / total))
         certain = len(weights) == 1 and prospects
-        best = prospects[0] if certain else best_for_all(prospects, self._options, deadline)
-        return None if best is None else _Course(best, outlook.epoch, removed, outlook.world.state)
+        return prospects[0] if certain else best_for_all(prospects, self._options, deadline)
 
     def _advised(self, goal: int, world: World, removed: frozenset[int], deadline: Deadline) -> Result | None:
         """The best plan for a goal; None where the person has nothing left to do for it."""
@@ -183,7 +141,8 @@ class Brain:
 
     def _torn(self, world: World, removed: dict[int, frozenset[int]], deadline: Deadline) -> bool:
         """Whether help would pay if it were known which goal it is; taken for no if time does not tell."""
-        if len(removed) < 2:
+        left = deadline.left()
+        if len(removed) < 2 or (left is not None and left < _TIME_TO_TELL * (left + deadline.elapsed())):
             return False
         try:
             advised = (self._advised(goal, world, off, deadline) for goal, off in removed.items())
@@ -191,44 +150,38 @@ class Brain:
         except LIMITS:
             return False
 
-    def _now(self, outlook: Outlook, plan: Sequence[PlanStep]) -> tuple[list[PlanStep], tuple[PlanStep, ...]]:
+    def _now(self, outlook: Outlook, prospect: Prospect) -> tuple[list[PlanStep], tuple[PlanStep, ...]]:
         """What robots do by themselves in the first epoch of a plan, and what they offer."""
         human = self._human
-        now = [PlanStep(outlook.epoch, s.agents, s.action, s.cost) for s in plan if s.epoch == 1]
+        now = [PlanStep(outlook.epoch, s.agents, s.action, s.cost) for s in prospect.plan if s.epoch == 1]
         offers = tuple(step for step in now if human in step.agents and len(step.agents) > 1)
         return [step for step in now if human not in step.agents], offers
 
     def _decided(
         self,
         outlook: Outlook,
-        course: _Course,
-        plan: tuple[PlanStep, ...],
+        prospect: Prospect,
         ready: Sequence[PlanStep],
         offers: tuple[PlanStep, ...],
     ) -> Decided:
-        world, prospect = outlook.world, course.prospect
-        now = [step for step in plan if step.epoch == 1]
-        expected = next((step for step in now if self._human in step.agents), None)
-        after = world.after(world.of(step) for step in now)
-        self._course = _Course(prospect, course.began, course.removed, after)
-        verdict, reason = self._words.decided(outlook, prospect, plan, [*ready, *offers])
+        his = (step for step in prospect.plan if step.epoch == 1 and self._human in step.agents)
+        verdict, reason = self._words.decided(outlook.epoch, prospect, [*ready, *offers])
         return Decided(
             outlook.epoch,
             verdict,
             reason,
             actions=tuple(ready),
             offers=offers,
-            expected=expected,
-            plan=plan,
-            window=prospect.result.window if course.began == outlook.epoch else None,
-            cost=sum(step.cost for step in plan),
-            alone=float(prospect.alone) if course.began == outlook.epoch else None,
+            expected=next(his, None),
+            plan=prospect.plan,
+            window=prospect.result.window,
+            cost=sum(step.cost for step in prospect.plan),
+            alone=float(prospect.alone),
             goals=self.goals,
         )
 
     def _idle(self, outlook: Outlook, verdict: str, reason: str, running: Sequence[PlanStep] = ()) -> Decided:
         """No plan: at most something that was begun is finished."""
-        self._course = None
         if running:
             verdict, reason = "helps", self._words.finishes(running[0])
         return Decided(outlook.epoch, verdict, reason, actions=tuple(running), goals=self.goals)

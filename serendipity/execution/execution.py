@@ -218,7 +218,6 @@ class Execution:
                 self._brain.decide(self._outlook(), Deadline(_PREPARATION))
         except LIMITS:
             pass
-        self._brain.forget()
 
     def _decide(self) -> Decided:
         clock = Deadline(self._deadline)
@@ -239,7 +238,6 @@ class Execution:
         return self._deadline is not None and seconds > self._deadline
 
     def _late(self, seconds: float) -> Decided:
-        self._brain.forget()
         words = f"too late: no decision within {self._deadline:g} s, robots do nothing"
         return Decided(self.epoch, "late", words, goals=self._brain.goals, seconds=seconds)
 

@@ -187,6 +187,3 @@ class _Script:
 
     def drop(self, robots: Iterable[int]) -> None:
         """The log knows."""
-
-    def forget(self) -> None:
-        """There is nothing to forget."""

@@ -45,6 +45,3 @@ class Robots(Protocol):
 
     def drop(self, robots: Iterable[int]) -> None:
         """Robots, by agent ids, are out of order: nothing that they take part in is possible any more."""
-
-    def forget(self) -> None:
-        """Give up the plan that robots are on."""

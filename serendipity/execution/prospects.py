@@ -10,7 +10,7 @@ from serendipity.model.answers.result import Result
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import Step
+from serendipity.model.task.plans import PlanStep, Step
 from serendipity.model.task.task import HumanPlan
 
 
@@ -31,6 +31,11 @@ class Prospect:
     prepared: PreparedTask
     promise: HumanPlan
     weight: Fraction
+
+    @property
+    def plan(self) -> tuple[PlanStep, ...]:
+        """What everybody does by that plan, its epochs counted from the one that is to come."""
+        return self.result.plan or ()
 
     @property
     def alone(self) -> Fraction:
@@ -69,10 +74,7 @@ def _mean(
 ) -> Fraction | None:
     """The mean cost of a prospect's robots' part; None where a person would miss the goal."""
     task = chosen.prepared.task
-    steps = [
-        Step(step.epoch, actions_named(task, step.action, step.agents)[0])
-        for step in chosen.result.plan or ()
-    ]
+    steps = [Step(step.epoch, actions_named(task, step.action, step.agents)[0]) for step in chosen.plan]
     total = Fraction(0)
     for other in prospects:
         played = simulate(

@@ -55,6 +55,7 @@ class Run:
         slowest: seconds of the longest decision.
         known: the epoch from which on the posterior of the person's goal was at least 0.9; None
             where it never was, or there was nothing to recognise.
+        leads: the same for the epoch from which on it was the most probable one.
         wrong: the number of epochs in which robots did something while they held another goal than
             the person's for the most probable one.
     """
@@ -71,6 +72,7 @@ class Run:
     late: int
     slowest: float
     known: int | None
+    leads: int | None
     wrong: int
 
     def to_dict(self) -> dict[str, Any]:
@@ -302,12 +304,13 @@ def _works(task: Task, plan: HumanPlan, state: frozenset[int]) -> bool:
 def _recognised(run: Execution, true: str | None) -> dict[str, Any]:
     """``known`` and ``wrong`` of a row, by the name of the person's goal among the candidates."""
     if true is None:
-        return {"known": None, "wrong": 0}
-    known, wrong = None, 0
+        return {"known": None, "leads": None, "wrong": 0}
+    known, leads, wrong = None, None, 0
     for passed in run.passed:
         goals = passed.decided.goals
-        sure = goals[true] >= SURE
-        known = (known or passed.epoch) if sure else None
+        known = (known or passed.epoch) if goals[true] >= SURE else None
+        first = all(share < goals[true] for name, share in goals.items() if name != true)
+        leads = (leads or passed.epoch) if first else None
         acted = bool(passed.decided.actions or passed.decided.offers)
-        wrong += acted and max(goals, key=lambda name: goals[name]) != true
-    return {"known": known, "wrong": wrong}
+        wrong += acted and goals[true] < max(goals.values())
+    return {"known": known, "leads": leads, "wrong": wrong}

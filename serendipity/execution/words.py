@@ -9,7 +9,6 @@ from serendipity.model.task.task import Task
 
 if TYPE_CHECKING:
     from serendipity.execution.beliefs import Beliefs
-    from serendipity.execution.outlook import Outlook
     from serendipity.execution.prospects import Prospect
 
 _ASIDE = "stays out of the way"
@@ -47,30 +46,23 @@ class Words:
         """Help would pay for some goals, and not in the mean."""
         return "unsure", f"waits: not sure which goal ({self._likely()})"
 
-    def decided(
-        self,
-        outlook: "Outlook",
-        prospect: "Prospect",
-        plan: Sequence[PlanStep],
-        now: Sequence[PlanStep],
-    ) -> tuple[str, str]:
+    def decided(self, epoch: int, prospect: "Prospect", now: Sequence[PlanStep]) -> tuple[str, str]:
         """Verdict and reason of a decision that follows a plan.
 
         Args:
-            outlook: the epoch.
-            prospect: whose plan it is.
-            plan: what is left of it.
+            epoch: the epoch.
+            prospect: the plan.
             now: what robots do and offer in this epoch.
         """
         if not prospect.result.opportunity:
             return ("works", "sees to goals of its own") if now else self.nothing()
         if now:
-            cost = sum(step.cost for step in plan)
+            cost = sum(step.cost for step in prospect.plan)
             return "helps", f"helps: {plain(cost)} for the team from here{self._guess(prospect)}"
-        later = min((s.epoch for s in plan if s.agents != (self._human,)), default=None)
+        later = min((s.epoch for s in prospect.plan if s.agents != (self._human,)), default=None)
         if later is None:
             return "aside", f"{_ASIDE}: all that helps is done"
-        part = f"its part comes in epoch {outlook.epoch + later - 1}"
+        part = f"its part comes in epoch {epoch + later - 1}"
         if self._beliefs is not None and len(self._beliefs.possible()) > 1:
             return "unsure", f"waits: not sure which goal ({self._likely()}); {part}"
         return "waits", f"waits: {part}"
