@@ -80,6 +80,9 @@ static int a_star_begin(AStar *s, const Word *state, Cost limit, size_t allowed)
     return RUNNING;
 }
 
+/* Of equal entries the latest is expanded first, so the first operator comes last: plans are found near the canonical one. */
+static int later_first(const void *a, const void *b) { return *(const int32_t *)b - *(const int32_t *)a; }
+
 static void expand(AStar *s, int32_t id) {
     const Problem *p = s->problem;
     Node *node = node_of(&s->table, id);
@@ -90,6 +93,7 @@ static void expand(AStar *s, int32_t id) {
     s->expanded++;
     successors(p, state, &s->applicable);
     leave_stubborn(&s->stubborn, p, &s->table, state, &s->applicable);
+    qsort(s->applicable.at, s->applicable.count, sizeof(int32_t), later_first);
     for (size_t i = 0; i < s->applicable.count; i++) {
         int32_t op = s->applicable.at[i];
         apply(p, op, state, s->row);
