@@ -52,13 +52,13 @@ def main() -> int:
             for place in WALK:
                 page.click(f'.reach[data-place="{place}"]')
                 page.wait_for_selector(f'.reach[data-place="{place}"]', state="detached")
-            photograph(page, "play-epoch-6.png")
+            photograph(page, "play-epoch-6.png", whole=False)
     return 0
 
 
-def photograph(page: Any, name: str) -> None:
-    """The whole page as an image of the documentation."""
-    shot = Image.open(io.BytesIO(page.screenshot(full_page=True))).convert("RGB")
+def photograph(page: Any, name: str, *, whole: bool = True) -> None:
+    """A page, or what of it is in sight, as an image of the documentation."""
+    shot = Image.open(io.BytesIO(page.screenshot(full_page=whole))).convert("RGB")
     image = IMAGES / name
     shot.quantize(COLOURS, dither=Image.Dither.NONE).save(image, optimize=True)
     sys.stdout.write(f"{image.relative_to(Path.cwd())}\n")

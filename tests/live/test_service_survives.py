@@ -60,6 +60,15 @@ def test_killed_workers_are_replaced_and_nobody_notices(server: Server) -> None:
     assert figure(server, "serendipity_workers_replaced_total") >= 2
 
 
+def test_figures_stay_few_whatever_is_asked(server: Server) -> None:
+    for number in range(5):
+        server.client.request(f"ODD{number}", f"/nowhere/{number}")
+    text = server.client.get("/metrics").text
+    assert "ODD" not in text
+    assert "nowhere" not in text
+    assert 'serendipity_requests_total{method="other",path="other",status="404"}' in text
+
+
 def busy(server: Server) -> int:
     return int(server.client.get("/health").json()["busy"])
 

@@ -86,7 +86,8 @@ def play(
     else:
         shown = example if named else _EXAMPLE
         task = naming.load(files, human, robot, agent, team, shown, quiet=quiet)
-        host = open_table(shown or task.name, task, condition=robots, **how)
+        with progress.working("getting ready", quiet=quiet):
+            host = open_table(shown or task.name, task, condition=robots, **how)
     listener = addresses.listening("127.0.0.1", port)
     if not quiet:
         output.say(f"Play on {addresses.url(listener)}; Ctrl-C stops it.\n")

@@ -3,7 +3,6 @@
 import asyncio
 import json
 from collections.abc import Sequence
-from contextlib import suppress
 from importlib.resources import files
 from typing import Any, Final, Protocol
 
@@ -19,6 +18,8 @@ from serendipity.model import SerendipityError
 
 _TYPES: Final = {"play.js": "text/javascript", "map.js": "text/javascript", "play.css": "text/css"}
 _KIB: Final = 1024
+_PATIENCE: Final = 5.0
+"""Seconds that a page has to take what it is told."""
 
 
 class Host(Protocol):
@@ -115,11 +116,17 @@ class _Pages:
                 return
             if answer is None:
                 view = await self._view()
-                for page in list(self._open):
-                    with suppress(WebSocketDisconnect, RuntimeError):
-                        await page.send_json(view)
+                await asyncio.gather(*(self._tell(page, view) for page in list(self._open)))
             elif answer:
                 await socket.send_json(answer)
+
+    async def _tell(self, page: WebSocket, view: dict[str, Any]) -> None:
+        """Have a page show something; one that does not take it in time is not waited for."""
+        try:
+            async with asyncio.timeout(_PATIENCE):
+                await page.send_json(view)
+        except (WebSocketDisconnect, RuntimeError, TimeoutError):
+            self._open.discard(page)
 
     async def _view(self) -> dict[str, Any]:
         return {"kind": "view", **await asyncio.to_thread(self._host.view)}

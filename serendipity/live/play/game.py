@@ -84,7 +84,7 @@ class Game:
             "condition": self.setting.condition,
             "sight": "everywhere" if self._eyes.everywhere else "here",
             "human": self.human,
-            "goal": self._words.goal(),
+            "goal": self._words.goal(self._eyes.belief),
             "epoch": run.epoch,
             "map": self._stage.picture(),
             "legend": self._stage.legend(),

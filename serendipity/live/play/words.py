@@ -49,12 +49,14 @@ class Words:
         human = self._task.agents[self._task.human]
         return " and ".join(agent for agent in step.agents if agent != human)
 
-    def goal(self) -> list[str]:
-        """What the person wants, fact by fact."""
+    def goal(self, known: frozenset[int]) -> list[dict[str, str | bool]]:
+        """What the person wants, fact by fact, and what of it they know to hold."""
         human = parts(self._task.agents[self._task.human])
-        said = []
-        for wanted, facts in (("", self._task.goal.positive), ("not ", self._task.goal.negative)):
-            for fact in facts:
-                words = without([human], parts(self._task.facts[fact]))
-                said.append(wanted + " ".join(words).replace("_", " "))
+        goal = self._task.goal
+        said: list[dict[str, str | bool]] = []
+        for fact in (*goal.positive, *goal.negative):
+            words = " ".join(without([human], parts(self._task.facts[fact]))).replace("_", " ")
+            wanted = fact in goal.positive
+            text = words if wanted else f"not {words}"
+            said.append({"text": text, "holds": (fact in known) == wanted})
         return said

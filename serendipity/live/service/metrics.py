@@ -19,6 +19,9 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from serendipity.live.service.sessions import Sessions
 from serendipity.live.workers.pool import Pool
 
+_METHODS = ("GET", "POST", "DELETE", "HEAD", "OPTIONS")
+"""Others can be anything, and each would be a row."""
+
 _BUCKETS = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60)
 
 
@@ -103,5 +106,6 @@ class Counted:
             await self._app(scope, receive, noted)
         finally:
             path = getattr(scope.get("route"), "path", "other")
-            self._metrics.requests.labels(path, scope["method"], status).inc()
+            method = scope["method"] if scope["method"] in _METHODS else "other"
+            self._metrics.requests.labels(path, method, status).inc()
             self._metrics.seconds.labels(path).observe(perf_counter() - begun)

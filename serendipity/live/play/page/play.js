@@ -62,7 +62,11 @@
   }
 
   function showPlay(fresh) {
-    id("goal").textContent = view.goal.join(", ");
+    id("goal").replaceChildren(...view.goal.map((part) => {
+      const item = make("li", part.text, part.holds ? "holds" : "");
+      if (part.holds) item.append(make("span", " (done)", "hidden"));
+      return item;
+    }));
     id("epoch").textContent = view.done ? view.epoch - 1 : view.epoch;
     theMap.show(view.map, view.can, act, fresh);
     showLegend();
