@@ -36,7 +36,7 @@ def expected(**options: Any) -> dict[str, Any]:
         {"discount": "3/5", "mode": "communication"},
         {"mode": "composite", "horizon": "inf"},
         {"discount": 0.9, "human_model": "observant"},
-        {"mode": "assistance"},
+        {"mode": "individual"},
     ],
     ids=str,
 )

@@ -1,5 +1,7 @@
 """What is wrong gets 4xx and one line: the one that the command line says."""
 
+import sys
+
 import pytest
 
 from serendipity.cli.app import main
@@ -119,6 +121,17 @@ def test_a_token_where_there_is_one() -> None:
 def test_others_are_served_with_a_token_only(capsys) -> None:
     assert main(["serve", "--host", "0.0.0.0"]) == 2
     assert capsys.readouterr().err.startswith("Error: --host: others can reach 0.0.0.0, so a token is needed")
+
+
+@pytest.mark.parametrize("command", ["serve", "play"])
+def test_the_extra_is_named_where_it_is_missing(command: str, monkeypatch, capsys) -> None:
+    for name in [name for name in sys.modules if name.startswith("serendipity.live")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "starlette.middleware", None)
+    assert main([command]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"Error: {command}: needs ")
+    assert said.endswith("install serendipity[live]\n")
 
 
 def test_a_port_in_use_is_one_line(server: Server, capsys) -> None:

@@ -140,7 +140,7 @@ def test_workers_end_with_a_server_that_is_killed() -> None:
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
 def test_a_signal_ends_it(number: int, long_call: dict[str, object]) -> None:
     with serving("--workers", "1") as server, begin(server, "/plan", long_call):
         until(lambda: busy(server) == 1)
@@ -149,6 +149,7 @@ def test_a_signal_ends_it(number: int, long_call: dict[str, object]) -> None:
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
 
 
+@pytest.mark.slow
 def test_memory_has_a_limit(long_call: dict[str, object]) -> None:
     with serving("--workers", "1", "--memory-limit", "30") as server:
         answer = server.post("/plan", long_call)

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Final
 
 import serendipity
+from serendipity.facade.session import Session
 from serendipity.live.workers.given_tasks import GivenTasks
 from serendipity.live.workers.held_sessions import HeldSessions
 from serendipity.model import Deadline, Options, Result, UsageError
@@ -28,6 +29,12 @@ class Desk:
     def __init__(self) -> None:
         self.tasks = GivenTasks(_TASKS)
         self.sessions = HeldSessions(_SESSIONS, self.tasks)
+        self.calling: Session | None = None
+
+    def cancel(self) -> None:
+        """End the call of a session that is under way, from another thread."""
+        if self.calling is not None:
+            self.calling.cancel()
 
 
 def plan(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
@@ -56,7 +63,7 @@ def session(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
 
     The request says where it stood before, so that any worker can go on with it.
     """
-    held = desk.sessions.session(asked["session"], deadline)
+    held = desk.calling = desk.sessions.session(asked["session"], deadline)
     call, given = asked["call"], asked["given"]
     if call == "plan":
         yield held.plan(deadline=deadline, **_options(given)).to_dict()
@@ -69,6 +76,7 @@ def session(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
         held.change(given["facts"])
     elif call == "set_goal":
         held.set_goal(given["goal"])
+    desk.calling = None
     yield State(desk.sessions.keep(asked["session"], held))
 
 

@@ -56,6 +56,7 @@ class Worker:
         while (frame := read(self._source)) is not None:
             if frame.head["kind"] == "cancel":
                 current.set()
+                self._desk.cancel()
             else:
                 current = threading.Event()
                 self._jobs.put((frame, current))
