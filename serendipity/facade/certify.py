@@ -62,8 +62,8 @@ def verify(
         result: the answer, from :func:`serendipity.plan` or read from JSON.
         solver: ``highs``, or ``cbc`` as a cross-check.
         encoding: ``automata``, or ``paper`` for the paper's own equations.
-        method: ``auto``, or ``program``: a solver decides every integer program, also where reachability
-            and shortest paths could.
+        method: ``auto``; ``program``: a solver decides every integer program, also where reachability
+            and shortest paths could; ``exhaustive``: all states are searched, epoch by epoch.
         proof: a file for what convinced, to be checked by :func:`serendipity.check_proof`; packed by gzip
             where its name ends in ``.gz``.  The method is ``program`` then, and there is a file only
             where the certificate is proved.

@@ -18,7 +18,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import FREE, WINDOW, Subproblem, prices
 from verify.calls.solve import solve
-from verify.exhaustive.uniform_cost import circles
+from verify.exhaustive.circles import circles
 from verify.programs.automata import product
 from verify.programs.automata.encoding import AutomataEncoding
 from verify.programs.automata.product import automata

@@ -1,20 +1,28 @@
-"""The human alone: (cost, length) of an optimal plan of theirs from a state, by A*."""
+"""The human alone: (cost, length) of an optimal plan of theirs from a state, by A*.
+
+Small questions are answered state by state; what turns out to be a long one by thousands of packed states
+at once, with patterns of the human's own problem as bounds (``verify.packed``).
+"""
 
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from serendipity.model import Deadline, Task
-from verify.base.operators import Operator, OwnActions
+from verify.base.operators import Operator as OwnOperator
+from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
 from verify.base.shortest_paths import PathSearch
 from verify.base.undecided import TooManyStatesError, during
 
+if TYPE_CHECKING:
+    from verify.packed.problem import Problem
+
 _MOST_EXPANSIONS: Final = 200_000
 
 _MANY: Final = 1_000
-"""Expansions after which it is worth asking whether the goal can be reached at all."""
+"""Expansions after which it is worth asking whether the goal can be reached at all, and packing states."""
 
 State = frozenset[int]
 
@@ -31,14 +39,18 @@ class IndividualOptimum:
         self._task = task
         self.deadline = deadline or Deadline()
         self._known: dict[int, tuple[Fraction, int] | None] = {}
+        self._above: dict[int, int] = {}
+        """States from which every plan weighs more than this."""
+        self._long = False
 
     @cached_property
-    def _own(self) -> OwnActions:
+    def own(self) -> OwnActions:
+        """The human's own actions."""
         return OwnActions(self._task, self.deadline)
 
     @cached_property
     def _projection(self) -> ProjectedCosts:
-        return ProjectedCosts(self._task, self._own, self.deadline)
+        return ProjectedCosts(self._task, self.own, self.deadline)
 
     def optimum(self, state: State) -> tuple[Fraction, int] | None:
         """Least (cost, number of actions) from ``state``; None if the human can't reach ``G_H`` alone.
@@ -49,26 +61,93 @@ class IndividualOptimum:
         """
         if self._task.goal.holds(state):
             return Fraction(0), 0
-        start = self._own.bits.of(state)
+        start = self.own.bits.of(state)
         if start not in self._known:
             with during("searching for what the human can do alone"):
-                weight = self._search(start)
-            self._known[start] = None if weight is None else self._own.split(weight)
+                weight = self._least(start, state, None)
+            self._known[start] = None if weight is None else self.own.split(weight)
         return self._known[start]
 
-    def _search(self, start: int) -> int | None:
-        own, goal = self._own, self._task.goal
+    def within(self, state: State, cost: Fraction, length: int) -> bool:
+        """Whether the optimum from a state is this cost and length, or less; often easier to say.
+
+        Raises:
+            TooManyStatesError: the limit on expansions came first.
+            LimitReachedError: the deadline did.
+        """
+        if self._task.goal.holds(state):
+            return True
+        if cost < 0:
+            return False
+        start, most = self.own.bits.of(state), self.own.joined(cost, length)
+        if start not in self._known and self._above.get(start, -1) < most:
+            with during("searching for what the human can do alone"):
+                weight = self._least(start, state, most + 1)
+            if weight is None:
+                self._above[start] = most
+            else:
+                self._known[start] = self.own.split(weight)
+        if start in self._known:
+            found = self._known[start]
+            return found is not None and found <= (cost, length)
+        return False
+
+    def _least(self, start: int, state: State, below: int | None) -> int | None:
+        """The least weight of a plan from a state; None: there is none, or none below."""
+        if self._long:  # the projection has not helped before
+            packed = self._packed_least(state, below)
+            if packed is not None:
+                return packed if packed >= 0 else None
+        own, goal = self.own, self._task.goal
         wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
-        search = PathSearch(start, self._successors, self._projection.bound, self.deadline)
-        for expansions, (state, _) in enumerate(search):
-            if state & wanted == wanted and not state & unwanted:
-                return search.distance[state]
-            if expansions == _MANY and not own.may_reach(start, goal, self.deadline):
-                return None
+        search = PathSearch(start, self._successors, self._projection.bound, self.deadline, below)
+        for expansions, (here, _) in enumerate(search):
+            if here & wanted == wanted and not here & unwanted:
+                return search.distance[here]
+            if expansions == _MANY:
+                if not own.may_reach(start, goal, self.deadline):
+                    return None
+                packed = self._packed_least(state, below)
+                if packed is not None:
+                    return packed if packed >= 0 else None
             if expansions >= _MOST_EXPANSIONS:
                 raise TooManyStatesError
         return None
 
-    def _successors(self, state: int) -> Iterator[tuple[int, int, Operator]]:
-        for operator in self._own.applicable(state):
+    def _packed_least(self, state: State, below: int | None) -> int | None:
+        """The same by packed states; -1 where there is no plan, None where that is no way to answer."""
+        problem = self.packed
+        start = None if problem is None else problem.pack([state])
+        if problem is None or start is None:
+            return None
+        from verify.packed import cheapest_path
+
+        self._long = True
+        try:
+            weight = problem.least(start, below)
+        except cheapest_path.TooManyStatesError:
+            raise TooManyStatesError from None
+        return -1 if weight is None else weight
+
+    @cached_property
+    def packed(self) -> "Problem | None":
+        """The human's own problem over packed states; None where it is too large for that."""
+        from verify.packed.operators import Operator  # loads numpy, which few calls need
+        from verify.packed.problem import Problem, StateSpace, TooLargeError
+
+        task, own = self._task, self.own
+        groups = [frozenset(variable.facts) for variable in task.variables]
+        try:
+            space = StateSpace(len(task.facts), task.init, task.actions, groups, self.deadline)
+            operators = [
+                Operator(a.pre, a.neg, a.add, a.delete, own.weight(i))
+                for i, a in ((i, task.actions[i]) for i in self.deadline.each(own.ids))
+            ]
+            goal = task.goal.positive, task.goal.negative
+            return Problem(space, own.facts, operators, goal, self.deadline)
+        except TooLargeError:
+            return None
+
+    def _successors(self, state: int) -> Iterator[tuple[int, int, OwnOperator]]:
+        for operator in self.own.applicable(state):
             yield state & ~operator.delete | operator.add, operator.weight, operator

@@ -69,6 +69,10 @@ class OwnActions:
         length = weight % _LONGEST
         return Fraction(weight - length, self._unit), length
 
+    def joined(self, cost: Fraction, length: int) -> int:
+        """The weight of a plan of that cost and length, whose cost is a sum of its actions'."""
+        return int(cost * self._unit) + length
+
     def applicable(self, state: int) -> list[Operator]:
         """The operators that are applicable in a state."""
         return [operator for _, operator in self._usable(state)]

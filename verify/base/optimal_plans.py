@@ -55,7 +55,7 @@ class OptimalPlans:
                 continue
             if action.cost <= cost and applicable(action, state):
                 successor = after(state, action)
-                if self.worth(successor) == (cost - action.cost, length - 1):
+                if self._alone.within(successor, cost - action.cost, length - 1):
                     last = action.name
                     yield i, successor
 

@@ -174,6 +174,11 @@ def solved(solver: str, calls: int, columns: int, rows: int) -> str:
     return f"; {solver} solved {programs} of {columns:,} columns and {rows:,} rows: "
 
 
+def searched(states: int) -> str:
+    """What an exhaustive search looked at."""
+    return f"; {states:,} states searched exhaustively"
+
+
 def optimum(objective: str, cost: str) -> str:
     """What a program allows at best."""
     return f"optimum {cost}" if objective == cost else f"objective {objective}, optimum cost {cost}"

@@ -10,7 +10,7 @@ from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import Solution
 from verify.calls.call import Call, Score
-from verify.exhaustive.uniform_cost import cheapest
+from verify.calls.methods import decide_without_horizon
 from verify.programs.effort import Effort
 
 
@@ -79,7 +79,7 @@ def best_plan(call: Call, *, robots: bool = True) -> Solution | None:
     question = call.endless.but(robots=robots)
     if call.do_nothing is not None:
         question = question.below(call.do_nothing[0] - 1)
-    return call.decided(cheapest(question))
+    return call.decided(decide_without_horizon(question, call.effort))
 
 
 def is_help(call: Call, score: Score) -> bool:

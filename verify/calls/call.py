@@ -8,9 +8,9 @@ from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import EXACT, FREE, WINDOW, Prices, Solution, Subproblem, prices
 from verify.base.undecided import UndecidedError
+from verify.calls.methods import decide
 from verify.exhaustive.baseline_without_horizon import cheapest_following
 from verify.programs.effort import Effort, Minimum
-from verify.programs.minimise import minimise
 
 Score = tuple[int, int]
 """Objective and cost in units: the order of semantics 3.1 as far as it is proved."""
@@ -119,7 +119,7 @@ class Call:
         if self.horizon == INFINITE:
             return self.decided(cheapest_following(self._question(EXACT)))
         question = self._question(EXACT).but(horizon=int(self.horizon))
-        return self.decided(minimise(question, self.effort, self.plans))
+        return self.decided(decide(question, self.effort, self.plans))
 
     @cached_property
     def do_nothing(self) -> Score | None:
@@ -166,7 +166,7 @@ class Call:
         if self.may_tie(than):
             limits.append(question.below(objective, cost - 1))
         for limited in limits:
-            found = minimise(limited, self.effort, self.plans).settled()
+            found = decide(limited, self.effort, self.plans).settled()
             if found is not None:
                 return found
         return None
@@ -178,11 +178,11 @@ class Call:
             UndecidedError: it could not be proved.
         """
         limited = question if than is None else question.below(than[0] - 1)
-        best = self.decided(minimise(limited, self.effort, self.plans))
+        best = self.decided(decide(limited, self.effort, self.plans))
         score = than if best is None else (best.objective, best.cost)
         while score is not None and self.may_tie(score):
             tie = question.below(score[0], score[1] - 1)
-            found = self.decided(minimise(tie, self.effort, self.plans))
+            found = self.decided(decide(tie, self.effort, self.plans))
             if found is None:
                 break
             best, score = found, (found.objective, found.cost)

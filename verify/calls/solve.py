@@ -25,6 +25,7 @@ def solve(
     human_plan: Iterable[str] | None = None,
     encoding: str = "automata",
     solver: str = "highs",
+    method: str = "pruned",
     deadline: Deadline | None = None,
 ) -> Result:
     """The best plan by integer programming alone: slow, and independent of the search.
@@ -36,6 +37,7 @@ def solve(
         human_plan: names of the actions that the human is going to do; None predicts them.
         encoding: ``automata`` or ``paper``.
         solver: ``highs`` or ``cbc``.
+        method: ``pruned``: programs alone; the others as :class:`verify.programs.effort.Effort` has them.
         deadline: one that other work shares, such as loading the task; it holds beside the limits.
 
     Returns:
@@ -50,7 +52,7 @@ def solve(
         raise UsageError("solve: expected a mode other than 'assistance' and the omniscient human model")
     started = perf_counter()
     limits = (deadline or Deadline()).within(options.time_limit, options.memory_limit)
-    effort = Effort(encoding=encoding, solver=solver, deadline=limits.sooner(END_SHARE))
+    effort = Effort(encoding, solver, limits.sooner(END_SHARE), method)
     given: HumanPlan | None = None if human_plan is None else task.plan_from_names(human_plan)
     if given is not None:
         options = options.but(ties="fixed")  # there is but one plan

@@ -63,8 +63,8 @@ def certify(
         result: the answer.
         encoding: ``automata`` or ``paper``.
         solver: ``highs`` or ``cbc``.
-        method: ``auto``, or ``program``: the solver decides every program, also where reachability and
-            shortest paths could.
+        method: ``auto``; ``program``: the solver decides every program, also where reachability and
+            shortest paths could; ``exhaustive``: no program, but a search of all states.
         proof: where the programs that convinced are written down, or read from instead of asking a
             solver; the method is ``program`` then.
         time_limit: seconds for the whole certificate, or None.

@@ -11,11 +11,10 @@ from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
 from verify.calls.call import Call, Score
+from verify.calls.methods import decide, decide_without_horizon
 from verify.calls.results import found_result, plan_steps
-from verify.exhaustive.uniform_cost import cheapest
 from verify.programs.alone import least_alone
-from verify.programs.effort import SolverCall
-from verify.programs.minimise import minimise
+from verify.programs.effort import Minimum, SolverCall
 from verify.rules import Checker
 from verify.solvers.mip import solver_version
 
@@ -46,7 +45,7 @@ class Examiner:
         """Run an examination; running out of time or memory leaves the claim undecided."""
         started = perf_counter()
         effort, bound, example = self.call.effort, None, None
-        programs, calls = effort.programs, len(effort.calls)
+        programs, calls, searched = effort.programs, len(effort.calls), len(effort.searched)
         try:
             verdict, reason, found = examine()
             if found is not None:
@@ -59,6 +58,12 @@ class Examiner:
             bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
             if bound is not None:
                 reason += wording.known_bound(bound)
+        if len(effort.searched) > searched:
+            size = {"states": max(effort.searched[searched:])}
+            seconds = perf_counter() - started
+            if verdict == "proved":
+                reason += wording.searched(size["states"])
+            return Claim(name, verdict, reason, example, seconds, bound, "exhaustive", size)
         if effort.programs == programs:
             return Claim(name, verdict, reason, example, perf_counter() - started, bound)
         called = effort.calls[calls:]
@@ -165,7 +170,7 @@ class Examiner:
         if nothing is not None and nothing[0] < least:
             return "refuted", wording.nothing_has_objective(self._amount(nothing[0] - shift)), None
         question = self._question().below(least - 1)
-        minimum = cheapest(question) if self._endless else minimise(question, call.effort, call.plans)
+        minimum = self._decide(question)
         found = minimum.settled()
         if found is not None:
             return "refuted", wording.BELOW_BOUND, found
@@ -219,7 +224,13 @@ class Examiner:
     def _better(self, score: Score) -> Solution | None:
         if not self._endless:
             return self.call.better(self.call.question, score)
-        return cheapest(self.call.endless.below(score[0] - 1)).settled()
+        return self._decide(self.call.endless.below(score[0] - 1)).settled()
+
+    def _decide(self, question: Subproblem) -> Minimum:
+        call = self.call
+        if self._endless:
+            return decide_without_horizon(question, call.effort)
+        return decide(question, call.effort, call.plans)
 
     def _score(self) -> Score:
         """Objective and cost of the result's own plan, recomputed."""

@@ -10,19 +10,25 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Final
 
-from serendipity.model import Deadline, GroundAction, LimitReachedError, Step, Task
+from serendipity.model import LimitReachedError, Step
 from serendipity.model.errors import LIMITS, limit_reason
-from verify.base.execution import State, fits
+from verify.base.execution import State
 from verify.base.fact_bits import FactBits, each_bit
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.shortest_paths import PathSearch
 from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import during
+from verify.exhaustive.circles import circles
+from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
+from verify.packed.problem import TooLargeError
 from verify.programs.automata.network import FAR, distances, goal_states
 from verify.programs.automata.product import automata
 from verify.programs.effort import Minimum
 
 MOST_STATES: Final = 500_000
+
+_FEW: Final = 5_000
+"""States after which packed ones, and bounds for them, are worth their time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +43,12 @@ class Bundle:
     cost: int
 
 
-def cheapest(question: Subproblem) -> Minimum:
+def cheapest(question: Subproblem, *, bounded: bool = True) -> Minimum:
     """The least cost of a plan with any number of epochs, within the question's limits.
 
     Args:
         question: its horizon is not looked at; its rule is ``free``.
+        bounded: whether estimates of what is left may spare states.
 
     Raises:
         LimitReachedError: the deadline came before the search began.
@@ -51,7 +58,16 @@ def cheapest(question: Subproblem) -> Minimum:
         if part is None:
             return Minimum("none")
         search = JointSearch(question, part)
-    return search.run()
+    if bounded:
+        found = search.run(_FEW)
+        if search.closed <= _FEW:
+            return found
+    with during("preparing the search for joint plans"):
+        try:
+            team = team_problem(question, part, bounded=bounded)
+        except TooLargeError:
+            team = None
+    return search.run() if team is None else cheapest_without_epochs(question, team)
 
 
 class LeastLeft:
@@ -99,24 +115,25 @@ class JointSearch:
         self.closed = 0
         self.bound: int | None = None
 
-    def run(self) -> Minimum:
-        """The cheapest plan within the question's limits."""
+    def run(self, most_states: int = MOST_STATES) -> Minimum:
+        """The cheapest plan within the question's limits, if it takes no more states than these."""
+        self.closed = 0
         try:
-            return self._search()
+            return self._search(most_states)
         except LIMITS as limit:
             doing = f"searching joint plans, {self.closed:,} states so far"
             return Minimum(
                 "undecided", bound=self.bound, reason=str(LimitReachedError(limit_reason(limit), doing))
             )
 
-    def _search(self) -> Minimum:
+    def _search(self, most_states: int) -> Minimum:
         search = PathSearch(self.start, self._successors, self.estimate, self.deadline, self._most() + 1)
         for state, self.bound in search:
             self.closed += 1
             if self.is_goal(state):
                 return self._found(search.path(state), search.distance[state])
-            if self.closed > MOST_STATES:
-                return Minimum("undecided", bound=self.bound, reason=f"more than {MOST_STATES} joint states")
+            if self.closed > most_states:
+                return Minimum("undecided", bound=self.bound, reason=f"more than {most_states} joint states")
         return Minimum("none")
 
     def _successors(self, state: int) -> Iterator[tuple[int, int, Bundle]]:
@@ -171,49 +188,3 @@ class JointSearch:
             self.bits.of(f for action in chosen for f in action.delete),
             sum(self.question.prices.team[i] for i in ids),
         )
-
-
-def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadline) -> list[tuple[int, ...]]:
-    """Sets of actions that may share an epoch but in no order follow each other.
-
-    Args:
-        actions: candidates with their ids.
-        task: the task.
-        deadline: polled.
-    """
-    by_id = dict(actions)
-    disables = {i: [j for j, b in deadline.each(actions) if j != i and _disables(a, b)] for i, a in actions}
-    found: set[tuple[int, ...]] = set()
-
-    def extend(chosen: tuple[int, ...]) -> None:
-        deadline.tick()
-        if len(chosen) > 1 and _strongly_connected(chosen, disables):
-            found.add(tuple(sorted(chosen)))
-        if len(chosen) < len(task.agents):
-            beside = [by_id[i] for i in chosen]
-            for j in {j for i in chosen for j in disables[i]} - set(chosen):
-                if fits(by_id[j], beside, strict=False):
-                    extend((*chosen, j))
-
-    for i, _ in actions:
-        extend((i,))
-    return sorted(found)
-
-
-def _disables(a: GroundAction, b: GroundAction) -> bool:
-    return not set(a.delete).isdisjoint(b.pre) or not set(a.add).isdisjoint(b.neg)
-
-
-def _strongly_connected(chosen: tuple[int, ...], disables: dict[int, list[int]]) -> bool:
-    """Whether each of the actions leads to each other one along ``disables``."""
-    members = set(chosen)
-    for start in chosen:
-        reached, pending = {start}, [start]
-        while pending:
-            for j in disables[pending.pop()]:
-                if j in members and j not in reached:
-                    reached.add(j)
-                    pending.append(j)
-        if reached != members:
-            return False
-    return True

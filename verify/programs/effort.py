@@ -41,8 +41,9 @@ ENCODINGS: Final[dict[str, Callable[[Subproblem], ProgramEncoding]]] = {
 """The encodings by name; the first is the default."""
 
 
-METHODS: Final = ("auto", "program")
-"""What decides a question; ``program``: the solver, also where the encoding could."""
+METHODS: Final = ("auto", "program", "exhaustive", "pruned")
+"""What decides a question (``verify.calls.methods``); ``program``: the solver, also where the encoding could;
+``pruned``: the encoding or else the solver."""
 
 
 @dataclass(slots=True)
@@ -75,6 +76,7 @@ class Effort:
         proof: where what convinced is written down, or read from instead of asking a solver.
         programs: number of questions that were put to an encoding.
         calls: the solver's; fewer where an encoding sees by itself that there is no plan.
+        searched: the numbers of states of exhaustive searches.
     """
 
     encoding: str = "automata"
@@ -84,6 +86,7 @@ class Effort:
     proof: ProofWriter | ProofReader | None = None
     programs: int = 0
     calls: list[SolverCall] = field(default_factory=list)
+    searched: list[int] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         if self.method not in METHODS:

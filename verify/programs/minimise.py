@@ -29,7 +29,7 @@ def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
         return _without_epochs(question, effort)
     if isinstance(effort.proof, ProofReader):
         return recorded.read(effort.proof, question, effort.encode, plans)
-    asked = question if effort.method == "auto" else question.but(most=None)
+    asked = question.but(most=None) if effort.method == "program" else question
     rounds = _Rounds(asked, effort, plans)
     try:
         minimum = _within(question.most, rounds.run())

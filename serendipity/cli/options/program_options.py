@@ -14,8 +14,9 @@ Encoding = Annotated[
 Method = Annotated[
     str,
     typer.Option(
-        help="What proves that nothing is better; program: the solver, even where reachability could.",
-        **choices("auto", "program"),
+        help="What proves that nothing is better; program: the solver, even where reachability could; "
+        "exhaustive: a search of all states; auto: both in turns.",
+        **choices("auto", "program", "exhaustive"),
     ),
 ]
 Proof = Annotated[

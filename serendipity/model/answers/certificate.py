@@ -34,8 +34,8 @@ class Claim:
         seconds: time spent on it.
         bound: what was proved about the objective, in the domain's unit: no answer has a
             smaller one.  None where the claim says nothing of it.
-        method: what decided it, where rules alone can't: ``program`` (integer programs).
-        size: of the method's largest program: ``columns`` and ``rows``.
+        method: what decided it, where rules alone can't: ``program`` (integer programs) or ``exhaustive``.
+        size: of the method's largest program: ``columns`` and ``rows``; or of its largest search: ``states``.
         solver_calls: number of programs that a solver was given; 0 where reachability and shortest
             paths left no plan to ask about.
 

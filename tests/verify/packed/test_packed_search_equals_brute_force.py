@@ -1,0 +1,169 @@
+"""Packed states, exclusive facts, bounds and cheapest paths, against plain sets and dictionaries."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from serendipity.model import Deadline, Task
+from tests.support.families import family_task
+from tests.support.strategies import tasks
+from verify.base.execution import State, after, applicable
+from verify.base.individual import IndividualOptimum
+from verify.packed.bounds import LITTLE
+from verify.packed.mutexes import Pairs
+from verify.packed.operators import Operator
+from verify.packed.pattern import FAR
+from verify.packed.problem import Problem, StateSpace
+
+FAMILY = [
+    *((name, seed, size) for name, size in (("blocks", 3), ("logistics", 2)) for seed in range(4)),
+    *(("switches", seed, 6) for seed in range(4)),
+]
+
+
+def reached(task: Task) -> list[State]:
+    """All states that one action after another leads to."""
+    found = {task.init: None}
+    for state in (queue := [task.init]):
+        for action in task.actions:
+            if applicable(action, state):
+                new = after(state, action)
+                if new not in found:
+                    found[new] = None
+                    queue.append(new)
+        if len(found) > 3000:
+            pytest.skip("too many states to enumerate")
+    return list(found)
+
+
+def team_problem(task: Task) -> Problem:
+    """Everybody's actions, one after the other, by their costs in units."""
+    space = StateSpace(
+        len(task.facts),
+        task.init,
+        task.actions,
+        [frozenset(variable.facts) for variable in task.variables],
+        Deadline(),
+    )
+    operators = [Operator(a.pre, a.neg, a.add, a.delete, int(a.cost * 1000) + 1) for a in task.actions]
+    goal = task.goal.positive, task.goal.negative
+    return Problem(space, range(len(task.facts)), operators, goal, Deadline())
+
+
+def distances(task: Task, states: list[State]) -> dict[State, int]:
+    """Least weights to the goal, by relaxing all steps until nothing changes."""
+    steps = [
+        (state, after(state, a), int(a.cost * 1000) + 1)
+        for state in states
+        for a in task.actions
+        if applicable(a, state)
+    ]
+    found = {state: 0 for state in states if task.goal.holds(state)}
+    changed = True
+    while changed:
+        changed = False
+        for state, new, weight in steps:
+            if new in found and weight + found[new] < found.get(state, FAR):
+                found[state] = weight + found[new]
+                changed = True
+    return found
+
+
+def agree(task: Task) -> None:
+    """Bounds never exceed the distances, and cheapest paths are as cheap, from every state."""
+    states = reached(task)
+    expected = distances(task, states)
+    pairs = Pairs(len(task.facts), task.init, task.actions, Deadline())
+    assert all(pairs.covers(state) for state in states)
+    problem = team_problem(task)
+    rows = problem.pack(states)
+    assert rows is not None
+    kept = set(problem.layout.place)
+    for row, state in zip(rows, states, strict=True):
+        assert problem.layout.facts_of(row) == state & kept
+    bounds = problem.bounds(rows)
+    for bound, state in zip(bounds.tolist(), states, strict=True):
+        assert bound <= expected.get(state, FAR)
+    for state, row in list(zip(states, rows, strict=True))[:: max(1, len(states) // 7)]:
+        start = row[None, :]
+        assert problem.least(start) == expected.get(state)
+        if state in expected:
+            assert problem.least(start, expected[state]) is None
+            assert problem.least(start, expected[state] + 1) == expected[state]
+
+
+@given(tasks())
+def test_in_random_tasks(task: Task) -> None:
+    agree(task)
+
+
+@pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
+def test_in_families(name: str, seed: int, size: int) -> None:
+    agree(family_task(name, seed, size))
+
+
+@given(tasks())
+def test_successors_are_those_of_sets(task: Task) -> None:
+    problem = team_problem(task)
+    states = reached(task)[:50]
+    rows = problem.pack(states)
+    assert rows is not None
+    by, chosen = problem.table.applicable(rows)
+    new = problem.table.after(rows[by], chosen)
+    found = {(int(k), problem.layout.facts_of(row)) for k, row in zip(by, new, strict=True)}
+    kept = set(problem.layout.place)
+    assert found == {
+        (k, after(state, action) & kept)
+        for k, state in enumerate(states)
+        for action in task.actions
+        if applicable(action, state)
+    }
+
+
+def test_what_excludes_each_other_is_a_field() -> None:
+    blocks = family_task("blocks", 1, 4)
+    problem = team_problem(blocks)
+    assert max(len(field.facts) for field in problem.layout.fields) > 3
+
+
+def test_a_state_that_cannot_be_reached_is_not_packed() -> None:
+    blocks = family_task("blocks", 1, 4)
+    assert team_problem(blocks).pack([frozenset(range(len(blocks.facts)))]) is None
+
+
+def test_several_starts_share_a_search() -> None:
+    blocks = family_task("blocks", 2, 3)
+    problem, states = team_problem(blocks), reached(blocks)
+    expected = distances(blocks, states)
+    starts = [state for state in states if state in expected][:40]
+    paid = np.array([(7 * k) % 50 * 100 for k in range(len(starts))], np.int64)
+    rows = problem.pack(starts)
+    assert rows is not None
+    search, found = problem.search(rows, paid)
+    assert found is not None
+    assert search.paid(found) == min(int(p) + expected[state] for p, state in zip(paid, starts, strict=True))
+    assert LITTLE.sizes
+
+
+@pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
+def test_the_human_alone_packed_and_not(
+    name: str, seed: int, size: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    task = family_task(name, seed, size)
+    plain = IndividualOptimum(task)
+    monkeypatch.setattr("verify.base.individual._MANY", 0)
+    packed = IndividualOptimum(task)
+    states = reached(task)
+    for state in states[:: max(1, len(states) // 15)]:
+        with monkeypatch.context() as patch:
+            patch.setattr("verify.base.individual._MANY", 10**9)
+            expected = plain.optimum(state)
+        assert packed.optimum(state) == expected
+        if expected is not None:
+            cost, length = expected
+            assert IndividualOptimum(task).within(state, cost, length)
+            assert not length or not IndividualOptimum(task).within(state, cost, length - 1)
+        else:
+            assert not IndividualOptimum(task).within(state, Fraction(1000), 1000)

@@ -1,0 +1,81 @@
+"""The exhaustive method answers what brute force answers, and so do turns of it and programs."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+
+from serendipity.model import Options, Result, UsageError
+from tests.support.cases import WORKED, Worked
+from tests.support.oracle import Optimum, best
+from tests.support.strategies import Call, calls
+from verify.base.execution import conflicting
+from verify.calls.solve import solve
+from verify.exhaustive.team import excluding
+
+_NOT_ITS_OWN = "the exhaustive method replans suffixes, and preserves kernels"
+
+
+def _assert_equal(result: Result, optimum: Optimum, ties: str) -> None:
+    assert result.status == optimum.status
+    assert result.cost == _rounded(optimum.cost)
+    if ties == "expected" or optimum.cost is None:
+        return
+    assert result.opportunity == optimum.opportunity
+    assert result.objective == result.lower_bound == _rounded(optimum.objective)
+    assert result.saving == _rounded(optimum.saving)
+
+
+def _rounded(value: Fraction | None) -> float | None:
+    return None if value is None else float(value)
+
+
+def _check(call: Call, method: str) -> None:
+    try:
+        optimum = best(call.task, call.options, call.human_plan)
+    except UsageError:
+        with pytest.raises(UsageError):
+            solve(call.task, call.options, human_plan=call.human_plan_names, method=method)
+        return
+    result = solve(call.task, call.options, human_plan=call.human_plan_names, method=method)
+    if result.status == "unknown":
+        assert method == "exhaustive"
+        assert result.reason in (_NOT_ITS_OWN, "a limit on cost, and communication that costs")
+        return
+    _assert_equal(result, optimum, call.options.ties)
+
+
+@pytest.mark.parametrize("mode", ["serendipity", "communication", "composite"])
+def test_exhaustive_search_equals_brute_force(mode: str) -> None:
+    @given(calls(modes=(mode,)))
+    def law(call: Call) -> None:
+        _check(call, "exhaustive")
+
+    law()
+
+
+@given(calls())
+def test_turns_equal_brute_force(call: Call) -> None:
+    _check(call, "auto")
+
+
+@given(calls())
+def test_what_excludes_each_other_is_what_an_epoch_says(call: Call) -> None:
+    task = call.task
+    for strict in (False, True):
+        apart = excluding(task.actions, len(task.facts), len(task.agents), strict=strict)
+        for i, a in enumerate(task.actions):
+            for j, b in enumerate(task.actions):
+                if i != j:
+                    assert bool(apart[i, j]) == conflicting(a, b, strict=strict)
+
+
+@pytest.mark.parametrize("worked", WORKED, ids=str)
+def test_worked_cases(worked: Worked) -> None:
+    options = Options(**worked.options)  # type: ignore[arg-type]
+    result = solve(worked.task(), options, human_plan=worked.human_plan, method="exhaustive")
+    if result.status == "unknown":
+        assert result.reason == _NOT_ITS_OWN
+        return
+    assert result.cost == (None if worked.cost is None else float(worked.cost))
+    assert result.opportunity == worked.opportunity

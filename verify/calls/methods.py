@@ -1,0 +1,109 @@
+"""What decides a question: integer programs, an exhaustive search, or both in turns."""
+
+from dataclasses import replace
+from itertools import count
+from math import log2
+from typing import Final
+
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.subproblem import Subproblem
+from verify.base.undecided import UNDECIDED, UndecidedError, why
+from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
+from verify.exhaustive.team import MOST_ACTIONS
+from verify.exhaustive.uniform_cost import cheapest
+from verify.packed.mutexes import MOST_FACTS
+from verify.programs.effort import Effort, Minimum
+from verify.programs.minimise import minimise
+
+_TURNS: Final = (0.4, 4.0, 4.0, 40.0, 40.0)
+"""Seconds of the first turns, of programs and exhaustive search; the last two go on, longer and longer."""
+
+_LONGER: Final = 10
+
+_FEW_STATES: Final = 64.0
+"""Bits of a state: with more of them programs begin with a long turn."""
+
+_SHARE: Final = 0.4
+"""What of the time that is left a turn may take."""
+
+
+def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    """The least objective of a question, by the method that the effort names.
+
+    ``auto`` takes turns, each far longer than the last of the same method, so that what the other one wastes
+    is little.  Programs come first: most questions they close at once.  Where there are many states
+    they get longer for it, since an exhaustive search is the less likely to end.
+
+    ``exhaustive`` has no bound to trust on what is still to be paid; in turns there is one.
+
+    Args:
+        question: with a horizon.
+        effort: method, deadline and solver; what is spent is noted there.
+        plans: the human's optimal plans.
+    """
+    if effort.method == "exhaustive" and question.horizon > 0:
+        return _exhaustively(question, effort, plans)
+    if effort.method != "auto" or effort.encoding != "automata" or not _searchable(question):
+        return minimise(question, effort, plans)
+    return _in_turns(question, effort, plans)
+
+
+def decide_without_horizon(question: Subproblem, effort: Effort) -> Minimum:
+    """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does."""
+    return cheapest(question, bounded=effort.method != "exhaustive")
+
+
+def _searchable(question: Subproblem) -> bool:
+    task = question.task
+    small = len(task.facts) <= MOST_FACTS and len(task.actions) <= MOST_ACTIONS
+    return small and question.horizon > 0 and answers(question)
+
+
+def _in_turns(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    bounds: list[int] = []
+    asked = [minimise, _exhaustively]
+    long_first = _bits(question) > _FEW_STATES
+    for turn in count():
+        seconds = _length(turn + 2 * long_first)
+        left = effort.deadline.left()
+        last = len(asked) == 1
+        if left is not None and not last:
+            last = left * _SHARE < seconds / _LONGER
+            seconds = min(seconds, left * _SHARE)
+        deadline = effort.deadline if last else effort.deadline.within(seconds)
+        method = asked[turn % len(asked)]
+        given = replace(effort, deadline=deadline)
+        found = method(question.but(deadline=deadline), given, plans)
+        effort.programs = given.programs
+        if found.bound is not None:
+            bounds.append(found.bound)
+        if found.status != "undecided" or effort.deadline.reached() is not None:
+            break
+        if last or (method is _exhaustively and not deadline.reached()):
+            asked = [each for each in asked if each is not method]  # more time would not help
+        if not asked:
+            break
+    return replace(found, bound=max(bounds, default=None))
+
+
+def _length(turn: int) -> float:
+    """Seconds of a turn."""
+    beyond = max(0, turn - len(_TURNS) + 2) // 2
+    return float(_TURNS[turn - 2 * beyond] * _LONGER**beyond)
+
+
+def _bits(question: Subproblem) -> float:
+    """The logarithm of the number of states, as far as the task's variables tell."""
+    return sum(log2(max(2, len(variable.facts))) for variable in question.task.variables)
+
+
+def _exhaustively(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    try:
+        found, states = cheapest_by_epochs(question, plans, bounded=effort.method != "exhaustive")
+    except OtherMethodError as error:
+        return Minimum("undecided", reason=str(error))
+    except UNDECIDED as error:
+        bound = error.bound if isinstance(error, UndecidedError) else None
+        return Minimum("undecided", bound=bound, reason=why(error))
+    effort.searched.append(states)
+    return found

@@ -1,0 +1,88 @@
+"""Layers of packed states with what was paid, and the steps that lead from one to the next."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from serendipity.model import Deadline
+from verify.exhaustive.team import NOBODY, Steps
+from verify.packed.layout import Words
+from verify.packed.operators import Ints
+from verify.packed.state_table import StateTable
+
+
+@dataclass(slots=True)
+class Layer:
+    """Different states after an epoch, each at its least cost.
+
+    Attributes:
+        states: rows.
+        paid: units so far.
+        before: of each, the row in the layer that it comes from.
+        sets: what was done in the epoch, as :class:`.team.Steps` has it.
+        source: the layer that it comes from: itself by number.
+    """
+
+    states: Words
+    paid: Ints
+    before: Ints
+    sets: Ints
+    source: Ints
+
+    def __len__(self) -> int:
+        return len(self.states)
+
+    def only(self, rows: Ints) -> "Layer":
+        """Some of its states."""
+        return Layer(
+            self.states[rows], self.paid[rows], self.before[rows], self.sets[rows], self.source[rows]
+        )
+
+
+def first(states: Words, agents: int) -> Layer:
+    """The layer before the first epoch."""
+    zero = np.zeros(len(states), np.int64)
+    return Layer(states, zero, zero - 1, np.full((len(states), agents), NOBODY), zero - 1)
+
+
+def advance(
+    steps: Iterable[tuple[int, Layer, Iterable[Steps]]],
+    extra: int,
+    hopeful: Callable[[Words, Ints], Ints],
+    words: int,
+    agents: int,
+    deadline: Deadline,
+) -> Layer:
+    """The layer after one more epoch.
+
+    Args:
+        steps: layers to come from, with their numbers and steps.
+        extra: units that the epoch adds.
+        hopeful: the rows of states, with what was paid, that are worth keeping.
+        words: of a state.
+        agents: how many there are.
+        deadline: polled.
+    """
+    table = StateTable(words, deadline)
+    paid = np.zeros(0, np.int64)
+    where = np.zeros((0, 2), np.int64)
+    sets = np.zeros((0, agents), np.int64)
+    for source, layer, pieces in steps:
+        for piece in pieces:
+            cost = layer.paid[piece.before] + piece.cost + extra
+            order = np.argsort(-cost, kind="stable")  # the cheapest last: it stays
+            known = table.count
+            numbers, _ = table.numbers(piece.after[order])
+            grown = table.count - known
+            if grown:
+                paid = np.concatenate((paid, np.full(grown, np.iinfo(np.int64).max)))
+                where = np.concatenate((where, np.zeros((grown, 2), np.int64)))
+                sets = np.concatenate((sets, np.zeros((grown, agents), np.int64)))
+            better = cost[order] < paid[numbers]
+            chosen, kept = numbers[better], order[better]
+            paid[chosen] = cost[kept]
+            where[chosen, 0], where[chosen, 1] = piece.before[kept], source
+            sets[chosen] = piece.sets[kept]
+    layer = Layer(table.rows, paid, where[:, 0], sets, where[:, 1])
+    return layer.only(hopeful(layer.states, layer.paid))

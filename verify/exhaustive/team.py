@@ -1,0 +1,146 @@
+"""The team's actions over packed states: which sets may share an epoch, and what comes of them."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from serendipity.model import Deadline, GroundAction, Task
+from verify.packed.layout import Words
+from verify.packed.operators import Ints, OperatorTable
+
+Bools = NDArray[np.bool_]
+
+MOST_ACTIONS: Final = 3_000
+"""Actions that are compared with each other, all with all."""
+
+_AT_ONCE: Final = 100_000
+"""Sets of actions that are looked at before the deadline is, again."""
+
+NOBODY: Final = -1
+"""Who waits."""
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """Epochs from some states.
+
+    Attributes:
+        before: the row of the state that each starts in.
+        sets: by agent, in the order of :class:`Team`, the action that they are first in; or ``NOBODY``.
+        after: the states that they lead to.
+        cost: what they add to the objective.
+    """
+
+    before: Ints
+    sets: Ints
+    after: Words
+    cost: Ints
+
+
+class Team:
+    """Sets of actions by which the agents spend an epoch.
+
+    Args:
+        task: the task.
+        actions: ids of those that may occur, as the table has them.
+        table: the same as operators, whose weights are what they add to the objective.
+        strict: interference as in semantics 2.
+        deadline: polled.
+    """
+
+    def __init__(
+        self, task: Task, actions: Sequence[int], table: OperatorTable, deadline: Deadline, *, strict: bool
+    ) -> None:
+        self._table = table
+        self._deadline = deadline
+        self.order = (task.human, *task.robots)
+        chosen = [task.actions[i] for i in actions]
+        self._with_human = np.array([task.human in action.participants for action in chosen], bool)
+        rank = {agent: k for k, agent in enumerate(self.order)}
+        self._first = np.array([min(rank[a] for a in action.participants) for action in chosen], np.int64)
+        self._apart = excluding(chosen, len(task.facts), len(task.agents), strict=strict)
+
+    def steps(self, states: Words, of_human: Ints | None = None, *, wait: bool = True) -> Iterator[Steps]:
+        """All epochs from some states, in pieces.
+
+        Args:
+            states: rows.
+            of_human: what the human may do, by the table's numbers, nothing of it jointly; None: anything.
+            wait: whether the human may do nothing.
+        """
+        rows, operators = self._table.applicable(states)
+        if of_human is not None:
+            fits = ~self._with_human[operators] | np.isin(operators, of_human)
+            rows, operators = rows[fits], operators[fits]
+        lists = []
+        product = np.ones(len(states), np.int64)
+        for k in range(len(self.order)):
+            mine = np.flatnonzero(self._first[operators] == k)
+            mine = mine[np.argsort(rows[mine], kind="stable")]
+            counts = np.bincount(rows[mine], minlength=len(states))
+            starts = np.cumsum(counts) - counts
+            lists.append((operators[mine], starts, counts))
+            product *= counts + (wait or k > 0)
+        pieces = np.cumsum(product) // _AT_ONCE
+        cuts = np.flatnonzero(np.diff(pieces)) + 1
+        for piece in np.split(np.arange(len(states)), cuts):
+            self._deadline.check()
+            if len(piece):
+                yield self._piece(states, piece, lists, wait=wait)
+
+    def _piece(
+        self, states: Words, before: Ints, lists: list[tuple[Ints, Ints, Ints]], *, wait: bool
+    ) -> Steps:
+        sets = np.full((len(before), 0), NOBODY)
+        for k, (operators, starts, counts) in enumerate(lists):
+            idle = 1 if wait or k > 0 else 0
+            sizes = counts[before] + idle
+            ends = np.cumsum(sizes)
+            which = np.repeat(np.arange(len(before)), sizes)
+            offset = np.arange(len(which)) - np.repeat(ends - sizes, sizes) - idle
+            before = before[which]
+            own = np.full(len(which), NOBODY)
+            acts = offset >= 0
+            own[acts] = operators[starts[before[acts]] + offset[acts]]
+            fits = np.ones(len(which), bool)
+            for others in sets[which].T:
+                both = acts & (others != NOBODY)
+                fits[both] &= ~self._apart[own[both], others[both]]
+            before = before[fits]
+            sets = np.concatenate((sets[which][fits], own[fits, None]), axis=1)
+        after, cost = states[before], np.zeros(len(before), np.int64)
+        for own in sets.T:
+            acts = own != NOBODY
+            after[acts] = self._table.after(after[acts], own[acts])
+            cost[acts] += self._table.weight[own[acts]]
+        return Steps(before, sets, after, cost)
+
+
+def excluding(actions: Sequence[GroundAction], facts: int, agents: int, *, strict: bool) -> Bools:
+    """Which actions can't share an epoch with which others (eq. 5, 6, 10), all declared effects counted.
+
+    Args:
+        actions: the actions.
+        facts: number of facts.
+        agents: number of agents.
+        strict: whether none may falsify a precondition of another either.
+    """
+
+    def table(sets: Sequence[tuple[int, ...]], size: int) -> NDArray[np.float32]:
+        found = np.zeros((len(sets), size), np.float32)
+        for row, members in enumerate(sets):
+            found[row, list(members)] = 1
+        return found
+
+    adds = table([action.add for action in actions], facts)
+    deletes = table([action.delete for action in actions], facts)
+    busy = table([action.participants for action in actions], agents)
+    apart = (deletes @ deletes.T > 0) | (busy @ busy.T > 0)
+    one_way = deletes @ adds.T > 0
+    if strict:
+        one_way |= deletes @ table([action.pre for action in actions], facts).T > 0
+        one_way |= adds @ table([action.neg for action in actions], facts).T > 0
+    return np.asarray(apart | one_way | one_way.T)

@@ -1,0 +1,99 @@
+"""The whole team as a problem over packed states: one action after the other, circles of actions as one."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from serendipity.model import GroundAction, LimitReachedError, Step
+from serendipity.model.errors import LIMITS, limit_reason
+from verify.base.relevance import Relevant
+from verify.base.subproblem import Solution, Subproblem
+from verify.exhaustive.circles import circles
+from verify.packed.cheapest_path import TooManyStatesError
+from verify.packed.operators import Operator
+from verify.packed.problem import Problem, StateSpace
+from verify.programs.effort import Minimum
+
+
+@dataclass(frozen=True, slots=True)
+class TeamProblem:
+    """What the team may do, over packed states.
+
+    Attributes:
+        space: what may be true.
+        problem: cheapest ways to all goals.
+        singles: the relevant actions as operators, in their order.
+        sets: the actions that each operator of the problem stands for.
+    """
+
+    space: StateSpace
+    problem: Problem
+    singles: list[Operator]
+    sets: list[tuple[int, ...]]
+
+
+def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> TeamProblem:
+    """The team's problem of a question; ``bounded`` as :class:`verify.packed.problem.Problem` has it.
+
+    Raises:
+        TooLargeError: it is not one for packed states.
+        LimitReachedError: the deadline came first.
+    """
+    task, deadline, prices = question.task, question.deadline, question.prices
+    actions = [(i, task.actions[i]) for i in part.actions]
+    together = [] if question.options.strict else circles(actions, task, deadline)
+    groups = [frozenset(variable.facts) for variable in task.variables]
+    as_one = [as_operator((task.actions[i] for i in circle), 0) for circle in together]
+    space = StateSpace(len(task.facts), task.init, [*task.actions, *as_one], groups, deadline)
+    sets = [*((i,) for i in part.actions), *together]
+    operators = [
+        as_operator((task.actions[i] for i in each), sum(prices.team[i] + prices.talk[i] for i in each))
+        for each in deadline.each(sets)
+    ]
+    conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]
+    goal = [f for c in conditions for f in c.positive], [f for c in conditions for f in c.negative]
+    problem = Problem(space, part.facts, operators, goal, deadline, bounded=bounded)
+    kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
+    return TeamProblem(space, problem, operators[: len(part.actions)], kept)
+
+
+def as_operator(together: Iterable[GroundAction], weight: int) -> Operator:
+    """Actions as one."""
+    chosen = tuple(together)
+
+    def union(sets: Iterable[tuple[int, ...]]) -> tuple[int, ...]:
+        return tuple(sorted({fact for facts in sets for fact in facts}))
+
+    return Operator(
+        union(a.pre for a in chosen),
+        union(a.neg for a in chosen),
+        union(a.add for a in chosen),
+        union(a.delete for a in chosen),
+        weight,
+    )
+
+
+def cheapest_without_epochs(question: Subproblem, team: TeamProblem) -> Minimum:
+    """The cheapest plan with any number of epochs, within the question's limits."""
+    problem = team.problem
+    start = problem.pack([question.task.init])
+    assert start is not None, "the initial state is reached"
+    limits = [limit for limit in (question.most, question.most_cost) if limit is not None]
+    below = min(limits) + 1 if limits else None
+    least = None
+    try:
+        least = int(problem.bounds(start)[0])
+        search, found = problem.search(start, np.zeros(1, np.int64), below)
+    except LIMITS as limit:
+        reason = str(LimitReachedError(limit_reason(limit), "searching joint plans"))
+        return Minimum("undecided", bound=least, reason=reason)
+    except TooManyStatesError:
+        return Minimum("undecided", bound=least, reason="there are too many joint states")
+    if found is None:
+        return Minimum("none")
+    _, path = search.path(found)
+    sets = enumerate((team.sets[k] for k in path), start=1)
+    steps = tuple(Step(epoch, i) for epoch, chosen in sets for i in chosen)
+    cost = search.paid(found)
+    return Minimum("found", Solution(steps, None, cost, cost), cost)

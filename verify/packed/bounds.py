@@ -1,0 +1,218 @@
+"""Lower bounds on the weight that is left: tables of patterns that share the operators' weights.
+
+Every operator's weight is dealt out over the patterns, none of it twice, so that the distances of all
+of them add up to no more than the weight of any plan (cost partitioning).  Several ways to deal it out
+are kept: the largest sum holds.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from serendipity.model import Deadline
+from verify.packed.layout import Words
+from verify.packed.operators import Ints, OperatorTable
+from verify.packed.pattern import FAR, Pattern, TooManyMovesError
+
+_A_SECOND: Final = 20_000
+"""States of a pattern for each second that is left: a large table is not made when there is little time."""
+
+_MOVES: Final = 30
+"""Moves for each of these states at most."""
+
+_ALL_MOVES: Final = 8_000_000
+"""Moves of all patterns at most."""
+
+_WAYS: Final = 8
+"""Ways to deal out weights."""
+
+_WALKERS: Final = 50
+_STEPS: Final = 40
+"""Of the walks to states in which ways are compared."""
+
+
+@dataclass(frozen=True, slots=True)
+class Care:
+    """How much work goes into bounds.
+
+    Attributes:
+        sizes: states of a pattern at most: patterns of each of these sizes are made.
+        seconds: for all of it, about.
+        share: what of the time that is left it may take.
+    """
+
+    sizes: tuple[int, ...]
+    seconds: float
+    share: float
+
+
+LITTLE: Final = Care((2_000,), 0.5, 0.1)
+MUCH: Final = Care((2_000, 100_000), 5.0, 0.25)
+
+
+class Bounds:
+    """Bounds for one goal.
+
+    Args:
+        table: the operators.
+        views: the same operators with their facts in other fields; patterns are made of these, too.
+        goal: facts that have to be true.
+        start: states to begin with: ways are kept that are good where walks lead from there.
+        care: how much work to put into it.
+        deadline: polled.
+    """
+
+    def __init__(
+        self,
+        table: OperatorTable,
+        views: Sequence[OperatorTable],
+        goal: Sequence[int],
+        start: Words,
+        care: Care,
+        deadline: Deadline,
+    ) -> None:
+        self._table = table
+        self._ways: list[list[tuple[Pattern, Ints]]] = []
+        left = deadline.left()
+        seconds = care.seconds if left is None else min(care.seconds, left * care.share)
+        share = deadline.within(seconds)
+        largest = int(seconds / care.share * _A_SECOND) + 1
+        sizes = [min(size, largest) for size in care.sizes]
+        patterns = self._patterns([_View(each, goal) for each in (table, *views)], sizes, deadline, share)
+        for order in _orders(len(patterns)):
+            if self._ways and share.reached() is not None:
+                deadline.check()
+                break
+            self._ways.append(self._dealt([patterns[k] for k in order], share if self._ways else deadline))
+        self._keep_best(_walks(table, start, deadline))
+
+    def __call__(self, states: Words) -> Ints:
+        """A bound for each state; ``FAR`` where no goal can be reached."""
+        best: Ints = self._best(states).max(axis=0, initial=0)
+        return best
+
+    def _best(self, states: Words) -> Ints:
+        """What each way adds up to in each state."""
+        found = np.zeros((len(self._ways), len(states)), np.int64)
+        index: dict[int, Ints] = {}
+        for total, way in zip(found, self._ways, strict=True):
+            for pattern, distance in way:
+                if id(pattern) not in index:
+                    index[id(pattern)] = pattern.index(states, self._table.layout)
+                np.minimum(total + distance[index[id(pattern)]], FAR, out=total)
+        return found
+
+    def _patterns(
+        self, views: list["_View"], sizes: list[int], deadline: Deadline, share: Deadline
+    ) -> list[tuple[Pattern, Ints]]:
+        """Patterns with their goals: for each field of the goal what it depends on, the nearest first."""
+        found: dict[tuple[int, tuple[int, ...]], tuple[Pattern, Ints]] = {}
+        moves = 0
+        asked = [(v, f, m) for m in sizes for v in views for f in v.goal.conditions]
+        for view, field, most in asked:
+            if found and (share.reached() is not None or moves > _ALL_MOVES):
+                deadline.check()
+                break
+            fields = view.grown(field, most)
+            if (id(view), fields) in found:
+                continue
+            try:
+                pattern = Pattern(view.table, fields, _MOVES * most, deadline)
+            except TooManyMovesError:
+                continue
+            found[id(view), fields] = pattern, pattern.goals(view.goal)
+            moves += len(pattern.source)
+        return list(found.values())
+
+    def _dealt(self, patterns: Sequence[tuple[Pattern, Ints]], share: Deadline) -> list[tuple[Pattern, Ints]]:
+        """Each pattern takes what it makes use of, and leaves the rest to those after it."""
+        left = self._table.weight.copy()
+        way: list[tuple[Pattern, Ints]] = []
+        for pattern, goals in patterns:
+            if way and share.reached() is not None:
+                break  # what is not dealt out bounds nothing
+            inside = pattern.classes >= 0
+            weights = np.full(pattern.kinds, FAR)
+            np.minimum.at(weights, pattern.classes[inside], left[inside])
+            distance = pattern.distances(weights, goals)
+            if distance.any():
+                way.append((pattern, distance))
+            used = pattern.used(distance, pattern.kinds)
+            left[inside] -= np.minimum(used[pattern.classes[inside]], left[inside])
+        return way
+
+    def _keep_best(self, sample: Words) -> None:
+        """Drop the ways that add nothing to others in any of some states."""
+        found = self._best(sample)
+        kept: list[int] = []
+        best = np.full(len(sample), -1, np.int64)
+        while len(kept) < len(self._ways):
+            gains = np.maximum(found - best, 0).sum(axis=1)
+            k = int(gains.argmax())
+            if not gains[k]:
+                break
+            kept.append(k)
+            best = np.maximum(best, found[k])
+        self._ways = [self._ways[k] for k in kept]
+
+
+class _View:
+    """What a layout's fields have to do with a goal and with each other."""
+
+    def __init__(self, table: OperatorTable, goal: Sequence[int]) -> None:
+        self.table = table
+        self.goal = table.test(goal, ())
+        self.causes = _causes(table)
+
+    def grown(self, field: int, most: int) -> tuple[int, ...]:
+        """Fields that a field's changes depend on, and goals that hang together with them."""
+        fields, wanted = self.table.layout.fields, self.goal.conditions
+        chosen, size = [field], fields[field].size
+        while True:
+            strength: dict[int, int] = {}
+            for member in chosen:
+                for other, count in self.causes[member].items():
+                    strength[other] = strength.get(other, 0) + count
+            ways = [f for f in strength if f not in chosen and size * fields[f].size <= most]
+            if not ways:
+                return tuple(sorted(chosen))
+            best = max(ways, key=lambda f: (f in wanted, strength[f], -f))
+            chosen.append(best)
+            size *= fields[best].size
+
+
+def _walks(table: OperatorTable, start: Words, deadline: Deadline) -> Words:
+    """States that random walks from some states lead through."""
+    dice = np.random.default_rng(0)
+    here = start[dice.integers(0, len(start), _WALKERS)]
+    seen = [start[:_WALKERS], here]
+    for _ in range(_STEPS):
+        deadline.check()
+        rows, chosen = table.applicable(here)
+        if not len(rows):
+            break
+        order = dice.permutation(len(rows))
+        first = order[np.unique(rows[order], return_index=True)[1]]
+        here = table.after(here[rows[first]], chosen[first])
+        seen.append(here)
+    return np.concatenate(seen)
+
+
+def _causes(table: OperatorTable) -> list[dict[int, int]]:
+    """For each field, which others operators look at or change when they change it, and how often."""
+    found: list[dict[int, int]] = [{} for _ in table.layout.fields]
+    for conditions, effects in zip(table.conditions, table.effects, strict=True):
+        for field in effects:
+            for other in {*conditions, *effects} - {field}:
+                found[field][other] = found[field].get(other, 0) + 1
+    return found
+
+
+def _orders(count: int) -> list[list[int]]:
+    """Some orders of patterns: as they are, from behind, and from others on."""
+    straight = list(range(count))
+    turned = [straight[k:] + straight[:k] for k in range(count)]
+    orders = {tuple(order): None for each in turned for order in (each, each[::-1])}
+    return [list(order) for order in orders][:_WAYS]

@@ -1,0 +1,126 @@
+"""Which facts are never true together, and which actions never happen (h2, Haslum and Geffner 2000).
+
+Every pair of facts that may be true together is found, from the pairs that are at first: an action whose
+preconditions may pair by pair be true together makes what it adds true together, and beside whatever may
+be true beside its preconditions and is not deleted.  What is not found is true in no state that is reached
+from one in which all pairs are found ones.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Final
+
+from serendipity.model import Deadline
+from verify.packed.layout import Effects
+
+MOST_FACTS: Final = 1_500
+MOST_ACTIONS: Final = 10_000
+"""Sizes beyond which nobody should ask: it takes time with their product."""
+
+
+class Pairs:
+    """The pairs of facts that may be true together.
+
+    Args:
+        facts: how many there are.
+        init: the facts that are true at first.
+        actions: all that may ever happen; with circles of actions, if several may happen at once.
+        deadline: polled.
+
+    Attributes:
+        beside: by fact, the facts that may be true beside it as bits; 0 where it can't be true at all.
+    """
+
+    def __init__(
+        self, facts: int, init: Iterable[int], actions: Sequence[Effects], deadline: Deadline
+    ) -> None:
+        self.beside = [0] * facts
+        self._stale = set(init)
+        first = _bits(self._stale)
+        for fact in self._stale:
+            self.beside[fact] = first
+        waiting = [(action.pre, action.add, ~_bits(action.delete)) for action in deadline.each(actions)]
+        fresh = True  # what needs nothing happens where nothing is true, too
+        while fresh or self._stale:
+            fresh, stale, self._stale = False, self._stale, set()
+            for pre, add, kept in deadline.each(waiting):
+                if not pre or not stale.isdisjoint(pre):
+                    self._happen(pre, add, kept)
+
+    def possible(self, pre: Iterable[int]) -> bool:
+        """Whether some facts may be true together."""
+        wanted = _bits(pre)
+        return all(not wanted & ~self.beside[fact] for fact in pre)
+
+    def covers(self, state: Iterable[int]) -> bool:
+        """Whether nothing is true together in a state that is never found so."""
+        return self.possible(tuple(state))
+
+    def _happen(self, pre: tuple[int, ...], add: tuple[int, ...], kept: int) -> None:
+        beside, wanted = -1, _bits(pre)
+        for fact in pre:
+            row = self.beside[fact]
+            if wanted & ~row:
+                return
+            beside &= row
+        if beside < 0:  # needs nothing: beside whatever may be true
+            beside = _bits(fact for fact, row in enumerate(self.beside) if row)
+        row = beside & kept | _bits(add)
+        for fact in add:
+            new = row & ~self.beside[fact]
+            if new:
+                self.beside[fact] |= new
+                self._stale.add(fact)
+                mine = 1 << fact
+                for bit in _each_bit(new):
+                    other = bit.bit_length() - 1
+                    self.beside[other] |= mine
+                    self._stale.add(other)
+
+
+def exclusive_groups(pairs: Pairs, facts: Iterable[int], deadline: Deadline) -> list[frozenset[int]]:
+    """Disjoint groups of facts of which no two are ever true together, the largest first.
+
+    Args:
+        pairs: those that may be.
+        facts: to be grouped.
+        deadline: polled.
+    """
+    every = _bits(facts)
+    against = {f: every & ~pairs.beside[f] & ~(1 << f) for f in facts}
+    cliques = {_clique(seed, against) for seed in deadline.each(against)}
+    chosen: list[frozenset[int]] = []
+    while cliques:
+        deadline.check()
+        best = max(cliques, key=lambda bits: (bits.bit_count(), bits))
+        if best.bit_count() < 2:
+            break
+        chosen.append(frozenset(bit.bit_length() - 1 for bit in _each_bit(best)))
+        cliques = {clique & ~best for clique in cliques}
+    return chosen
+
+
+def _clique(seed: int, against: dict[int, int]) -> int:
+    """A largest group with a fact, as greed finds it."""
+    members, candidates = 1 << seed, against[seed]
+    while candidates:
+        best = max(
+            (bit.bit_length() - 1 for bit in _each_bit(candidates)),
+            key=lambda fact: ((against[fact] & candidates).bit_count(), -fact),
+        )
+        members |= 1 << best
+        candidates &= against[best]
+    return members
+
+
+def _each_bit(bits: int) -> Iterator[int]:
+    while bits:
+        lowest = bits & -bits
+        yield lowest
+        bits ^= lowest
+
+
+def _bits(facts: Iterable[int]) -> int:
+    found = 0
+    for fact in facts:
+        found |= 1 << fact
+    return found

@@ -1,0 +1,163 @@
+"""One goal, many questions: layout, operators and bounds that all of them share."""
+
+from collections.abc import Iterable, Sequence
+from typing import Final
+
+import numpy as np
+
+from serendipity.model import Deadline
+from verify.packed.bounds import LITTLE, MUCH, Bounds, Care
+from verify.packed.cheapest_path import PathSearch, TooManyStatesError
+from verify.packed.layout import Effects, Layout, Words
+from verify.packed.mutexes import MOST_ACTIONS, MOST_FACTS, Pairs, exclusive_groups
+from verify.packed.operators import Ints, Operator, OperatorTable
+
+MOST_WEIGHT: Final = 2**60
+"""Of all operators together: sums of weights have to stay below ``FAR``."""
+
+_FEW: Final = 20_000
+"""States after which better bounds are worth their time."""
+
+_MOST: Final = 50_000_000
+
+
+class TooLargeError(Exception):
+    """A problem that packed states are not made for."""
+
+
+class StateSpace:
+    """What is true together, and where facts stand.
+
+    Args:
+        facts: the number of facts.
+        init: those that are true at first.
+        actions: all that may ever happen, circles of actions that happen at once included.
+        groups: of facts that may exclude each other.
+        deadline: polled.
+
+    Raises:
+        TooLargeError: there are too many facts or actions.
+    """
+
+    def __init__(
+        self,
+        facts: int,
+        init: frozenset[int],
+        actions: Sequence[Effects],
+        groups: Iterable[frozenset[int]],
+        deadline: Deadline,
+    ) -> None:
+        if facts > MOST_FACTS or len(actions) > MOST_ACTIONS:
+            raise TooLargeError
+        self._deadline = deadline
+        self._groups = tuple(groups)
+        self.pairs = Pairs(facts, init, actions, deadline)
+        self.actions = [action for action in deadline.each(actions) if self.pairs.possible(action.pre)]
+
+    def layout(self, facts: Iterable[int]) -> Layout:
+        """Fields for some facts: the largest groups of which no two are true together."""
+        facts = tuple(facts)
+        return Layout(facts, exclusive_groups(self.pairs, facts, self._deadline), self.actions)
+
+    def other_layout(self, facts: Iterable[int]) -> Layout:
+        """The same by the groups that were given."""
+        alone = [group for group in self._groups if self._exclusive(group)]
+        return Layout(facts, alone, self.actions)
+
+    def _exclusive(self, group: frozenset[int]) -> bool:
+        beside = self.pairs.beside
+        members = sum(1 << fact for fact in group)
+        return all(not beside[fact] & members & ~(1 << fact) for fact in group)
+
+
+class Problem:
+    """Cheapest ways to a goal, from any states that can be reached.
+
+    Args:
+        space: what may be true.
+        facts: that operators and goal look at.
+        operators: what may be done.
+        goal: facts that have to be true, and false.
+        deadline: polled.
+        bounded: whether lower bounds spare the search states; else it looks at all that cost little enough.
+
+    Raises:
+        TooLargeError: weights may add up to more than a word holds.
+    """
+
+    def __init__(
+        self,
+        space: StateSpace,
+        facts: Iterable[int],
+        operators: Sequence[Operator],
+        goal: tuple[Sequence[int], Sequence[int]],
+        deadline: Deadline,
+        *,
+        bounded: bool = True,
+    ) -> None:
+        operators = [each for each in operators if space.pairs.possible(each.pre)]
+        if sum(operator.weight for operator in operators) > MOST_WEIGHT:
+            raise TooLargeError
+        facts = frozenset(facts)
+        self._space, self._facts, self._deadline = space, facts, deadline
+        self.layout = space.layout(facts)
+        self.table = OperatorTable(self.layout, operators)
+        self._wanted = tuple(goal[0])
+        self.goal = self.table.test(*goal)
+        self._bounds: Bounds | None = None
+        self._bounded, self._careful = bounded, not bounded
+
+    def pack(self, states: Sequence[frozenset[int]]) -> Words | None:
+        """States as rows; None if one of them can't be reached."""
+        if not all(self._space.pairs.covers(state) for state in states):
+            return None
+        return self.layout.pack(states)
+
+    def search(self, starts: Words, paid: Ints, below: int | None = None) -> tuple[PathSearch, int | None]:
+        """A search from some states with what was paid so far, and the goal state that it ends in.
+
+        Args:
+            starts: the states.
+            paid: for each of them.
+            below: paths of this weight or more don't count; None: all do.
+
+        Returns:
+            The search, and the state's number in it; None: there is no way for less than ``below``.
+
+        Raises:
+            TooManyStatesError: there are more than memory should hold.
+            LimitReachedError: the deadline came first.
+        """
+        if self._bounds is None and self._bounded:
+            self._bounds = self._made(starts, LITTLE)
+        if not self._careful:
+            try:
+                return self._run(starts, paid, below, _FEW)
+            except TooManyStatesError:
+                self._bounds, self._careful = self._made(starts, MUCH), True
+        return self._run(starts, paid, below, _MOST)
+
+    def least(self, start: Words, below: int | None = None) -> int | None:
+        """The least weight from one state to the goal; None if there is no way for less than ``below``."""
+        search, reached = self.search(start, np.zeros(1, np.int64), below)
+        return None if reached is None else search.paid(reached)
+
+    def bounds(self, states: Words) -> Ints:
+        """Lower bounds on what is left; 0 where there are to be none."""
+        if not self._bounded:
+            return np.zeros(len(states), np.int64)
+        if self._bounds is None:
+            self._bounds = self._made(states, LITTLE)
+        return self._bounds(states)
+
+    def _run(
+        self, starts: Words, paid: Ints, below: int | None, most_states: int
+    ) -> tuple[PathSearch, int | None]:
+        search = PathSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
+        search.add(starts, paid)
+        return search, search.run()
+
+    def _made(self, start: Words, care: Care) -> Bounds:
+        other = self._space.other_layout(self._facts)
+        views = [OperatorTable(other, self.table.operators)] if other.differs(self.layout) else []
+        return Bounds(self.table, views, self._wanted, start, care, self._deadline)
