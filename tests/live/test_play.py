@@ -81,6 +81,14 @@ def test_what_robots_do_in_each_condition(name: str, team: float, said: bool) ->
     assert view["end"]["helped"] is helped
 
 
+def test_several_robots_speak_one_after_the_other() -> None:
+    table = Table(setting(name="taxis", task=serendipity.example("taxis"), discount=1, condition="announced"))
+    said = table.view()["said"]
+    assert said is not None
+    assert "I am" not in said
+    assert said.startswith(("uno is going to ", "due is going to "))
+
+
 def test_somebody_with_a_local_view_knows_what_they_saw_last() -> None:
     table = Table(setting(view="local"))
     view = go(table, *TO_HALL4[:4])

@@ -177,9 +177,16 @@ class Game:
         mine = [s for s in decided.plan or () if list(s.agents) != [self.human]]
         if not mine:
             return None
-        steps = [f"{self._words.step(step)} (epoch {self.run.epoch + step.epoch - 1})" for step in mine]
         wish = "" if decided.expected is None else f" Please {self._words.step(decided.expected)} now."
-        return f"I am going to {', '.join(steps)}.{wish}"
+        said: dict[str, list[str]] = {}
+        for step in mine:
+            text = f"{self._words.step(step)} (epoch {self.run.epoch + step.epoch - 1})"
+            said.setdefault(self._words.robots(step), []).append(text)
+        one = len(self.setting.task.robots) == 1
+        speeches = (
+            f"{'I am' if one else f'{who} is'} going to {', '.join(does)}." for who, does in said.items()
+        )
+        return " ".join(speeches) + wish
 
     def _told(self, passed: Passed, near: str | None) -> dict[str, Any]:
         """An epoch as the person has seen it."""
