@@ -19,6 +19,7 @@ from serendipity.model.numbers import plain
 from serendipity.model.options import CHOICES
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.processes import in_processes
+from serendipity.model.table import Table, Tabular, table_of
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import HumanPlan, Task
@@ -81,7 +82,7 @@ class Run:
 
 
 @dataclass(frozen=True, slots=True)
-class Runs:
+class Runs(Tabular):
     """Several executions of one task.
 
     Attributes:
@@ -93,6 +94,10 @@ class Runs:
     human: str
     rows: tuple[Run, ...]
     logs: tuple[tuple[dict[str, Any], ...], ...]
+
+    def table(self) -> Table:
+        """The runs, one a row."""
+        return table_of(Run, self.rows)
 
     def summary(self) -> dict[str, Any]:
         """Figures over all runs: shares are of runs, ``kept`` is of epochs, costs are means."""

@@ -15,9 +15,24 @@ from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import rounded
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
+from serendipity.model.table import Cell, Table, Tabular
 from serendipity.model.task.execution import actions_of
 
 SCHEMA: Final = "serendipity.interruptions/1"
+
+_COLUMNS: Final = {
+    "window_start": int,
+    "window_end": int,
+    "human_cost": float,
+    "team_cost": float,
+    "human_saving": float,
+    "team_saving": float,
+    "removed_first": int,
+    "removed_last": int,
+    "removed": str,
+    "replacement": str,
+    "informative": bool,
+}
 
 _OPTIONS: Final = ("discount", "horizon", "suffix", "preservation", "interference")
 """What of ``Options`` makes a difference here."""
@@ -85,9 +100,18 @@ class Interruption:
             "informative": self.informative,
         }
 
+    def cells(self) -> tuple[Cell, ...]:
+        """What stands in its row; names of actions with ``; `` between them."""
+        gone = self.removal
+        taken = (gone.first, gone.last, "; ".join(gone.removed)) if gone and gone.removed else (None,) * 3
+        costs = (self.human_cost, self.team_cost, self.human_saving, self.team_saving)
+        instead = None if gone is None else "; ".join(gone.replacement)
+        window = (self.window.start, self.window.end)
+        return (*window, *map(rounded, costs), *taken, instead, self.informative)
+
 
 @dataclass(frozen=True, slots=True)
-class InterruptionReport:
+class InterruptionReport(Tabular):
     """The report of semantics 3.2.
 
     Attributes:
@@ -111,6 +135,10 @@ class InterruptionReport:
     windows: tuple[Interruption, ...]
     options: Options
     limit: str | None = None
+
+    def table(self) -> Table:
+        """The windows that were examined, one a row."""
+        return Table(_COLUMNS, tuple(window.cells() for window in self.windows))
 
     @property
     def complete(self) -> bool:

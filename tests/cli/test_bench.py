@@ -11,11 +11,12 @@ import pytest
 from serendipity.cli.app import main
 from serendipity.evaluation.benchmark import AXES, CONTENDERS
 from serendipity.evaluation.benchmark.coverage import CONTENDERS as SUITE_CONTENDERS
-from serendipity.evaluation.benchmark.coverage import Call, Outcome, Row, rows_as_csv
+from serendipity.evaluation.benchmark.coverage import Call, Outcome, Row, as_table
 from serendipity.evaluation.benchmark.coverage import Contender as SuiteContender
 from serendipity.evaluation.benchmark.fast_downward import installed
 from serendipity.evaluation.benchmark.scaling import Axis, Size
 from serendipity.scenarios.examples import DATA
+from serendipity.writing.rows import written
 
 
 def test_contenders_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -123,7 +124,7 @@ def test_optima_of_a_suite_that_differ_are_an_error(
         Row("d", "t", "h", "r", True, "individual", 0.9, name, Outcome("optimal", cost))
         for name, cost in (("search", 1.0), ("fast-downward", 2.0))
     ]
-    (tmp_path / "rows.csv").write_text(rows_as_csv(rows))
+    (tmp_path / "rows.csv").write_text(str(written(as_table(rows), "csv")))
     assert main(["bench", str(tmp_path / "rows.csv")]) == 2
     printed = capsys.readouterr()
     assert "Calls decided" in printed.out
@@ -135,7 +136,7 @@ def test_optima_of_a_suite_that_differ_are_an_error(
 def test_coverage_over_time_is_drawn(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     row = Row("d", "t", "h", "r", True, "individual", 0.9, "search", Outcome("optimal", 1.0, seconds=0.5))
-    (tmp_path / "rows.csv").write_text(rows_as_csv([row]))
+    (tmp_path / "rows.csv").write_text(str(written(as_table([row]), "csv")))
     assert main(["bench", str(tmp_path / "rows.csv"), "--plot", str(tmp_path / "over.svg")]) == 0
     assert "<svg" in (tmp_path / "over.svg").read_text()
 

@@ -2,7 +2,6 @@
 
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
@@ -15,7 +14,9 @@ from serendipity.cli.streams import output, progress
 from serendipity.cli.text.render import Grid, Line, as_markdown, rendered
 from serendipity.model import InputError, Task, UsageError
 from serendipity.model.errors import DisagreementError
-from serendipity.writing.csv_text import as_csv
+from serendipity.model.table import table_of
+from serendipity.writing.rows import FORMATS as ROWS
+from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from serendipity.evaluation.benchmark import Contender, Sample, Timing
@@ -77,7 +78,15 @@ def bench(
         int, typer.Option(min=1, help="Calls per figure, after a warm-up; passes for in-turn.")
     ] = 5,
     time_limit: Annotated[float, typer.Option(min=0, help="Seconds for each call.")] = 20.0,
-    output_file: output.Output = None,
+    output_file: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Write every timing here: as CSV, or as FILE ends in .jsonl or .parquet.",
+        ),
+    ] = None,
     plot: Annotated[
         Path | None,
         typer.Option(
@@ -87,7 +96,7 @@ def bench(
     markdown: Annotated[bool, typer.Option("--markdown", help="A suite's tables as Markdown.")] = False,
     quiet: output.Quiet = False,
 ) -> int:
-    """Measure the search beside integer programs and Fast Downward; -o writes every timing as CSV."""
+    """Measure the search beside integer programs and Fast Downward; -o writes every timing."""
     _check_files(output_file, plot)
     if scaling is not None:
         if folder is not None:
@@ -134,7 +143,7 @@ def bench(
     if ratios:
         parts += [Grid(benchmark.RATIOS_HEADER, ratios), Line()]
     parts.append(Grid(benchmark.TIMES_HEADER, benchmark.times(timings)))
-    answers = [output.Answer(rendered(parts), None), *_as_csv(timings, output_file)]
+    answers = [output.Answer(rendered(parts), None), *_as_rows(benchmark.Timing, timings, output_file)]
     if plot is not None:
         from serendipity.evaluation.benchmark.plot import side_by_side
 
@@ -199,7 +208,7 @@ def _covered(
     parts.pop()
     answers = [output.Answer((as_markdown if markdown else rendered)(parts), None)]
     if output_file is not None:
-        answers.append(output.Answer(coverage.rows_as_csv(rows), output_file))
+        answers.append(output.Answer(written(coverage.as_table(rows), _form(output_file)), output_file))
     if plot is not None:
         from serendipity.evaluation.benchmark.coverage.plot import over_time
 
@@ -239,7 +248,7 @@ def _scaling(
         Line(),
         Grid(benchmark.EXPONENTS_HEADER, benchmark.exponents(samples)),
     ]
-    answers = [output.Answer(rendered(parts), None), *_as_csv(samples, output_file)]
+    answers = [output.Answer(rendered(parts), None), *_as_rows(benchmark.Sample, samples, output_file)]
     if plot is not None:
         from serendipity.evaluation.benchmark.plot import series
 
@@ -250,6 +259,7 @@ def _scaling(
 
 def _check_files(output_file: Path | None, plot: Path | None) -> None:
     output.check_output(output_file)
+    _form(output_file)
     if plot is not None:
         from serendipity.evaluation.benchmark.plot import check_suffix
 
@@ -271,12 +281,16 @@ def _present(
     return [name for name in names if reasons.get(name) is None], absent
 
 
-def _as_csv(
-    rows: "Sequence[Timing] | Sequence[Sample]", output_file: Path | None
+def _as_rows(
+    row: type, rows: "Sequence[Timing] | Sequence[Sample]", output_file: Path | None
 ) -> "Iterator[output.Answer]":
     if output_file is not None and rows:
-        header = [field.name for field in fields(rows[0])]
-        yield output.Answer(as_csv(header, (astuple(row) for row in rows)), output_file)
+        yield output.Answer(written(table_of(row, rows), _form(output_file)), output_file)
+
+
+def _form(output_file: Path | None) -> str:
+    """How the rows are written: as the file's name ends, else CSV."""
+    return output.choose_format(None, output_file, ROWS)
 
 
 def _loaded(folder: Path, stride: int) -> Iterator[Task]:

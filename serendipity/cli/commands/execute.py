@@ -1,7 +1,7 @@
 """``serendipity execute``: a person, robots and the world go on epoch by epoch."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -13,11 +13,11 @@ from serendipity.cli.streams import output, progress
 from serendipity.cli.text import goals as goal_options
 from serendipity.model import InputError, UsageError
 from serendipity.model.options import limit_of
+from serendipity.writing.rows import FORMATS as ROWS
+from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from serendipity.execution import Runs
-
-_FORMATS: Final = ("text", "json", "csv")
 
 
 def execute(
@@ -77,18 +77,13 @@ def execute(
     replay: Annotated[
         Path | None, typer.Option(metavar="LOG", help="Play the runs of a log again, and compare.")
     ] = None,
-    format: Annotated[  # noqa: A002 - the option's name
-        str | None,
-        typer.Option("--format", help="By default after -o's name, else text.", **choices(*_FORMATS)),
-    ] = None,
+    format: output.DataFormat = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
     """Let a person do as they like while robots watch, decide in each epoch, and help where it pays."""
-    output.start_logging(verbose)
-    form = _format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose, output.DATA)
     output.check_output(log, "--log")
     named, policy = _recorded(files, human)
     task = naming.load(named, person, robot, agent, team, example, quiet=quiet)
@@ -120,15 +115,6 @@ def execute(
     return ExitCode.ANSWERED
 
 
-def _format(wanted: str | None, output_file: Path | None) -> str:
-    if wanted is None:
-        suffix = "" if output_file is None else output_file.suffix[1:]
-        return suffix if suffix in _FORMATS else "text"
-    if wanted not in _FORMATS:
-        raise UsageError(f"--format: expected one of {', '.join(_FORMATS)}, got '{wanted}'")
-    return wanted
-
-
 def _recorded(files: list[Path] | None, human: str) -> tuple[list[Path] | None, str]:
     """The files that name the task, and the person, whose record may stand behind them."""
     if human.strip() != "recorded":
@@ -157,15 +143,12 @@ def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> i
     return code
 
 
-def _answer(form: str, found: "Runs") -> str:
-    rows = [row.to_dict() for row in found.rows]
+def _answer(form: str, found: "Runs") -> str | bytes:
     if form == "json":
         return output.as_json(found.to_dict())
-    if form == "csv":
-        from serendipity.writing.csv_text import as_csv
-
-        return as_csv(list(rows[0]), [list(row.values()) for row in rows])
-    return _text(found, rows)
+    if form in ROWS:
+        return written(found.table(), form)
+    return _text(found, [row.to_dict() for row in found.rows])
 
 
 def _text(found: "Runs", rows: list[dict[str, Any]]) -> str:

@@ -14,11 +14,13 @@ from serendipity.cli.streams import output, progress
 from serendipity.model import UsageError
 from serendipity.model.errors import limit_words
 from serendipity.model.numbers import plain
+from serendipity.writing.rows import FORMATS as ROWS
+from serendipity.writing.rows import written
 
 _PICTURES: Final = (".svg", ".png")
 
-_WRITE_SHARE: Final = {"text": 0.05, "json": 0.4}
-"""What of the time limit is kept for writing: each window has a plan, and they are thousands."""
+_WRITE_SHARE: Final = {"json": 0.4} | dict.fromkeys(("text", *ROWS), 0.05)
+"""What of the time limit is kept for writing: thousands of windows, in JSON each with its plan."""
 
 if TYPE_CHECKING:
     from serendipity.cli.text.render import Grid, Line
@@ -46,14 +48,14 @@ def interruptions(
     ] = False,
     time_limit: limits.TimeLimit = None,
     memory_limit: limits.MemoryLimit = None,
-    format: output.Format = None,  # noqa: A002 - the option's name
+    format: output.DataFormat = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
     """In which windows the human, or the team, could pay less, and what would change then."""
     arguments = locals()
-    form = output.prepare(format, output_file, verbose)
+    form = output.prepare(format, output_file, verbose, output.DATA)
     output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
@@ -78,9 +80,11 @@ def _code(report: "InterruptionReport") -> ExitCode:
     return ExitCode.ANSWERED if report.complete or report.windows else ExitCode.UNDECIDED
 
 
-def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str:
+def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str | bytes:
     if form == "json":
         return output.as_json(report.to_dict())
+    if form in ROWS:
+        return written(report.table(), form)
     from serendipity.cli.text.render import rendered
 
     return rendered(_text(report, every=every))

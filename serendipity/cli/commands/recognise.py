@@ -10,6 +10,8 @@ from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import limits, naming, plan_options
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text import goals as goal_options
+from serendipity.writing.rows import FORMATS as ROWS
+from serendipity.writing.rows import written
 
 
 def recognise(
@@ -32,13 +34,13 @@ def recognise(
     beta: goal_options.Beta = None,
     time_limit: limits.TimeLimit = None,
     memory_limit: limits.MemoryLimit = None,
-    format: output.Format = None,  # noqa: A002 - the option's name
+    format: output.DataFormat = None,  # noqa: A002 - the option's name
     output_file: output.Output = None,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
     """How probable each goal is, given what the human has done so far."""
-    form = output.prepare(format, output_file, verbose)
+    form = output.prepare(format, output_file, verbose, output.DATA)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.recognition")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     given = plan_options.given(observed=observed, beta=beta)
@@ -46,6 +48,8 @@ def recognise(
         found = serendipity.recognise(task, goals, **given, deadline=deadline)
     if form == "json":
         output.write_answer(output.as_json(found.to_dict()), output_file)
+    elif form in ROWS:
+        output.write_answer(written(found.table(), form), output_file)
     else:
         from serendipity.cli.text.render import rendered
 

@@ -11,9 +11,10 @@ from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.streams import output
 from serendipity.cli.streams.stderr import is_terminal, tell
-from serendipity.model import UsageError
 from serendipity.model.options import limit_of
 from serendipity.writing.printable import message
+from serendipity.writing.rows import FORMATS as ROWS
+from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from serendipity.evaluation.reproduction import Reproduction
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("serendipity.reproduce")
 
-_FORMATS: Final = ("table", "csv", "json")
+_FORMATS: Final = ("table", "csv", "json", *(form for form in ROWS if form != "csv"))
 
 
 def reproduce(
@@ -79,9 +80,7 @@ def reproduce(
     verbose: output.Verbose = 0,
 ) -> int:
     """Run a folder of tasks through modes and discounts; a run that was killed goes on where it was."""
-    output.start_logging(verbose)
-    form = _format(format, output_file)
-    output.check_output(output_file)
+    form = output.prepare(format, output_file, verbose, _FORMATS)
     for option, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
         output.check_output(file, option)
     from serendipity.cli.streams.progress import shown
@@ -125,15 +124,6 @@ def _tell(written: list[Path], *, quiet: bool) -> None:
             log.info("wrote %s", message(str(path)))
 
 
-def _format(wanted: str | None, output_file: Path | None) -> str:
-    if wanted is None:
-        suffix = "" if output_file is None else output_file.suffix[1:]
-        return suffix if suffix in _FORMATS else "table"
-    if wanted not in _FORMATS:
-        raise UsageError(f"--format: expected one of {', '.join(_FORMATS)}, got '{wanted}'")
-    return wanted
-
-
 def _listed(text: str) -> list[str]:
     return [part for part in text.replace(",", " ").split() if part]
 
@@ -144,13 +134,15 @@ def _answer(
     entries: "tuple[Entry, ...]",
     times: "tuple[Times, ...]",
     answers: "tuple[ExampleAnswer, ...]",
-) -> str:
+) -> str | bytes:
     from serendipity.evaluation.reproduction import formats
 
     if form == "csv":
         return formats.rows_as_csv(run)
     if form == "json":
         return output.as_json(formats.as_json(run, entries, times, answers))
+    if form in ROWS:
+        return written(run.table(), form)
     return _text(run, entries, times, answers)
 
 

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Collection
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any, Final, NamedTuple
@@ -11,12 +12,20 @@ import typer
 from serendipity.cli.choices import choices
 from serendipity.cli.streams.stderr import tell
 from serendipity.model.errors import UsageError
+from serendipity.writing.rows import FORMATS as ROWS
+from serendipity.writing.rows import check_installed
 
 FORMATS: Final = ("text", "json")
+DATA: Final = (*FORMATS, *ROWS)
+"""The formats of commands whose answers have rows."""
 
 Format = Annotated[
     str | None,
     typer.Option("--format", help="Text, or JSON for -o *.json.", **choices(*FORMATS)),
+]
+DataFormat = Annotated[
+    str | None,
+    typer.Option("--format", help="By default after -o's name, else text.", **choices(*DATA)),
 ]
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the answer here.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No warnings and no progress on stderr.")]
@@ -42,28 +51,34 @@ class Answer(NamedTuple):
         return self.content.encode() if isinstance(self.content, str) else self.content
 
 
-def prepare(wanted: str | None, output: Path | None, verbosity: int) -> str:
+def prepare(
+    wanted: str | None, output: Path | None, verbosity: int, formats: Collection[str] = FORMATS
+) -> str:
     """Before the work: the log, what can be known to be wrong with ``-o``, and the format in force.
 
     Raises:
         UsageError: there is no such format, or ``output`` can't be written.
     """
     start_logging(verbosity)
-    form = choose_format(wanted, output)
+    form = choose_format(wanted, output, formats)
     check_output(output)
     return form
 
 
-def choose_format(wanted: str | None, output: Path | None) -> str:
-    """The format in force: the one asked for, else JSON for ``-o *.json``, else text.
+def choose_format(wanted: str | None, output: Path | None, formats: Collection[str] = FORMATS) -> str:
+    """The format in force: the one asked for, else the one that ``-o`` ends in, else the first.
 
     Raises:
-        UsageError: there is no such format.
+        UsageError: there is no such format, or it can't be written here.
     """
     if wanted is None:
-        return "json" if output is not None and output.suffix == ".json" else "text"
-    if wanted not in FORMATS:
-        raise UsageError(f"--format: expected one of {', '.join(FORMATS)}, got '{wanted}'")
+        suffix = "" if output is None else output.suffix[1:]
+        wanted = suffix if suffix in formats else next(iter(formats))
+    if wanted not in formats:
+        raise UsageError(f"--format: expected one of {', '.join(formats)}, got '{wanted}'")
+    if wanted == "parquet" and output is None:
+        raise UsageError("--format: parquet is no text: expected -o FILE with it")
+    check_installed(wanted)
     return wanted
 
 

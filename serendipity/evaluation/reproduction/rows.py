@@ -19,6 +19,22 @@ COLUMNS: Final = (
 )
 """The columns of the CSV, in order."""
 
+KINDS: Final = {
+    "test": str,
+    "mode": str,
+    "discount": float,
+    "cost": float,
+    "human_cost": float,
+    "window_start": int,
+    "window_end": int,
+    "seconds": float,
+    "status": str,
+    "opportunity": bool,
+    "best_tie": float,
+    "worst_tie": float,
+}
+"""The columns of a table of rows, and their types: those of the CSV, then what else is known."""
+
 
 @dataclass(frozen=True, slots=True)
 class Row:

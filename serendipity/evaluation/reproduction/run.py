@@ -11,12 +11,13 @@ from typing import Final
 
 from serendipity.evaluation.reproduction.journal import Journal
 from serendipity.evaluation.reproduction.pool import on_dask
-from serendipity.evaluation.reproduction.rows import Row
+from serendipity.evaluation.reproduction.rows import KINDS, Row
 from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
 from serendipity.evaluation.reproduction.work import Assignment, Call, Limits, TaskRows, solve, unknown
 from serendipity.model import Deadline, Options, UsageError
 from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
+from serendipity.model.table import Table, Tabular
 
 MODES: Final = ("individual", "serendipity", "communication", "composite")
 DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
@@ -39,12 +40,16 @@ class Progress:
 
 
 @dataclass(frozen=True, slots=True)
-class Reproduction:
+class Reproduction(Tabular):
     """The rows of a run, in the order task, mode, discount."""
 
     modes: tuple[str, ...]
     discounts: tuple[Fraction, ...]
     rows: tuple[Row, ...]
+
+    def table(self) -> Table:
+        """The rows: what the CSV has, and behind it what else is known."""
+        return Table(KINDS, tuple(tuple(row.to_dict().values()) for row in self.rows))
 
     @property
     def unproved(self) -> int:

@@ -6,8 +6,20 @@ from typing import Any, Final
 
 from serendipity.model.answers.fields import Fields, MalformedError
 from serendipity.model.numbers import as_written, rounded
+from serendipity.model.table import Table, Tabular
 
 SCHEMA: Final = "serendipity.recognition/1"
+
+_COLUMNS: Final = {
+    "name": str,
+    "goal": str,
+    "prior": float,
+    "likelihood": float,
+    "posterior": float,
+    "cost_with_observed": float,
+    "cost_without_observed": float,
+    "plan": str,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +63,7 @@ class GoalPosterior:
 
 
 @dataclass(frozen=True, slots=True)
-class Recognition:
+class Recognition(Tabular):
     """The posterior over the human's goals.
 
     Attributes:
@@ -68,6 +80,23 @@ class Recognition:
     beta: float
     explained: bool
     goals: tuple[GoalPosterior, ...]
+
+    def table(self) -> Table:
+        """The goals, one a row."""
+        rows = tuple(
+            (
+                goal.name,
+                ", ".join(goal.goal),
+                float(goal.prior),
+                goal.likelihood,
+                goal.posterior,
+                rounded(goal.with_observed),
+                rounded(goal.without_observed),
+                None if goal.plan is None else "; ".join(goal.plan),
+            )
+            for goal in self.goals
+        )
+        return Table(_COLUMNS, rows)
 
     @property
     def most_likely(self) -> GoalPosterior:

@@ -17,14 +17,16 @@ from serendipity.model.answers.result_parts import (
 from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.options import Options
+from serendipity.model.table import Table, Tabular
 from serendipity.model.task.plans import PlanStep, Window
 
 SCHEMA: Final = "serendipity.result/1"
+_COLUMNS: Final = {"epoch": int, "agents": str, "action": str, "cost": float}
 STATUSES: Final = ("optimal", "feasible", "infeasible", "unknown")
 
 
 @dataclass(frozen=True, slots=True)
-class Result:
+class Result(Tabular):
     """What ``plan`` answers; fields as in ``docs/reference`` (costs in the domain's unit).
 
     ``status``: ``optimal`` (proved), ``feasible`` (a plan; the limit came first),
@@ -69,6 +71,11 @@ class Result:
         """A number of the statistics; None where there is none of that name."""
         value = self.statistics.get(name)
         return None if finite(value) is None else value
+
+    def table(self) -> Table:
+        """The plan, a step a row; no row without a plan."""
+        rows = tuple((step.epoch, ", ".join(step.agents), step.action, step.cost) for step in self.plan or ())
+        return Table(_COLUMNS, rows)
 
     def says(self, part: str) -> bool:
         """Whether it has a part, ``ties`` or ``goals`` for example, perhaps of another form."""

@@ -17,7 +17,7 @@ from serendipity.evaluation.benchmark.coverage.report import (
 )
 from serendipity.evaluation.benchmark.coverage.rows import Row, disagreements, measure
 from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles, is_suite, problems
-from serendipity.evaluation.benchmark.coverage.table import read_rows, rows_as_csv
+from serendipity.evaluation.benchmark.coverage.table import as_table, read_rows
 
 __all__ = [
     "CONTENDERS",
@@ -29,6 +29,7 @@ __all__ = [
     "Roles",
     "Row",
     "Table",
+    "as_table",
     "contenders_in",
     "decided",
     "disagreements",
@@ -39,6 +40,5 @@ __all__ = [
     "over_time",
     "problems",
     "read_rows",
-    "rows_as_csv",
     "seconds",
 ]

@@ -1,16 +1,16 @@
-"""Rows as CSV, and back."""
+"""Rows as a table, and back from CSV."""
 
 import csv
 from collections.abc import Iterable
-from dataclasses import astuple, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final
 
 from serendipity.evaluation.benchmark.coverage.contenders import Outcome
 from serendipity.evaluation.benchmark.coverage.rows import Row
 from serendipity.model.errors import InputError
+from serendipity.model.table import Table, columns_of
 from serendipity.pddl.parsing.files import read_text
-from serendipity.writing.csv_text import as_csv
 
 _OWN: Final = tuple(field for field in fields(Row) if field.name != "outcome")
 _FIELDS: Final = (*_OWN, *fields(Outcome))
@@ -25,10 +25,14 @@ _READ: Final[dict[Any, Any]] = {
 """By type, how a cell is read."""
 
 
-def rows_as_csv(rows: Iterable[Row]) -> str:
-    """The rows, one a line, below the names of their columns."""
-    cells = ((*astuple(row)[: len(_OWN)], *astuple(row.outcome)) for row in rows)
-    return as_csv([field.name for field in _FIELDS], cells)
+def as_table(rows: Iterable[Row]) -> Table:
+    """The rows, with what the contender said behind what it was asked."""
+    asked, said = columns_of(Row), columns_of(Outcome)
+    cells = (
+        (*(getattr(row, name) for name in asked), *(getattr(row.outcome, name) for name in said))
+        for row in rows
+    )
+    return Table(asked | said, tuple(cells))
 
 
 def read_rows(path: Path) -> list[Row]:

@@ -8,6 +8,7 @@ import pytest
 from serendipity import InputError, UsageError, example, plan
 from serendipity.evaluation.benchmark import coverage, fast_downward
 from serendipity.evaluation.benchmark.coverage import CONTENDERS, MODES, Contender, Outcome, Row, measure
+from serendipity.writing.rows import written
 
 
 def row(
@@ -128,7 +129,7 @@ def test_failures_are_told_with_their_reason() -> None:
 
 def test_rows_are_read_as_they_were_written(tmp_path: Path) -> None:
     file = tmp_path / "rows.csv"
-    text = coverage.rows_as_csv(ROWS)
+    text = written(coverage.as_table(ROWS), "csv")
     file.write_text(text + text)
     assert coverage.read_rows(file) == ROWS + ROWS
     for wrong in ("a,b\n", text.replace("0.05", "soon")):

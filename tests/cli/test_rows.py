@@ -1,0 +1,100 @@
+"""Commands whose answers have rows: the same ones as CSV, JSON lines and Parquet."""
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.evaluation.benchmark import Timing
+from serendipity.model.table import Table, columns_of
+from serendipity.writing.rows import FORMATS
+from tests.cli.conftest import Run, assert_one_line
+from tests.writing.reading import rows_of
+
+Runs = Callable[[str], Run]
+
+
+def saved(run: Runs, command: str, table: Table) -> dict[str, list[tuple[object, ...]]]:
+    """The rows of a command in each format that can be written here."""
+    found = {}
+    for form in FORMATS:
+        done = run(f"{command} -o rows.{form}")
+        if form == "parquet" and "Parquet needs" in done.err:
+            continue
+        assert (done.code, done.err) == (0, "")
+        content = Path(f"rows.{form}").read_bytes()
+        found[form] = rows_of(content if form == "parquet" else content.decode(), form, table)
+    return found
+
+
+def test_interruptions(run: Runs) -> None:
+    report = serendipity.interruptions(serendipity.example("room2"), discount=0.6)
+    written = saved(run, "interruptions --example room2 --discount 0.6", report.table())
+    empty = [tuple(None if cell == "" else cell for cell in row) for row in report.table().rows]
+    assert written.pop("csv") == empty
+    assert all(rows == list(report.table().rows) for rows in written.values())
+    told = report.to_dict()["windows"]
+    assert [row[0] for row in report.table().rows] == [window["window"]["start"] for window in told]
+
+
+def test_recognise(run: Runs) -> None:
+    Path("goals").write_text("1: conducted_triage commx room1\n1: conducted_triage commx room2\n")
+    found = serendipity.recognise(serendipity.example("room2"), "goals")
+    written = saved(run, "recognise --example room2 --goals goals", found.table())
+    assert all(rows == list(found.table().rows) for rows in written.values())
+    assert [row[4] for row in found.table().rows] == [goal.posterior for goal in found.goals]
+
+
+def test_execute(run: Runs) -> None:
+    command = "execute --example room2 --discount 0.6 --human noisy:0.2 --runs 3 --seed 4"
+    runs = serendipity.execute(serendipity.example("room2"), "noisy:0.2", discount=0.6, runs=3, seed=4)
+    clock = list(runs.table().columns).index("slowest")
+    for rows in saved(run, command, runs.table()).values():
+        without = [row[:clock] + row[clock + 1 :] for row in rows]
+        assert without == [row[:clock] + row[clock + 1 :] for row in runs.table().rows]
+
+
+def test_reproduce(run: Runs) -> None:
+    serendipity.generate_usar("suite/test1", preset="room2")
+    command = "reproduce suite --modes serendipity,individual --discounts 0.6 --journal done"
+    run(f"{command} -o all.json")
+    told = [tuple(row.values()) for row in json.loads(Path("all.json").read_text())["rows"]]
+    table = serendipity.reproduce(
+        "suite", modes=["serendipity", "individual"], discounts=["0.6"], journal="done"
+    ).table()
+    assert list(table.rows) == told
+    for form in ("jsonl", "parquet"):
+        done = run(f"{command} -o rows.{form}")
+        if "Parquet needs" not in done.err:
+            content = Path(f"rows.{form}").read_bytes()
+            assert rows_of(content if form == "parquet" else content.decode(), form, table) == told
+
+
+def test_bench(run: Runs) -> None:
+    command = "bench --rooms 8 --seeds 1 --modes communication --discounts 0.9 --repeat 1 --contenders search"
+    table = Table(columns_of(Timing), ())
+    for rows in saved(run, f"{command} --quiet", table).values():
+        assert [row[1:4] for row in rows] == [("communication", "0.9", "search")]
+        assert [row[8] for row in rows] == ["optimal"]
+
+
+@pytest.mark.parametrize("command", ["interruptions", "execute"])
+def test_rows_go_to_stdout_but_parquet_does_not(command: str, run: Runs) -> None:
+    done = run(f"{command} --example room2 --format jsonl")
+    assert all(isinstance(json.loads(line), dict) for line in done.out.splitlines())
+    assert_one_line(run(f"{command} --example room2 --format parquet"), "--format: parquet", "-o FILE")
+
+
+@pytest.mark.parametrize(
+    "words", ["execute --example room2", "reproduce suite", "bench", "recognise --goals none none"]
+)
+def test_parquet_without_a_library_is_one_line(
+    words: str, run: Runs, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("polars", "pyarrow"):
+        monkeypatch.setitem(sys.modules, name, None)
+    assert_one_line(run(f"{words} -o rows.parquet"), "Parquet needs polars or pyarrow", "serendipity[data]")
+    assert not Path("rows.parquet").exists()
