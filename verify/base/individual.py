@@ -9,7 +9,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
-from serendipity.model import Deadline, Task
+from serendipity.model import Deadline, HumanPlan, Task
+from verify.base.execution import states_of_pi_h
 from verify.base.operators import Operator as OwnOperator
 from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
@@ -91,6 +92,24 @@ class IndividualOptimum:
             found = self._known[start]
             return found is not None and found <= (cost, length)
         return False
+
+    def learn(self, plan: HumanPlan) -> None:
+        """An optimal plan from ``I`` on is optimal from each state that it leads through: no need to search.
+
+        Args:
+            plan: one that can be executed and reaches the goal; another than an optimal one teaches nothing.
+
+        Raises:
+            TooManyStatesError: whether it is optimal is too hard to say.
+            LimitReachedError: the deadline came first.
+        """
+        task = self._task
+        rest = sum((task.actions[i].cost for i in plan), Fraction(0))
+        if self.optimum(task.init) != (rest, len(plan)):
+            return
+        for k, state in enumerate(states_of_pi_h(task, plan, self.deadline)):
+            self._known.setdefault(self.own.bits.of(state), (rest, len(plan) - k))
+            rest -= task.actions[plan[k]].cost if k < len(plan) else 0
 
     def _least(self, start: int, state: State, below: int | None) -> int | None:
         """The least weight of a plan from a state; None: there is none, or none below."""

@@ -1,6 +1,7 @@
 """Certificates: every claim of a result, proved, refuted, undecided or out of scope."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
@@ -154,9 +155,16 @@ class _Certifier:
             if self.result.realised:
                 yield Claim("realised", "not_in_scope", wording.NO_REPLAY)
             return
+        with suppress(PlanError, *UNDECIDED):  # then nothing is learned
+            self._learn_pi_h()
         claim = realised_claim(self.task, self.result, self.plans)
         if claim is not None:
             yield claim
+
+    def _learn_pi_h(self) -> None:
+        names = self.result.human_plan
+        if names is not None:
+            self.alone.learn(replay_human(self.task, names, self.effort.deadline))
 
     def _rule_claims(self, report: RuleReport) -> Iterator[Claim]:
         claims = (rule_claim(self.result, report, name, wording.FOLLOWED) for name in BY_RULES)
@@ -175,6 +183,7 @@ class _Certifier:
             return ""
 
     def _kind_of_pi_h(self) -> str:
+        self._learn_pi_h()
         names = self.result.human_plan
         canonical = None if names is None else self.plans.canonical()
         if names is None or canonical is None:

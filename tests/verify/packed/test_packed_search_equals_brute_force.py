@@ -9,8 +9,9 @@ from hypothesis import given
 from serendipity.model import Deadline, Task
 from tests.support.families import family_task
 from tests.support.strategies import tasks
-from verify.base.execution import State, after, applicable
+from verify.base.execution import State, after, applicable, states_of_pi_h
 from verify.base.individual import IndividualOptimum
+from verify.base.optimal_plans import OptimalPlans
 from verify.packed.bounds import LITTLE
 from verify.packed.mutexes import Pairs
 from verify.packed.operators import Operator
@@ -167,3 +168,15 @@ def test_the_human_alone_packed_and_not(
             assert not length or not IndividualOptimum(task).within(state, cost, length - 1)
         else:
             assert not IndividualOptimum(task).within(state, Fraction(1000), 1000)
+
+
+@pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
+def test_what_an_optimal_plan_teaches_is_what_a_search_finds(name: str, seed: int, size: int) -> None:
+    task = family_task(name, seed, size)
+    plan = OptimalPlans(task).canonical()
+    if plan is None:
+        return
+    learned = IndividualOptimum(task)
+    learned.learn(plan)
+    for state in states_of_pi_h(task, plan, Deadline()):
+        assert learned.optimum(state) == IndividualOptimum(task).optimum(state)
