@@ -7,6 +7,8 @@ so no tolerance of the solver's can make a proof.  HiGHS gives no tree of its ow
 
 from collections.abc import Sequence
 from fractions import Fraction
+from heapq import nsmallest
+from math import inf
 from typing import Any, Final
 
 from serendipity.model import Deadline
@@ -25,6 +27,9 @@ _DENOMINATORS: Final = (1, 2, 6, 12, 60, 840, 10**5, 10**7)
 
 _WHOLE: Final = 1e-6
 """A value that is nearer to an integer is taken for it."""
+
+_TRIED: Final = 32
+"""Columns of which both sides are looked at before one is split."""
 
 _DEEPEST: Final = 200
 """Branches above a leaf; readers of JSON recurse."""
@@ -111,14 +116,35 @@ class _Tree:
                 if abs(value - round(value)) > _WHOLE
             ]
             if fractional:
-                x = min(fractional)[2]
-                return x, int(relaxed.values[x] // 1)
+                return self._best_split(relaxed, bounds, [x for *_, x in nsmallest(_TRIED, fractional)])
             self._require_none([round(value) for value in relaxed.values])
         for x, (low, high) in enumerate(zip(self._model.lower, self._model.upper, strict=True)):
             low, high = bounds.get(x, (low, high))
             if low < high:
                 return x, low
         raise UndecidedError("no multipliers close a leaf of the proof")
+
+    def _best_split(self, relaxed: Relaxed, bounds: Bounds, columns: Sequence[int]) -> tuple[int, int]:
+        """The column whose worse side gains most; the first of equals, which is nearest to a half."""
+        assert relaxed.values is not None
+        best, chosen = (-1.0, -1.0), (columns[0], 0)
+        for x in columns:
+            value = int(relaxed.values[x] // 1)
+            low, high = bounds.get(x, (self._model.lower[x], self._model.upper[x]))
+            sides = (self._gain(relaxed, bounds | {x: side}) for side in ((low, value), (value + 1, high)))
+            worse, better = sorted(sides)
+            if (worse, better) > best:
+                best, chosen = (worse, better), (x, value)
+            if worse == inf:
+                break
+        return chosen
+
+    def _gain(self, relaxed: Relaxed, bounds: Bounds) -> float:
+        """By how much the objective rises within other bounds; infinite where nothing is left."""
+        child = self._relaxation.solve(bounds)
+        if child.values is None or (self._limit is not None and child.objective > self._limit + _WHOLE):
+            return inf
+        return max(0.0, round(child.objective - relaxed.objective, 6))
 
     def _require_none(self, values: list[int]) -> None:
         """Return if whole values are no solution within the limit.
