@@ -25,6 +25,11 @@ def test_who_follows_any_of_their_optimal_plans(task: Task, discount: str, seed:
     live(task, run, person, follows_prediction=False)
 
 
+@given(tasks(), DISCOUNTS)
+def test_who_sees_only_what_is_where_they_are(task: Task, discount: str) -> None:
+    live(task, Execution(task, discount=discount, human_model="local"), Replanner(task, "local"))
+
+
 @given(usar_tasks(), DISCOUNTS)
 def test_who_is_taken_to_be_omniscient_and_is_not(task: Task, discount: str) -> None:
     live(task, Execution(task, discount=discount, human_model="omniscient"), Replanner(task))
