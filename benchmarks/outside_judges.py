@@ -47,6 +47,9 @@ def main() -> None:
         faults = sum(asked(seed, judge, arguments.time_limit, arguments.output) for seed in seeds)
         numbers = [arguments.count, *(seen[status] for status in STATUSES), faults]
         print(f"| {name} | {' | '.join(map(str, numbers))} |", flush=True)
+        for words, number in seen.items():
+            if words not in STATUSES:
+                print(f"  {words}: {number}", flush=True)
 
 
 def counted(judge: OutsideJudge, seen: Counter[str]) -> OutsideJudge:
@@ -55,6 +58,8 @@ def counted(judge: OutsideJudge, seen: Counter[str]) -> OutsideJudge:
     def answer(call: PlanCall, deadline: Deadline) -> Claim:
         claim = judge.answer(call, deadline)
         seen[claim.status] += 1
+        if claim.status == "unknown":
+            seen[claim.words] += 1
         return claim
 
     return replace(judge, answer=answer)

@@ -113,11 +113,12 @@ class SerendipityEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanVa
         call = self._asked if not more else self._asked.but(more)
         if self.optimality_metric_required and not call.exact:
             raise UPUsageError(f"{ENGINE}: {call.inexact}: then plans are not optimal for the problem")
-        ignored = [
-            name
-            for name, value in (("heuristic", heuristic), ("warm_start_plan", warm_start_plan))
-            if value is not None
-        ]
+        unused = {
+            "heuristic": heuristic,
+            "output_stream": output_stream,
+            "warm_start_plan": warm_start_plan,
+        }
+        ignored = [name for name, value in unused.items() if value is not None]
         return Answers(problem, call, timeout, ignored)
 
     def _validate(self, problem: AbstractProblem, plan: Plan) -> ValidationResult:
