@@ -67,7 +67,7 @@ def counted(judge: OutsideJudge, seen: Counter[str]) -> OutsideJudge:
 
 def asked(seed: int, judge: OutsideJudge, time_limit: float, folder: Path) -> bool:
     """Whether a judge and the search, or the verifier, disagree on a call."""
-    found = compare(judge.fitted(random_call(seed)), SEARCH, outside=[judge], time_limit=time_limit)
+    found = compare(random_call(seed), SEARCH, outside=[judge], time_limit=time_limit)
     if found is None:
         return False
     print(f"seed {seed}: {found}", flush=True)

@@ -2,7 +2,7 @@
 
 import secrets
 from collections.abc import Iterable
-from functools import partial, reduce
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -105,7 +105,6 @@ def crosscheck(
         modes = ("composite",) if outside else _MODES
         calls = [PlanCall(task, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS]
         total = len(calls)
-    calls = (reduce(lambda call, stranger: stranger.fitted(call), outside, call) for call in calls)
     with progress.counting("calls", quiet=quiet) as on_progress:
         for checked, call in enumerate(calls):
             on_progress(checked, total)

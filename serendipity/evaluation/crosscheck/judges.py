@@ -96,10 +96,12 @@ def compare(
         call: what is asked.
         judges: by name.
         laws: by name.
-        outside: judges from outside; the call is one that they can be asked.
+        outside: judges from outside; what is asked then is what they can be asked about the call's task.
         time_limit: seconds for each answer, and for each certificate; or None.
         memory_limit: what the process may have in memory, in MiB, or None.
     """
+    for stranger in outside:
+        call = stranger.fitted(call)
     limits = partial(Deadline, time_limit, memory_limit)
     said: dict[str, str] = {}
     known: set[Figures] = set()
