@@ -12,6 +12,7 @@ from serendipity import __version__
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.help_examples import epilog
 from serendipity.cli.on_demand import Commands
+from serendipity.cli.options import settings
 from serendipity.cli.streams import output
 from serendipity.cli.streams.stderr import tell
 from serendipity.model.errors import LimitReachedError, SerendipityError, limit_words
@@ -35,11 +36,17 @@ def _show_version(wanted: bool) -> None:
 
 @app.callback()
 def _root(
-    version: Annotated[
+    context: typer.Context,
+    version: Annotated[  # noqa: ARG001 - its callback prints it
         bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version.")
     ] = False,
+    no_settings: Annotated[
+        bool, typer.Option("--no-settings", help="Heed no serendipity.toml and no [tool.serendipity].")
+    ] = False,
 ) -> None:
-    pass
+    command = context.invoked_subcommand
+    if command in settings.COMMANDS and not no_settings:
+        context.default_map = {command: settings.begin(command)}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -72,7 +79,7 @@ def _run(argv: Sequence[str]) -> int:
         return _stop(limit_words("memory-limit"), "memory-limit")
     except (SerendipityError, ImportError) as error:
         output.log_origin()
-        return _fail(str(error))
+        return _fail(f"{error}{settings.origin(str(error))}")
     except OSError as error:
         where = error.filename or "standard output"
         return _fail(f"{where} can't be written: {error.strerror}")

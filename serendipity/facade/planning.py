@@ -1,7 +1,7 @@
 """Planning calls: options in, results out, incumbents on the way."""
 
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +34,7 @@ def plan(
     goals: "GoalsGiven | None" = None,
     observed: "ObservedGiven" = (),
     beta: Number = 1,
+    on_improvement: Callable[[Result], None] | None = None,
     **options: Any,
 ) -> Result:
     """The best plan in which robots help the human, with a proof that none is better.
@@ -51,6 +52,8 @@ def plan(
             them: the least expected cost over their posterior is wanted (semantics 8).
         observed: what they have done from the initial state on, for the posterior.
         beta: of the posterior.
+        on_improvement: called with the first answer that has a plan, and with each better one, while the
+            call goes on; its time counts, too.  What it raises ends the call, and comes out of it.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
             ``discount=0.6``, ``time_limit=0.1`` (seconds) and so on.
 
@@ -68,6 +71,7 @@ def plan(
         goals=goals,
         observed=observed,
         beta=beta,
+        on_improvement=on_improvement,
         **options,
     )
 
@@ -82,6 +86,7 @@ def planned(
     goals: "GoalsGiven | None" = None,
     observed: "ObservedGiven" = (),
     beta: Number = 1,
+    on_improvement: Callable[[Result], None] | None = None,
     **options: Any,
 ) -> Result:
     """:func:`plan` for those who hold a prepared task."""
@@ -98,8 +103,11 @@ def planned(
         call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
         if goals is not None:
             call, solver = settled(call, goals, observed, beta)
-        *_, last = solver(call)
-        return _result(call, last)
+        answers = solver(call)
+        if on_improvement is None:
+            *_, last = answers
+            return _result(call, last)
+    return _told(_results(call, answers), on_improvement)
 
 
 def plan_anytime(
@@ -136,6 +144,10 @@ def planned_anytime(
     with no_collection():
         call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
         answers = solver(call)
+    yield from _results(call, answers)
+
+
+def _results(call: Call, answers: Iterator[Answer]) -> Iterator[Result]:
     while True:
         with no_collection():  # only while it plans: what the caller does with an answer is the caller's
             answer = next(answers, None)
@@ -143,6 +155,17 @@ def planned_anytime(
         if result is None:
             return
         yield result
+
+
+def _told(results: Iterator[Result], on_improvement: Callable[[Result], None]) -> Result:
+    """The last result; those on the way to it that are better, and not only closer to a proof, are told."""
+    best: tuple[float | None, float | None] = (None, None)
+    for result in results:
+        reached = (result.objective, result.cost)
+        if result.cost is not None and reached != best:
+            best = reached
+            on_improvement(result)
+    return result
 
 
 def _given(task: Task, names: Iterable[str] | None) -> Given:

@@ -30,9 +30,7 @@ def check_task(
 ) -> int:
     """Look at a task before planning: its size, goals out of reach, and what is declared and not used."""
     form = output.prepare(format, output_file, verbose)
-    name = naming.TaskName(
-        tuple(files or ()), human, tuple(robot or ()), tuple(agent or ()), team=team, example=example
-    )
+    name = naming.task_name(files, human, robot, agent, team, example)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.lint")
     with progress.working("reading", quiet=quiet), limits.during("reading the task"):
         task = name.load(deadline)

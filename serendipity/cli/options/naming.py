@@ -1,17 +1,19 @@
 """How a command line names a task: two files, one pair per agent, a folder, or an example."""
 
+import sys
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from serendipity.cli.options import limits
+from serendipity.cli.options import limits, settings
 from serendipity.cli.streams import output, progress
 from serendipity.model.errors import UsageError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
+from serendipity.writing.printable import message
 
 Files = Annotated[
     list[Path] | None,
@@ -80,13 +82,36 @@ def load(
         InputError: a file can't be read or understood.
         LimitReachedError: the deadline ran out.
     """
-    name = TaskName(
-        tuple(files or ()), human, tuple(robots or ()), tuple(agents or ()), team=team, example=example
-    )
+    name = task_name(files, human, robots, agents, team, example)
     with progress.working("reading", quiet=quiet), limits.during("reading the task"):
         task = name.load(deadline)
     output.warn(task.warnings, quiet=quiet)
     return task
+
+
+def task_name(
+    files: Iterable[Path] | None,
+    human: str | None,
+    robots: Iterable[str] | None,
+    agents: Iterable[str] | None,
+    team: str | None,
+    example: str | None,
+) -> "TaskName":
+    """What the words of a command line name, and the settings where it says nothing."""
+    given = TaskName(
+        tuple(files or ()), human, tuple(robots or ()), tuple(agents or ()), team=team, example=example
+    )
+    known = settings.in_force()
+    if known.file is not None and "logging" in sys.modules:
+        import logging
+
+        logging.getLogger("serendipity.settings").info("settings from %s", message(str(known.file)))
+    if example is not None:
+        return given  # its agents are its own
+    named = replace(given, human=human or known.human)
+    if not given.files and not given.agents and team is None:
+        return replace(named, agents=known.agents, team=known.team)
+    return replace(named, robots=known.robots) if len(given.files) == 2 and not given.robots else named
 
 
 @dataclass(frozen=True, slots=True)
