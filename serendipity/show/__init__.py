@@ -5,7 +5,8 @@ draws it.
 """
 
 from serendipity.model import UsageError
-from serendipity.show.scene.scene import Scene, build_scene
+from serendipity.show.scene.building import build_scene
+from serendipity.show.scene.scene import Scene
 
 __all__ = ["Scene", "build_scene", "draw"]
 

@@ -29,3 +29,10 @@ def no_map() -> Scene:
     """semantics 9, case 10: two robots lift something, nobody is anywhere."""
     task = cases.case_10()
     return build_scene(task, serendipity.plan(task, discount="0.5", horizon=2))
+
+
+@pytest.fixture(scope="session")
+def parcels() -> Scene:
+    """The example of a driver, a van and a robot with a cart."""
+    task = serendipity.example("parcels")
+    return build_scene(task, serendipity.plan(task, discount="0.5"))

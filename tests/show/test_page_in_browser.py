@@ -5,6 +5,7 @@ Skipped, with a message, where playwright or Chromium is absent; ``make test-bro
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from tests.show.browser import chromium, chromium_path
 
 pytestmark = pytest.mark.browser
 
+LABELS = (Path(__file__).parent / "labels.js").read_text(encoding="utf-8")
 _MARKS = re.compile(r"translate\(([-0-9.]+)px, ([-0-9.]+)px\)")
 
 
@@ -90,7 +92,7 @@ def test_the_slider_moves_everything(opened: Opened) -> None:
     assert opened.page.locator("#cost").inner_text() == "7.6 of 12.6"
     assert opened.page.locator("#former-cost").inner_text() == "6 of 13"
     assert opened.at("agent-1") != start
-    assert opened.at("agent-0")[1] == opened.at("agent-1")[1]
+    assert opened.at("object-1")[0] == opened.at("agent-0")[0]  # it is in the same frame
     assert "in-window" in (opened.page.locator("#map-scroller").get_attribute("class") or "")
     opened.page.locator("#slider").fill("7")
     assert "in-window" not in (opened.page.locator("#map-scroller").get_attribute("class") or "")
@@ -189,6 +191,40 @@ def test_it_fits_the_screen(width: int, browser: Any, file: Path) -> None:
         box = button.bounding_box()
         assert box["width"] >= 44
         assert box["height"] >= 44
+    page.close()
+
+
+@pytest.mark.parametrize("width", [400, 1300])
+def test_labels_stay_in_the_map_and_out_of_each_other(
+    width: int, browser: Any, tmp_path: Path, parcels: Scene
+) -> None:
+    file = tmp_path / "parcels.html"
+    file.write_text(str(draw(parcels, ".html")), encoding="utf-8")
+    page = Opened(browser, file, width, reduced_motion="reduce")
+    for epoch in range(len(parcels.frames)):
+        page.page.locator("#slider").fill(str(epoch))
+        wrong = page.page.evaluate(LABELS)
+        assert wrong == [], epoch
+    names = list(parcels.frames[0].objects)
+    frame = page.page.locator(f'[data-token="frame-object-{names.index("van")}"]')
+    page.page.locator("#slider").fill("3")
+    assert frame.is_visible()
+    assert frame.locator("title").text_content() == "van, dora, box"
+    page.page.locator("#slider").fill("0")
+    assert not frame.is_visible()
+    page.close()
+
+
+def test_a_high_map_is_seen_as_a_whole(browser: Any, tmp_path: Path, room2: Scene) -> None:
+    layout = room2.layout
+    assert layout is not None
+    turned = {place: replace(box, x=box.y, y=box.x) for place, box in layout.boxes.items()}
+    high = replace(layout, boxes=turned, width=layout.height + 100, height=layout.width)
+    file = tmp_path / "high.html"
+    file.write_text(str(draw(replace(room2, layout=high), ".html")), encoding="utf-8")
+    page = Opened(browser, file, 1300, reduced_motion="reduce")
+    shown = [page.page.locator(part).evaluate("e => e.clientHeight") for part in ("#map", "#map-scroller")]
+    assert shown[0] <= shown[1]
     page.close()
 
 

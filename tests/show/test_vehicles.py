@@ -1,18 +1,10 @@
 """Who drives is where the vehicle is, and so is what it carries; fuel is no place."""
 
-import pytest
-
 import serendipity
-from serendipity.show import Scene, build_scene
+from serendipity.show import Scene
 from serendipity.show.map.places import Whereabouts, find_places
 
 DORA, ROLO = 0, 1
-
-
-@pytest.fixture(scope="module")
-def parcels() -> Scene:
-    task = serendipity.example("parcels")
-    return build_scene(task, serendipity.plan(task, discount="0.5"))
 
 
 def test_places_are_also_where_only_vehicles_go() -> None:
@@ -42,16 +34,16 @@ def test_what_is_loaded_is_with_the_driver(parcels: Scene) -> None:
     taken = epoch_of(parcels, DORA, "load", "flour")
     assert flour[:taken] == [
         *[Whereabouts("mill")] * loaded,
-        *[Whereabouts(holder=ROLO)] * (delivered - loaded),
+        *[Whereabouts(holder=ROLO, carrier="cart")] * (delivered - loaded),
         *[Whereabouts("inn")] * (taken - delivered),
     ]
-    assert flour[taken] == Whereabouts(holder=DORA)
+    assert flour[taken] == Whereabouts(holder=DORA, carrier="van")
     assert flour[-1] == Whereabouts("market")
 
 
-def test_a_vehicle_is_drawn_while_nobody_is_in_it(parcels: Scene) -> None:
+def test_a_vehicle_is_drawn_with_and_without_a_driver(parcels: Scene) -> None:
     van = [frame.objects["van"] for frame in parcels.frames]
-    assert van[:3] == [Whereabouts("depot"), Whereabouts("depot"), Whereabouts()]
+    assert van[:3] == [Whereabouts("depot"), Whereabouts("depot"), Whereabouts("depot", riders=(DORA,))]
 
 
 def test_driving_is_going_somewhere_and_loading_names_the_load(parcels: Scene) -> None:

@@ -52,7 +52,8 @@ def _sizes(city: Picture) -> str:
     """How small and how large the map may get; a large one scrolls rather than shrink further."""
     least = _SMALLEST if city.width <= _WIDE else _SMALLEST_WIDE
     widest = 1560 if city.width > _WIDE else 1200
-    return f"--least:{city.width * least:.0f}px;--most:{city.width * _LARGEST:.0f}px;--stage:{widest}px"
+    sides = f"--least:{city.width * least:.0f}px;--most:{city.width * _LARGEST:.0f}px"
+    return f"{sides};--aspect:{city.width / city.height:.3f};--stage:{widest}px"
 
 
 @cache
@@ -87,7 +88,7 @@ def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
     last = scene.frames[-1]
     return {
         "caption": printable(frame.caption),
-        "tokens": {key: _token(token) for key, token in tokens(scene, frame).items()},
+        "tokens": {key: _token(key, token) for key, token in tokens(scene, frame).items()},
         "cost": f"{plain(frame.cost)} of {plain(last.cost)}",
         "former": f"{plain(frame.former_spent)} of {plain(last.former_spent)}",
         "formerValue": float(frame.former_spent),
@@ -98,8 +99,13 @@ def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
     }
 
 
-def _token(token: Token) -> list[float | int | None]:
-    return [round(token.at[0], 1), round(token.at[1], 1), token.holder]
+def _token(key: str, token: Token) -> list[float | int | str | None]:
+    """Centre and holder; for frames and counts also size, names and text."""
+    spot = token.spot
+    told: list[float | int | str | None] = [round(spot.x, 1), round(spot.y, 1), token.holder]
+    if spot.names:
+        told += [round(spot.width, 1), round(spot.height, 1), printable(", ".join(spot.names))]
+    return [*told, token.text] if key.startswith("more-") else told
 
 
 def _legend(scene: Scene) -> str:
@@ -115,6 +121,8 @@ def _legend(scene: Scene) -> str:
         items.append('<i class="window"></i>window')
     if scene.meetings:
         items.append('<i class="meeting"></i>hand-over or joint action')
+    if scene.contains:
+        items.append('<i class="together"></i>in it, on it or carried')
     if scene.goals:
         items.append('<i class="goal"></i>goal')
     return "".join(f"<li>{item}</li>" for item in items)

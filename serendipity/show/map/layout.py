@@ -4,6 +4,7 @@ Trees, and graphs that are nearly one, become floor plans; other graphs are laid
 """
 
 import re
+import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
@@ -17,14 +18,21 @@ from serendipity.show.map.names import natural
 from serendipity.show.map.places import Places
 
 CELL: Final = 100.0
-"""Side of a cell in the picture's units."""
-_SPREAD: Final = 1.45  # distance of the closest places of a graph, in cells
+"""Least side of a cell in the picture's units."""
+_SPREAD: Final = 1.45  # usual distance of the closest places of a graph, in cells
+_APART: Final = 1.2  # their least distance, across or along
+_WAY: Final = 20.0  # between large places, in the picture's units
 _MOST_PASSAGES: Final = 0.1  # connections beyond a tree for each place of a floor plan
 _GRID: Final = 1.25  # distance of neighbouring cells of a grid, in cells
 _MOSTLY: Final = 0.8  # share of the ways that have to join neighbours in a grid
 _GAP: Final = 0.5  # between parts that no way connects, in cells
+_DENSE: Final = 0.7  # share of all pairs of places with ways from which on a ring is clearer
 
 Point = tuple[float, float]
+Size = tuple[float, float]
+"""Width and height."""
+_USUAL: Final = ((3, 115.0), (6, 140.0), (sys.maxsize, 165.0))
+"""Sides of a cell by the most things that can be anywhere, where it is not known how many will be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +80,9 @@ class Layout:
             and box.x - box.width / 2 <= right + CELL
             and top - CELL <= box.y <= bottom + CELL
         }
-        x, y = (min(box.x - box.width / 2 for box in near.values()), min(box.y for box in near.values()))
-        boxes = {place: box.moved(-x, CELL / 2 - y) for place, box in near.items()}
+        x = min(box.x - box.width / 2 for box in near.values())
+        y = min(box.y - box.height / 2 for box in near.values())
+        boxes = {place: box.moved(-x, -y) for place, box in near.items()}
         links = tuple((a, b) for a, b in self.links if a in near and b in near)
         return Layout(boxes, links, self.doors.intersection(links), *_extent(boxes.values()))
 
@@ -87,14 +96,22 @@ class Layout:
         return tuple(dict.fromkeys([(a.x, a.y), corner, (b.x, b.y)]))
 
 
-def lay_out(places: Places) -> Layout:
-    """Lay out a map; parts that no way connects stand side by side."""
+def lay_out(places: Places, size: Size | None = None) -> Layout:
+    """Lay out a map; parts that no way connects stand side by side.
+
+    Args:
+        places: the map.
+        size: of a cell; a place has at least one. None: by how many things there are.
+    """
+    if size is None:
+        side = next(side for most, side in _USUAL if len(places.objects) <= most)
+        size = (side, side)
     graph: nx.Graph[str] = nx.Graph()
     graph.add_nodes_from(places.names)
     graph.add_edges_from(places.links)
     cells = _named_cells(graph)
     if cells:
-        return _grid(places, cells)
+        return _grid(places, cells, size)
     boxes: dict[str, Box] = {}
     doors: list[tuple[str, str]] = []
     right = 0.0
@@ -104,7 +121,7 @@ def lay_out(places: Places) -> Layout:
         part.add_edges_from(link for link in places.links if link[0] in component)
         plan = len(part.edges) - len(part) + 1 <= len(part) * _MOST_PASSAGES
         tree = nx.minimum_spanning_tree(part) if plan else part
-        found = _plan_boxes(tree) if plan else _graph_boxes(part)
+        found = _plan_boxes(tree, size) if plan else _graph_boxes(part, size)
         left = min(box.x - box.width / 2 for box in found.values())
         top = min(box.y - box.height / 2 for box in found.values())
         boxes |= {place: box.moved(right - left, -top) for place, box in found.items()}
@@ -119,26 +136,38 @@ def _extent(boxes: Iterable[Box]) -> Point:
     return max((x for x, _ in corners), default=0.0), max((y for _, y in corners), default=0.0)
 
 
-def _plan_boxes(tree: "nx.Graph[str]") -> dict[str, Box]:
+def _plan_boxes(tree: "nx.Graph[str]", size: Size) -> dict[str, Box]:
+    width, height = size
     return {
-        place: Box(cell.x * CELL, cell.y * CELL, cell.width * CELL, CELL, cell.corridor)
+        place: Box(cell.x * width, cell.y * height, cell.width * width, height, cell.corridor)
         for place, cell in floor_plan(tree).items()
     }
 
 
-def _graph_boxes(graph: "nx.Graph[str]") -> dict[str, Box]:
-    """A spring layout that starts from the graph's spectrum; no chance is involved."""
-    start = nx.spectral_layout(graph) if len(graph) > 3 else nx.circular_layout(graph)
-    found = nx.spring_layout(graph, pos=start, iterations=200, seed=0, k=None)
-    points = _spread(_level(np.array([found[place] for place in graph])))
-    return {place: Box(float(x) * CELL, float(y) * CELL) for place, (x, y) in zip(graph, points, strict=True)}
+def _graph_boxes(graph: "nx.Graph[str]", size: Size) -> dict[str, Box]:
+    """A spring layout that starts from the graph's spectrum, or a ring; no chance is involved."""
+    if nx.density(graph) >= _DENSE:
+        ring = nx.circular_layout(graph)
+        points = np.array([ring[place] for place in graph])
+    else:
+        start = nx.spectral_layout(graph) if len(graph) > 3 else nx.circular_layout(graph)
+        sprung = nx.spring_layout(graph, pos=start, iterations=200, seed=0, k=None)
+        points = _level(np.array([sprung[place] for place in graph]))
+    spread = _spread(points)
+    step_x, step_y = (max(CELL, (side + _WAY) / _APART) for side in size)
+    return {
+        place: Box(float(x) * step_x, float(y) * step_y, *size)
+        for place, (x, y) in zip(graph, spread, strict=True)
+    }
 
 
-def _grid(places: Places, cells: dict[str, tuple[int, int]]) -> Layout:
+def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> Layout:
     left, top = (min(axis) for axis in zip(*cells.values(), strict=True))
-    step = _GRID * CELL
+    width, height = size
     boxes = {
-        place: Box((x - left) * step + CELL / 2, (y - top) * step + CELL / 2)
+        place: Box(
+            (x - left) * _GRID * width + width / 2, (y - top) * _GRID * height + height / 2, width, height
+        )
         for place, (x, y) in cells.items()
     }
     return Layout(boxes, places.links, frozenset(), *_extent(boxes.values()))
@@ -175,7 +204,7 @@ def _spread(points: NDArray[np.float64]) -> NDArray[np.float64]:
     points = points * (_SPREAD / max(float(np.median(distances.min(axis=1))), 1e-9))
     for _ in range(300):
         apart = points[:, None] - points[None]
-        overlap = np.clip(_SPREAD - 0.25 - np.abs(apart).max(axis=2), 0, None)
+        overlap = np.clip(_APART - np.abs(apart).max(axis=2), 0, None)
         np.fill_diagonal(overlap, 0)
         if not overlap.any():
             break

@@ -4,7 +4,12 @@ Ground files write ``at_commx_hall1`` where lifted ones write ``at commx hall1``
 treat both alike.
 """
 
+import re
 from collections.abc import Sequence
+from typing import Final
+
+LETTER: Final = 0.6
+"""Mean width of a letter, in font sizes: good enough to fit labels into boxes."""
 
 Parts = tuple[str, ...]
 
@@ -57,9 +62,13 @@ def verb_and_rest(action: str, agents: Sequence[str]) -> tuple[str, str]:
     return " ".join(words[:first]).replace("_", " "), " ".join(without(named, words[first:]))
 
 
-def shortened(text: str, length: int) -> str:
-    """``text``, or its beginning and an ellipsis, in at most ``length`` characters."""
-    return text if len(text) <= length else text[: max(1, length - 1)] + "…"
+def elided(text: str, length: int) -> str:
+    """``text``, or its beginning, an ellipsis and the number at its end, in at most ``length`` characters."""
+    if len(text) <= length:
+        return text
+    number = re.search(r"[0-9][0-9-]*$", text)
+    end = number[0] if number and len(number[0]) + 2 <= length else ""
+    return text[: max(1, length - 1 - len(end))] + "…" + end
 
 
 def natural(text: str) -> tuple[tuple[int, str], ...]:

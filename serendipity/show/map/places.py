@@ -18,11 +18,19 @@ from serendipity.show.map.names import Parts, common_ends, find, natural, parts,
 
 @dataclass(frozen=True, slots=True)
 class Whereabouts:
-    """What a fact says about an object: it is in a place, somebody holds it, or another object carries it."""
+    """Where an object is: in a place, held by somebody, in or on another object; and who rides it.
+
+    Attributes:
+        place: of an object that nobody holds.
+        holder: the agent that holds it, or rides what carries it.
+        carrier: the object that it is in or on.
+        riders: agents that are in or on it.
+    """
 
     place: str | None = None
     holder: int | None = None
     carrier: str | None = None
+    riders: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +42,9 @@ class Places:
         links: pairs of places that somebody can move between, each pair once.
         positions: for each agent with a position, the place by fact id.
         objects: for each object, what each fact id says about it.
-        riding: for agents that can be in or on an object instead, the object by fact id.
+        riding: for agents that can be in or on an object instead, the object by fact id; who alone
+            moves an object and has no position of their own is always where that is.
+        stations: agents that are places themselves.
         marks: facts true or false by themselves that name a place: the place by fact id.
     """
 
@@ -44,6 +54,14 @@ class Places:
     objects: dict[str, dict[int, Whereabouts]] = field(default_factory=dict)
     riding: dict[int, dict[int, str]] = field(default_factory=dict)
     marks: dict[int, str] = field(default_factory=dict)
+    stations: dict[int, str] = field(default_factory=dict)
+
+    @property
+    def vehicles(self) -> frozenset[str]:
+        """Objects that others can be in or on."""
+        carriers = {where.carrier for told in self.objects.values() for where in told.values()}
+        ridden = {name for riding in self.riding.values() for name in riding.values()}
+        return frozenset(name for name in carriers | ridden if name is not None)
 
 
 def find_places(task: Task) -> Places:
@@ -54,16 +72,18 @@ def find_places(task: Task) -> Places:
     for agent, facts in _positions(task, moves).items():
         places = positions[agent] = _place_names(task, facts, task.agents[agent])
         links |= _links(moves[agent].subgraph(facts), places)
-    if not positions:
-        return Places()
     every = nx.compose_all(moves.values())
     driven: set[str] = set()
-    for facts in _vehicles(task, every, positions):
+    vehicles = list(_vehicles(task, every, positions))
+    for facts in vehicles:
         places = _place_names(task, facts)
         driven.update(places.values())
         links |= _links(every.subgraph(facts), places)
     names = sorted(driven.union(*(told.values() for told in positions.values())), key=natural)
-    finder = _PlaceFinder(task, names)
+    if not names:
+        return Places()
+    told_by = {parts(task.facts[f])[0] for facts in (*positions.values(), *vehicles) for f in facts}
+    finder = _PlaceFinder(task, names, told_by)
     finder.add_stops(positions)
     taken = {f for places in positions.values() for f in places}
     objects: dict[str, dict[int, Whereabouts]] = {}
@@ -81,8 +101,16 @@ def find_places(task: Task) -> Places:
     at = {fact: finder.place(parts(task.facts[fact])) for fact in alone}
     marks = {fact: place for fact, place in at.items() if place is not None}
     ordered = sorted(links, key=lambda link: (natural(link[0]), natural(link[1])))
-    riding = _riding(task, positions, tuple(objects))
-    return Places(tuple(names), tuple(ordered), dict(sorted(positions.items())), objects, riding, marks)
+    riding = _riding(task, positions, tuple(objects)) | _bound(task, moves, positions, objects)
+    return Places(
+        names=tuple(names),
+        links=tuple(ordered),
+        positions=dict(sorted(positions.items())),
+        objects=objects,
+        riding=riding,
+        marks=marks,
+        stations={agent: name for agent, name in enumerate(task.agents) if name in set(names)},
+    )
 
 
 def _links(moves: "nx.Graph[int]", places: dict[int, str]) -> set[tuple[str, str]]:
@@ -145,12 +173,20 @@ def _positions(task: Task, moves: "dict[int, nx.Graph[int]]") -> dict[int, list[
 def _vehicles(
     task: Task, moves: "nx.Graph[int]", positions: dict[int, dict[int, str]]
 ) -> Iterator[list[int]]:
-    """Facts that tell where something is that agents move, in the words that tell where they are."""
+    """Facts that tell where something is that agents move, in the words that tell where they are.
+
+    Where no agent is anywhere, other facts have to speak of the same places: levels of fuel are none.
+    """
     known = {fact for places in positions.values() for fact in places}
     predicates = {parts(task.facts[fact])[0] for fact in known}
+    others = {w for f, fact in enumerate(task.facts) if f not in moves for w in parts(fact)[1:]}
     for group in nx.connected_components(moves):
         words = [parts(task.facts[fact]) for fact in group]
-        fits = {name[0] for name in words} <= predicates and known.isdisjoint(group)
+        if known:
+            fits = {name[0] for name in words} <= predicates and known.isdisjoint(group)
+        else:
+            start = len(common_ends(words)[0])
+            fits = others.issuperset(word for name in words for word in name[start:])
         if fits and len(common_ends(words)[0]) > 1 and len(task.init & group) <= 1:
             yield sorted(group)
 
@@ -196,11 +232,37 @@ def _riding(
     return found
 
 
-class _PlaceFinder:
-    """Finds the place, agent or object that a fact's name mentions."""
+def _bound(
+    task: Task,
+    moves: "dict[int, nx.Graph[int]]",
+    positions: dict[int, dict[int, str]],
+    objects: dict[str, dict[int, Whereabouts]],
+) -> dict[int, dict[int, str]]:
+    """Agents without a position that move one object, which nobody else moves, and where that is."""
+    found: dict[int, dict[int, str]] = {}
+    for agent, own in moves.items():
+        moved = [name for name, told in objects.items() if any(f in told and g in told for f, g in own.edges)]
+        if agent in positions or len(moved) != 1 or task.agents[agent] in moved:
+            continue
+        told = objects[moved[0]]
+        others = [graph for other, graph in moves.items() if other != agent]
+        if not any(f in told and g in told for graph in others for f, g in graph.edges):
+            found[agent] = dict.fromkeys((f for f in told if told[f].place is not None), moved[0])
+    return found
 
-    def __init__(self, task: Task, places: list[str]) -> None:
+
+class _PlaceFinder:
+    """Finds the place, agent or object that a fact's name mentions.
+
+    Args:
+        task: the task.
+        places: names of places.
+        predicates: of facts that tell where something is, rather than who holds it.
+    """
+
+    def __init__(self, task: Task, places: list[str], predicates: set[str]) -> None:
         self.task = task
+        self.predicates = predicates
         self.places = {spelling: place for place in places for spelling in (parts(place), (place,))}
         self.longest = max(map(len, self.places), default=0)
         self.agents = [(spelling, i) for i, name in enumerate(task.agents) for spelling in spellings(name)]
@@ -239,7 +301,8 @@ class _PlaceFinder:
             words = parts(self.task.facts[fact])
             place = self._place(words)
             holder = next((agent for agent in self.agents if find(agent[0], words) > 0), None)
-            if place is not None:
+            held = holder is not None and holder[0] == place and words[0] not in self.predicates
+            if place is not None and not held:
                 placed = True
                 told[fact] = Whereabouts(place=self.places[place])
                 rest = without([place], words[1:])

@@ -8,10 +8,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
+from serendipity.show.map.names import LETTER, elided
 from serendipity.show.picture.palette import INK
 
-LETTER: Final = 0.6
-"""Mean width of a letter, in font sizes: good enough to fit labels into boxes."""
 BOLD_LETTER: Final = 0.66
 
 Point = tuple[float, float]
@@ -113,7 +112,7 @@ def fitted(text: str, width: float, size: float, least: float, *, bold: bool = F
     if wanted >= least:
         return text, wanted
     letters = max(1, int(width / least / letter))
-    return (text if len(text) <= letters else text[: max(1, letters - 1)] + "…"), least
+    return elided(text, letters), least
 
 
 def wrapped(text: str, width: float, size: float, lines: int = 2) -> tuple[str, ...]:
@@ -133,4 +132,4 @@ def wrapped(text: str, width: float, size: float, lines: int = 2) -> tuple[str, 
             found.append(word)
         else:
             found[-1] += gap + word
-    return tuple(line if len(line) <= most else line[: most - 1] + "…" for line in found)
+    return tuple(elided(line, most) for line in found)

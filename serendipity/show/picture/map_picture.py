@@ -1,12 +1,15 @@
 """The map: places, ways, paths, and the tokens of one frame."""
 
+from collections import defaultdict
 from collections.abc import Iterator
 from itertools import chain
 from typing import Final
 
+from serendipity.show.map.cards import PILL_HEIGHT, PILL_SIZE, RADIUS, pill
 from serendipity.show.map.layout import Box, Layout
+from serendipity.show.map.names import LETTER
 from serendipity.show.picture.drawing import (
-    LETTER,
+    BOLD_LETTER,
     Circle,
     Group,
     Line,
@@ -31,30 +34,19 @@ from serendipity.show.picture.palette import (
     agent_colours,
     on,
 )
-from serendipity.show.picture.tokens import (
-    FORMER as FORMER_TOKEN,
-)
-from serendipity.show.picture.tokens import (
-    PILL_HEIGHT,
-    PILL_SIZE,
-    RADIUS,
-    Token,
-    agent_key,
-    initials,
-    object_key,
-    pill,
-    tokens,
-)
-from serendipity.show.picture.trails import trail
-from serendipity.show.scene.scene import Scene
+from serendipity.show.picture.tokens import FORMER as FORMER_TOKEN
+from serendipity.show.picture.tokens import Token, agent_key, initials, object_key, tokens
+from serendipity.show.picture.trails import LANE, trail
+from serendipity.show.scene.crowds import LEAST_LABEL, TAG_HEIGHT
+from serendipity.show.scene.scene import Meeting, Scene
 
 MARGIN: Final = 14.0
 _DOOR: Final = 40.0
 _ROOM: Final = 4.0  # between a lone place's outline and its cell
 _LABEL_SIZE: Final = 23.0
-_LABEL_AT: Final = -33.0
-_TAG: Final = 19.0
-_TAG_AT: Final = 40.0
+_LABEL_AT: Final = 17.0  # below the wall
+_LANES: Final = 0.36  # share of a place's smaller side that paths beside each other take
+_CROWDED: Final = 3  # ways for each place from which on they are thin
 _FAINT: Final = 0.28
 _HIDDEN: Final = (-1000.0, -1000.0)
 
@@ -88,22 +80,26 @@ def trails(scene: Scene) -> dict[str, Steps]:
     if layout is None:
         return {}
     found: dict[str, Steps] = {}
+    side = min(min(box.width, box.height) for box in layout.boxes.values())
+    apart = min(1, _LANES * side / LANE / (len(scene.lanes) + 1))
     if scene.deviates:
-        found[FORMER_TOKEN] = trail(layout, [frame.former_at for frame in scene.frames], 2)
+        found[FORMER_TOKEN] = trail(layout, [frame.former_at for frame in scene.frames], 2 * apart)
     for n, agent in enumerate(scene.lanes):
         stops = [frame.at.get(agent) for frame in scene.frames]
         if not layout.boxes.keys() >= set(stops) - {None}:
             continue
-        found[agent_key(agent)] = trail(layout, stops, 1 if n == 0 else n + 2)
+        found[agent_key(agent)] = trail(layout, stops, (1 if n == 0 else n + 2) * apart)
     return found
 
 
 def _floor(layout: Layout) -> Iterator[Shape]:
     in_plan = {place for door in layout.doors for place in door}
     lines = [link for link in layout.links if link not in layout.doors]
+    crowded = len(lines) > _CROWDED * len(layout.boxes)
+    way = Style(stroke=WALL, width=1.5, opacity=0.45) if crowded else Style(stroke=WALL, width=3)
     for a, b in lines:
         if a not in in_plan:
-            yield Line(layout.route(a, b), Style(stroke=WALL, width=3))
+            yield Line(layout.route(a, b), way)
     for place, box in layout.boxes.items():
         yield _outline(box, in_plan=place in in_plan)
     for a, b in sorted(layout.doors):
@@ -117,13 +113,14 @@ def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
     """Above the paths, on the colour of the floor so that both can be read."""
     for place, box in layout.boxes.items():
         goal = place in scene.goals
-        label, size = fitted(place, box.width - (38 if goal else 14), _LABEL_SIZE, 13)
-        x, y, width = box.x + (10 if goal else 0), box.y + _LABEL_AT, len(label) * size * LETTER
+        label, size = fitted(place, box.width - (38 if goal else 14), _LABEL_SIZE, LEAST_LABEL)
+        x, y = box.x + (10 if goal else 0), box.y - box.height / 2 + _LABEL_AT
+        width = len(label) * size * LETTER
         floor = Style(CORRIDOR if box.corridor else FLOOR, opacity=0.85)
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)
-        yield Text(x, y, label, size, FAINT_INK)
+        yield Group((Text(x, y, label, size, FAINT_INK),), title="" if label == place else place)
         if goal:
-            yield _flag(x - width / 2 - 18, box.y + _LABEL_AT)
+            yield _flag(x - width / 2 - 18, y)
 
 
 def _outline(box: Box, *, in_plan: bool) -> Rect:
@@ -169,26 +166,46 @@ def _trails(scene: Scene, epoch: int) -> Iterator[Shape]:
 
 
 def _meetings(scene: Scene, layout: Layout) -> Iterator[Shape]:
+    """A frame and a tag for each place where somebody meets."""
+    met: dict[str, list[tuple[int, Meeting]]] = defaultdict(list)
     for index, meeting in enumerate(scene.meetings):
-        if meeting.place is None:
-            continue
-        box = layout.boxes[meeting.place]
+        if meeting.place in layout.boxes:
+            met[str(meeting.place)].append((index, meeting))
+    for place, several in met.items():
+        box = layout.boxes[place]
         x, y = box.x - box.width / 2, box.y - box.height / 2
         frame = Rect(x + 4, y + 4, box.width - 8, box.height - 8, Style(stroke=MEETING, width=5), round=12)
-        text = f"epoch {meeting.epoch}"
-        middle = box.y + _TAG_AT
-        tag = Rect(box.x - 38, middle - _TAG / 2, 76, _TAG, Style(MEETING), round=_TAG / 2)
-        words = Text(box.x, middle, text, 16, INK, bold=True)
-        yield Group((frame, tag, words), data={"meeting": str(index)}, title=meeting.text)
+        epochs = [str(epoch) for epoch in dict.fromkeys(meeting.epoch for _, meeting in several)]
+        text, size = _fitting(epochs, box.width - 30)
+        width, top = max(76, len(text) * size * BOLD_LETTER + 16), y + box.height - TAG_HEIGHT
+        tag = Rect(box.x - width / 2, top, width, TAG_HEIGHT, Style(MEETING), round=TAG_HEIGHT / 2)
+        words = Text(box.x, top + TAG_HEIGHT / 2, text, size, INK, bold=True)
+        told = "; ".join(f"epoch {meeting.epoch}: {meeting.text}" for _, meeting in several)
+        indices = " ".join(str(index) for index, _ in several)
+        yield Group((frame, tag, words), data={"meeting": indices}, title=told)
+
+
+def _fitting(epochs: list[str], width: float) -> tuple[str, float]:
+    """As many epochs as a tag has room for."""
+    for shown in range(len(epochs), 0, -1):
+        more = f" +{len(epochs) - shown}" if shown < len(epochs) else ""
+        text = f"{'epochs' if len(epochs) > 1 else 'epoch'} {', '.join(epochs[:shown])}{more}"
+        size = min(16, width / len(text) / BOLD_LETTER)
+        if size >= LEAST_LABEL or shown == 1:
+            break
+    return text, size
 
 
 def _tokens(scene: Scene, epoch: int) -> Iterator[Shape]:
     """All tokens that any frame shows; those that this one lacks stand outside the picture."""
     frame = scene.frames[epoch]
     now = tokens(scene, frame)
-    ever = {key for each in scene.frames for key in tokens(scene, each)}
+    ever = dict(chain.from_iterable(tokens(scene, each).items() for each in scene.frames))
     colours = agent_colours(len(scene.agents), scene.human)
     letters = initials(scene.agents)
+    frames = [key for key in ever if key.startswith("frame-")]
+    for key in sorted(frames, key=lambda key: ever[key].spot.depth):
+        yield _frame(key, now.get(key, ever[key]), colours, shown=key in now)
     if FORMER_TOKEN in ever:
         shapes = _person(letters[scene.human], PAPER, FORMER, dashed=True)
         title = f"{scene.agents[scene.human]} with the former plan"
@@ -201,15 +218,40 @@ def _tokens(scene: Scene, epoch: int) -> Iterator[Shape]:
         key = object_key(index)
         if key in ever:
             holder = now[key].holder if key in now else None
-            yield _token(key, now, _pill(name, None if holder is None else colours[holder]), name)
+            colour = None if holder is None else colours[holder]
+            yield _token(key, now, _pill(name, colour, carries=name in scene.vehicles), name)
+    for key in ever:
+        if key.startswith("more-"):
+            token = now.get(key, ever[key])
+            yield _token(key, now, _more(token), ", ".join(token.spot.names))
 
 
-def _pill(name: str, holder: str | None) -> tuple[Shape, ...]:
-    """An object; its outline takes the colour of who holds it."""
+def _frame(key: str, token: Token, colours: dict[int, str], *, shown: bool) -> Group:
+    """The frame about who or what is together; a page changes its size."""
+    spot = token.spot
+    stroke = INK if token.holder is None else colours[token.holder]
+    style = Style(PAPER, stroke, 2, opacity=0.8)
+    sheet = Rect(-spot.width / 2, -spot.height / 2, spot.width, spot.height, style, round=10)
+    at = token.at if shown else _HIDDEN
+    return Group((sheet,), *at, {"token": key}, ", ".join(spot.names))
+
+
+def _pill(name: str, holder: str | None, *, carries: bool) -> tuple[Shape, ...]:
+    """An object; its outline takes the colour of who holds it, what carries others has sharper corners."""
     text, width = pill(name)
-    style = Style(PAPER, INK, 2) if holder is None else Style(PAPER, holder, 3.5)
+    fill = CORRIDOR if carries else PAPER
+    style = Style(fill, INK, 2) if holder is None else Style(fill, holder, 3)
     half = PILL_HEIGHT / 2
-    return Rect(-width / 2, -half, width, PILL_HEIGHT, style, round=half), Text(0, 0, text, PILL_SIZE, INK)
+    outline = Rect(-width / 2, -half, width, PILL_HEIGHT, style, round=4 if carries else half)
+    return outline, Text(0, 0, text, PILL_SIZE, INK)
+
+
+def _more(token: Token) -> tuple[Shape, ...]:
+    """How many there is no room for."""
+    spot = token.spot
+    paint = Style(FAINT_INK)
+    sheet = Rect(-spot.width / 2, -spot.height / 2, spot.width, spot.height, paint, round=spot.height / 2)
+    return sheet, Text(0, 0, token.text, PILL_SIZE - 2, PAPER, bold=True)
 
 
 def _token(key: str, now: dict[str, Token], shapes: tuple[Shape, ...], title: str) -> Group:
@@ -229,4 +271,5 @@ def _machine(letter: str, fill: str) -> tuple[Shape, ...]:
 
 
 def _letter(letter: str, colour: str) -> Text:
-    return Text(0, 0, letter, 20 if len(letter) < 2 else 16, colour, bold=True)
+    size = {1: 20.0, 2: 16.0}.get(len(letter), LEAST_LABEL)
+    return Text(0, 0, letter, size, colour, bold=True)

@@ -76,6 +76,8 @@ def _legend(scene: Scene) -> Iterator[Shape]:
         entries.append((Rect(0, 2, 22, 20, Style(WINDOW, FAINT_INK)), "window"))
     if scene.meetings:
         entries.append((Rect(1, 3, 20, 18, Style(PAPER, MEETING, 4), round=5), "hand-over or joint action"))
+    if scene.contains:
+        entries.append((Rect(1, 3, 20, 18, Style(PAPER, INK, 2), round=5), "in it, on it or carried"))
     x = 0.0
     for sample, text in entries:
         yield Group((sample, Text(32, 12, text, 16, INK, "start")), x, 0)

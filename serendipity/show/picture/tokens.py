@@ -1,45 +1,45 @@
 """Where the tokens of agents and objects stand within the places of a frame."""
 
-from collections import defaultdict
 from dataclasses import dataclass
 from itertools import count
-from typing import Final
 
-from serendipity.show.map.layout import Box, Layout
-from serendipity.show.map.names import shortened
-from serendipity.show.picture.drawing import LETTER, Point
+from serendipity.show.map.cards import Spot, pack
+from serendipity.show.scene.crowds import (
+    FORMER,
+    LABEL_HEIGHT,
+    TAG_HEIGHT,
+    agent_key,
+    crowds,
+    object_key,
+    room,
+    tagged_places,
+)
 from serendipity.show.scene.scene import Frame, Scene
 
-FORMER: Final = "former"
-RADIUS: Final = 16.0
-PILL_SIZE: Final = 20.0
-PILL_HEIGHT: Final = 24.0
-_AGENTS_AT: Final = -7.0  # below the middle of a box
-_OBJECTS_AT: Final = 20.0
+__all__ = ["FORMER", "TAG_HEIGHT", "Token", "agent_key", "initials", "object_key", "tokens"]
 
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """Where a token stands; ``holder`` is the agent that holds the object."""
+    """Where a token stands.
 
-    at: Point
+    Attributes:
+        spot: its centre and size on the map.
+        holder: the agent that holds the object, or whose card a frame is about.
+    """
+
+    spot: Spot
     holder: int | None = None
 
+    @property
+    def at(self) -> tuple[float, float]:
+        """Its centre."""
+        return self.spot.x, self.spot.y
 
-def agent_key(agent: int) -> str:
-    """The key of an agent's token."""
-    return f"agent-{agent}"
-
-
-def object_key(index: int) -> str:
-    """The key of an object's token, by its index in the frame's objects."""
-    return f"object-{index}"
-
-
-def pill(name: str) -> tuple[str, float]:
-    """The text of an object's token, and its width."""
-    text = shortened(name, 8)
-    return text, max(40.0, len(text) * PILL_SIZE * LETTER + 18)
+    @property
+    def text(self) -> str:
+        """What a count says."""
+        return f"+{len(self.spot.names)}"
 
 
 def initials(agents: tuple[str, ...]) -> tuple[str, ...]:
@@ -58,43 +58,28 @@ def tokens(scene: Scene, frame: Frame) -> dict[str, Token]:
     """The tokens that a frame shows, by key; what is in no place is left out."""
     if scene.layout is None:
         return {}
-    crowd: dict[str, list[str]] = defaultdict(list)
-    for agent in scene.lanes:
-        if agent in frame.at:
-            crowd[frame.at[agent]].append(agent_key(agent))
-    if scene.deviates and frame.former_at not in (None, frame.at.get(scene.human)):
-        crowd[str(frame.former_at)].append(FORMER)
+    holders = _holders(frame)
+    tagged = tagged_places(scene)
     found: dict[str, Token] = {}
-    for place, keys in crowd.items():
+    for place, cards in crowds(scene, frame).items():
         if place not in scene.layout.boxes:  # of a picture that shows a part of the map
             continue
         box = scene.layout.boxes[place]
-        for key, x in zip(keys, _row(box, len(keys), 2 * RADIUS + 10), strict=True):
-            found[key] = Token((x, box.y + _AGENTS_AT))
-    return found | _objects(scene, frame, scene.layout)
-
-
-def _objects(scene: Scene, frame: Frame, layout: Layout) -> dict[str, Token]:
-    """Objects below the agents, in a second row if need be; those that are held first, as their holders."""
-    heaps: dict[str, list[tuple[int, int, str, int | None]]] = defaultdict(list)
-    for index, (name, where) in enumerate(frame.objects.items()):
-        place = where.place if where.holder is None else frame.at.get(where.holder)
-        if place in layout.boxes:
-            order = len(scene.lanes) if where.holder is None else scene.lanes.index(where.holder)
-            heaps[str(place)].append((order, index, name, where.holder))
-    found = {}
-    for place, heap in heaps.items():
-        box = layout.boxes[place]
-        widest = max(pill(name)[1] for _, _, name, _ in heap)
-        heap.sort(key=lambda entry: entry[:2])
-        first = len(heap) if len(heap) < 3 or len(heap) * widest <= box.width else (len(heap) + 1) // 2
-        for row, part in enumerate((heap[:first], heap[first:])):
-            for (_, index, _, holder), x in zip(part, _row(box, len(part), widest + 4), strict=True):
-                found[object_key(index)] = Token((x, box.y + _OBJECTS_AT + row * PILL_HEIGHT), holder)
+        width, height = room(box, tagged=place in tagged)
+        spots = pack(cards, width, height, f"place-{place}")
+        spare = height / 2 - max((spot.y + spot.height / 2 for spot in spots), default=0.0)
+        lower = LABEL_HEIGHT + (height - box.height) / 2  # the middle of the room, below that of the box
+        y = box.y + max(0, lower - spare) + min(0, lower + spare)
+        for spot in spots:
+            found[spot.key] = Token(spot.moved(box.x, y), holders.get(spot.key.removeprefix("frame-")))
     return found
 
 
-def _row(box: Box, count: int, step: float) -> list[float]:
-    """``count`` positions about the middle of a box, closer where they would not fit."""
-    step = min(step, (box.width - 2 * RADIUS) / max(1, count - 1))
-    return [box.x + (i - (count - 1) / 2) * step for i in range(count)]
+def _holders(frame: Frame) -> dict[str, int]:
+    """By key of a token: the agent that holds or rides the object; an agent's own for its frame."""
+    found = {agent_key(agent): agent for agent in frame.at}
+    for index, where in enumerate(frame.objects.values()):
+        holder = where.riders[0] if where.riders else where.holder
+        if holder is not None:
+            found[object_key(index)] = holder
+    return found

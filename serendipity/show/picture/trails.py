@@ -12,13 +12,13 @@ LANE: Final = 7.0
 """Distance between neighbouring lanes, in the picture's units."""
 
 
-def trail(layout: Layout, stops: Sequence[str | None], lane: int) -> tuple[tuple[Point, ...], ...]:
+def trail(layout: Layout, stops: Sequence[str | None], lane: float) -> tuple[tuple[Point, ...], ...]:
     """The points that each step adds to the line of an agent.
 
     Args:
         layout: of the map.
         stops: its place after each epoch, from 0; None while it is nowhere.
-        lane: from 1; how many lanes to the right of the middle.
+        lane: from 1; how many lanes to the right of the middle; fractions lie between.
 
     Returns:
         for each epoch the points that its step adds; none where it stays.

@@ -1,5 +1,8 @@
 """Where agents and objects are in a state, in vehicles too."""
 
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Final
 
 from serendipity.model import GroundAction
@@ -21,8 +24,9 @@ class Finder:
 
     def agents(self, state: State) -> dict[int, str]:
         """The place of each agent that is in one; who rides is where the vehicle is."""
-        found = {}
-        for agent, places in self._places.positions.items():
+        found = dict(self._places.stations)
+        for agent in sorted(self._places.positions.keys() | self._places.riding.keys()):
+            places = self._places.positions.get(agent, {})
             place = next((place for f, place in places.items() if f in state), None)
             if place is None and agent in self._places.riding:
                 place = self._vehicle_at(self._places.riding[agent], state)
@@ -35,21 +39,29 @@ class Finder:
         return next((where.place for f, where in told.items() if f in state), None)
 
     def objects(self, state: State) -> dict[str, Whereabouts]:
-        """Where each object is.  Who rides is drawn instead of the vehicle, and holds what it carries."""
+        """Where each object is, who rides it, and who holds or rides what carries it."""
         told = {
             name: next((where for f, where in of.items() if f in state), NOWHERE)
             for name, of in self._places.objects.items()
         }
-        riders = {
-            vehicle: Whereabouts(holder=agent)
-            for agent, riding in self._places.riding.items()
-            for f, vehicle in riding.items()
-            if f in state
-        }
-        told |= riders
-        for _ in told:  # what is in a box in a van is where the van is
-            told = {name: told[where.carrier] if where.carrier else where for name, where in told.items()}
-        return told | dict.fromkeys(riders, NOWHERE)
+        riders: dict[str, tuple[int, ...]] = defaultdict(tuple)
+        for agent, riding in self._places.riding.items():
+            vehicle = next((name for f, name in riding.items() if f in state), None)
+            if vehicle is not None:
+                riders[vehicle] += (agent,)
+        return {name: self._resolved(name, told, riders) for name in told}
+
+    def _resolved(
+        self, name: str, told: dict[str, Whereabouts], riders: Mapping[str, tuple[int, ...]]
+    ) -> Whereabouts:
+        """Where an object is: what is in a box in a van is where the van is, and with who rides it."""
+        where = told[name]
+        for _ in told:
+            if where.carrier is None or where.carrier not in told:
+                break
+            aboard = riders.get(where.carrier)
+            where = Whereabouts(holder=aboard[0]) if aboard else told[where.carrier]
+        return replace(where, carrier=told[name].carrier, riders=riders.get(name, ()))
 
     def places_of(self, action: GroundAction, agent: int) -> dict[int, str]:
         """Facts that tell where an agent is while it acts, with the place."""
@@ -62,4 +74,7 @@ class Finder:
     def vehicles(self, action: GroundAction, agent: int) -> list[str]:
         """What an agent is in or on while it acts."""
         riding = self._places.riding.get(agent, {})
-        return [riding[f] for f in action.pre if f in riding and f not in action.delete]
+        still = {riding[f] for f in action.add if f in riding}
+        return [
+            riding[f] for f in action.pre if f in riding and (f not in action.delete or riding[f] in still)
+        ]

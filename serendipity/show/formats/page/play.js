@@ -11,6 +11,14 @@
 
   const move = (element, x, y) => element.setAttribute("transform", `translate(${x} ${y})`);
 
+  // A frame about several, or a count: as large as it has to be, and with their names.
+  function drawSheet(token, outline, [, , , width, height, names, text]) {
+    const sheet = { x: -width / 2, y: -height / 2, width, height };
+    for (const [name, value] of Object.entries(sheet)) outline.setAttribute(name, value);
+    token.querySelector("title").textContent = names;
+    if (text) token.querySelector("text").textContent = text;
+  }
+
   function drawTokens(frame) {
     for (const token of all("[data-token]")) {
       const spot = frame.tokens[token.dataset.token];
@@ -19,10 +27,14 @@
       // CSS transforms can be animated, the attribute can't: it is for readers without styles.
       move(token, spot[0], spot[1]);
       token.style.transform = `translate(${spot[0]}px, ${spot[1]}px)`;
-      if (token.dataset.token.startsWith("object-")) {
-        const outline = token.querySelector("rect");
+      const outline = token.querySelector("rect");
+      if (spot.length > 3) drawSheet(token, outline, spot);
+      if (token.dataset.token.startsWith("frame-")) {
         outline.setAttribute("stroke", spot[2] === null ? "#1f2328" : scene.colours[spot[2]]);
-        outline.setAttribute("stroke-width", spot[2] === null ? 2 : 3.5);
+      }
+      if (token.dataset.token.startsWith("object-")) {
+        outline.setAttribute("stroke", spot[2] === null ? "#1f2328" : scene.colours[spot[2]]);
+        outline.setAttribute("stroke-width", spot[2] === null ? 2 : 3);
       }
     }
     for (const line of all("[data-trail]")) {
@@ -94,7 +106,8 @@
     const cursor = document.querySelector("[data-cursor]");
     cursor.style.transform = `translate(${epoch * scene.column}px, 0)`;
     for (const each of all("[data-meeting]")) {
-      each.classList.toggle("now", scene.meetings[each.dataset.meeting].epoch === epoch);
+      const met = each.dataset.meeting.split(" ").some((index) => scene.meetings[index].epoch === epoch);
+      each.classList.toggle("now", met);
     }
     id("map-scroller").classList.toggle("in-window", frame.window);
     all("tbody tr").forEach((row, i) => row.classList.toggle("now", i + 1 === epoch));

@@ -1,0 +1,225 @@
+"""Labels of things in one place lie apart and within it; what is in or on something is drawn with it."""
+
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.model import Task
+from serendipity.show import Scene, build_scene, draw
+from serendipity.show.formats.svg import svg
+from serendipity.show.map.layout import lay_out
+from serendipity.show.map.names import elided
+from serendipity.show.map.places import Whereabouts, find_places
+from serendipity.show.picture.map_picture import MARGIN, map_picture
+from serendipity.show.scene.scene import Meeting
+from tests.show.drawn import SVG, Drawn, drawn_tokens
+from tests.support.builders import _atom_task
+
+H = 0
+
+
+def lorry(loads: int) -> Task:
+    """A driver, a lorry and things to load, all in one place; the first is wanted in the other."""
+    actions: dict[str, tuple[tuple[str, ...], str, str]] = {}
+    things = [f"consignment{i}" for i in range(1, loads + 1)]
+    for a, b in (("west", "east"), ("east", "west")):
+        actions[f"walk h {a} {b}"] = (("h",), f"at h {a}", f"at h {b}, !at h {a}")
+        actions[f"drive h {a} {b}"] = (("h",), f"in h lorry, at lorry {a}", f"at lorry {b}, !at lorry {a}")
+        actions[f"enter h {a}"] = (("h",), f"at h {a}, at lorry {a}", f"in h lorry, !at h {a}")
+        actions[f"leave h {a}"] = (("h",), f"in h lorry, at lorry {a}", f"at h {a}, !in h lorry")
+        for thing in things:
+            near = f"in h lorry, at lorry {a}"
+            actions[f"load h {thing} {a}"] = (
+                ("h",),
+                f"{near}, at {thing} {a}",
+                f"in {thing} lorry, !at {thing} {a}",
+            )
+            actions[f"unload h {thing} {a}"] = (
+                ("h",),
+                f"{near}, in {thing} lorry",
+                f"at {thing} {a}, !in {thing} lorry",
+            )
+    init = ["at h west", "at lorry west", *(f"at {thing} west" for thing in things)]
+    return _atom_task(("h", "r"), init, "at consignment1 east", actions)
+
+
+def played(task: Task) -> Scene:
+    return build_scene(task, serendipity.plan(task, mode="individual"))
+
+
+def kept_apart(scene: Scene, epoch: int) -> dict[str, Drawn]:
+    """The tokens of an epoch, none of which overlaps another or its place's name, or leaves its place."""
+    sheet, tokens = drawn_tokens(scene, epoch)
+    frames = {key: token for key, token in tokens.items() if key.startswith("frame-")}
+    single = {key: token for key, token in tokens.items() if key not in frames}
+    for (one, a), (other, b) in combinations(single.items(), 2):
+        assert not a.overlaps(b), (epoch, one, other)
+    for frame, outline in frames.items():
+        for key, token in tokens.items():
+            apart = not outline.overlaps(token)
+            assert apart or outline.encloses(token) or token.encloses(outline), (epoch, frame, key)
+    assert scene.layout is not None
+    for key, token in tokens.items():
+        assert sheet.encloses(token), (epoch, key)
+        assert any(
+            abs((token.left + token.right) / 2 - MARGIN - box.x) <= box.width / 2
+            and token.left >= MARGIN + box.x - box.width / 2
+            and token.right <= MARGIN + box.x + box.width / 2
+            and token.top >= MARGIN + box.y - box.height / 2 + 25
+            and token.bottom <= MARGIN + box.y + box.height / 2
+            for box in scene.layout.boxes.values()
+        ), (epoch, key)
+    return tokens
+
+
+@pytest.mark.parametrize("name", ["room2", "parcels", "flights", "taxis"])
+def test_labels_lie_apart_and_within_their_places(name: str) -> None:
+    task = serendipity.example(name)
+    scene = build_scene(task, serendipity.plan(task, discount="0.5"))
+    for frame in scene.frames:
+        kept_apart(scene, frame.epoch)
+
+
+def test_places_grow_until_everything_in_them_is_named() -> None:
+    scene = played(lorry(6))
+    for frame in scene.frames:
+        shown = kept_apart(scene, frame.epoch)
+        assert {f"object-{i}" for i in range(7)} <= shown.keys()
+    assert scene.layout is not None
+    assert all(box.height > 100 for box in scene.layout.boxes.values())
+
+
+def test_what_has_no_room_is_counted_and_can_be_looked_up() -> None:
+    scene = played(lorry(60))
+    tokens = kept_apart(scene, 0)
+    counted = tokens["more-place-west"]
+    named = {token.title for key, token in tokens.items() if key.startswith("object-")}
+    hidden = counted.title.split(", ")
+    assert counted.text == f"+{len(hidden)}"
+    assert named | set(hidden) == {*(f"consignment{i}" for i in range(1, 61)), "lorry"}
+    assert named.isdisjoint(hidden)
+
+
+def test_agents_are_the_last_to_be_counted(room2: Scene) -> None:
+    assert room2.layout is not None
+    small = {place: replace(box, height=100.0) for place, box in room2.layout.boxes.items()}
+    tokens = kept_apart(replace(room2, layout=replace(room2.layout, boxes=small), meetings=()), 6)
+    assert {"agent-0", "agent-1"} <= tokens.keys()
+    assert tokens["more-place-hall4"].title == "mk2"
+
+
+def test_a_map_without_a_plan_has_room_for_a_meeting(room2: Scene) -> None:
+    places = find_places(serendipity.example("room2"))
+    tokens = kept_apart(replace(room2, layout=lay_out(places), meetings=()), 6)
+    kit = f"object-{list(room2.frames[0].objects).index('mk2')}"
+    assert {"agent-0", "agent-1", kit} <= tokens.keys()
+
+
+def test_who_drives_and_what_is_loaded_are_in_the_frame_of_the_lorry() -> None:
+    scene = played(lorry(3))
+    names = list(scene.frames[0].objects)
+    lorry_key, load_key = (f"object-{names.index(name)}" for name in ("lorry", "consignment1"))
+    other = f"object-{names.index('consignment2')}"
+    loaded = next(a.epoch for a in scene.acts if a.verb == "load")
+    tokens = kept_apart(scene, loaded)
+    frame = tokens[f"frame-{lorry_key}"]
+    assert all(frame.encloses(tokens[key]) for key in ("agent-0", lorry_key, load_key))
+    assert not frame.overlaps(tokens[other])
+    assert frame.title == "lorry, h, consignment1"
+    assert f"frame-{lorry_key}" not in kept_apart(scene, 0)
+
+
+def test_what_somebody_holds_is_in_a_frame_with_them(room2: Scene) -> None:
+    before, after = kept_apart(room2, 5), kept_apart(room2, 6)
+    kit = f"object-{list(room2.frames[0].objects).index('mk2')}"
+    assert before["frame-agent-1"].encloses(before[kit])
+    assert after["frame-agent-0"].encloses(after[kit])
+    assert "frame-agent-1" not in after
+
+
+def test_a_box_in_a_van_that_is_driven_is_in_both_frames() -> None:
+    scene = played(lorry(6))
+    frame = scene.frames[0]
+    objects = frame.objects | {
+        "lorry": Whereabouts("west", riders=(H,)),
+        "consignment1": Whereabouts(holder=H, carrier="lorry"),
+        "consignment2": Whereabouts(holder=H, carrier="consignment1"),
+    }
+    nested = replace(scene, frames=(replace(frame, objects=objects),))
+    tokens = kept_apart(nested, 0)
+    keys = {name: f"object-{i}" for i, name in enumerate(frame.objects)}
+    outer, inner = tokens[f"frame-{keys['lorry']}"], tokens[f"frame-{keys['consignment1']}"]
+    assert outer.encloses(inner)
+    assert inner.encloses(tokens[keys["consignment2"]])
+    assert not inner.encloses(tokens["agent-0"])
+
+
+def test_several_meetings_in_one_place_have_one_tag(room2: Scene) -> None:
+    later = [Meeting(epoch, "hall4", (), "again") for epoch in (9, 11)]
+    scene = replace(room2, meetings=(*room2.meetings, *later))
+    picture = map_picture(scene, 6)
+    assert picture is not None
+    (tag,) = ET.fromstring(svg(picture)).findall(f".//{SVG}g[@data-meeting]")
+    assert tag.attrib["data-meeting"] == "0 1 2"
+    assert "epoch 11: again" in (tag.findtext(f"{SVG}title") or "")
+
+
+def test_hoists_are_places_and_who_only_drives_is_where_the_lorry_is() -> None:
+    actions: dict[str, tuple[tuple[str, ...], str, str]] = {}
+    for a, b in (("yard", "shop"), ("shop", "yard")):
+        actions[f"drive dan {a} {b}"] = (("dan",), f"at lorry {a}", f"at lorry {b}, !at lorry {a}")
+        actions[f"lift {a} c"] = ((a,), f"at c {a}", f"lifting {a} c, !at c {a}")
+        actions[f"load {a} c"] = ((a,), f"lifting {a} c, at lorry {a}", f"in c lorry, !lifting {a} c")
+        actions[f"unload {a} c"] = ((a,), f"in c lorry, at lorry {a}", f"lifting {a} c, !in c lorry")
+        actions[f"lower {a} c"] = ((a,), f"lifting {a} c", f"at c {a}, !lifting {a} c")
+    task = _atom_task(("dan", "yard", "shop"), ["at lorry yard", "at c yard"], "at c shop", actions)
+    assert find_places(task).names == ("shop", "yard")
+    scene = build_scene(task, serendipity.plan(task, mode="composite", discount="0.5", horizon=6))
+    start, end = scene.frames[0], scene.frames[-1]
+    assert start.at == {0: "yard", 1: "yard", 2: "shop"}
+    assert end.at == {0: "shop", 1: "yard", 2: "shop"}
+    lifted = next(a.epoch for a in scene.acts if a.verb == "lift")
+    assert scene.frames[lifted].objects["c"] == Whereabouts(holder=1)
+    drive = next(a for a in scene.acts if a.agents == (0,))
+    assert (drive.verb, drive.detail) == ("go to", "shop")
+    for frame in scene.frames:
+        kept_apart(scene, frame.epoch)
+
+
+def test_without_a_former_plan_there_is_no_lane_for_it() -> None:
+    task = lorry(1)
+    scene = played(task)
+    assert not replace(scene, former_acts=()).deviates
+
+
+def test_names_are_shortened_so_that_they_can_be_told_apart() -> None:
+    assert elided("package12", 8) == "packa…12"
+    assert elided("consignment", 8) == "consign…"
+    assert elided("crate1", 8) == "crate1"
+
+
+@pytest.mark.parametrize(
+    ("domain", "problem", "human"),
+    [
+        ("driverlog", "pfile3", "driver1"),
+        ("zenotravel", "pfile5", "plane1"),
+        ("logistics00", "probLOGISTICS-8-0", "tru1"),
+        ("rovers", "p10", "rover0"),
+        ("satellites", "p05-pfile5", "satellite0"),
+        ("depot", "pfile5", "driver0"),
+        ("elevators08", "p01", "fast0"),
+    ],
+)
+def test_competition_tasks_start_on_a_map_in_order(
+    codmap15: Path, domain: str, problem: str, human: str
+) -> None:
+    folder = codmap15 / domain
+    task = serendipity.load_pddl(folder / "domain.pddl", folder / f"{problem}.pddl", human)
+    nothing = serendipity.plan(task, mode="individual", time_limit=0.001)
+    scene = build_scene(task, replace(nothing, plan=None, human_plan=None))
+    assert kept_apart(scene, 0)
+    ET.fromstring(str(draw(scene, ".svg")))
