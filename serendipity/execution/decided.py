@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 from serendipity.execution.world import WHY, Unfinished
+from serendipity.model.table import Cell
 from serendipity.model.task.plans import PlanStep, Window
 
 VERDICTS: Final = {
@@ -16,6 +17,21 @@ VERDICTS: Final = {
     "late": "no decision within the deadline: robots do nothing",
 }
 """What a decision amounts to."""
+
+COLUMNS: Final = {
+    "epoch": int,
+    "human": str,
+    "in_vain": bool,
+    "steps": str,
+    "unfinished": str,
+    "human_cost": float,
+    "cost": float,
+    "done": bool,
+    "verdict": str,
+    "reason": str,
+    "seconds": float,
+}
+"""Of a table of epochs that are over; what they mean is said at :class:`Passed` and :class:`Decided`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +131,22 @@ class Passed:
             "done": self.done,
             "decision": self.decided.to_dict(),
         }
+
+    def cells(self) -> tuple[Cell, ...]:
+        """What stands in its row, below :data:`COLUMNS`."""
+        return (
+            self.epoch,
+            self.human,
+            self.in_vain,
+            "; ".join(step.action for step in self.steps),
+            "; ".join(unfinished.step.action for unfinished in self.unfinished),
+            self.human_cost,
+            self.cost,
+            self.done,
+            self.decided.verdict,
+            self.decided.reason,
+            self.decided.seconds,
+        )
 
     def lines(self, human: str) -> list[str]:
         """The epoch in words.

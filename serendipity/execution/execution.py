@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
 from serendipity.execution.brain import Brain
-from serendipity.execution.decided import Decided, Passed
+from serendipity.execution.decided import COLUMNS, Decided, Passed
 from serendipity.execution.outlook import Outlook, Robots
 from serendipity.execution.world import Actuator, Outcome, World, done_at_once
 from serendipity.model.errors import LIMITS, UsageError
@@ -13,6 +13,7 @@ from serendipity.model.numbers import Number
 from serendipity.model.options import Options, limit_of
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.table import Table, Tabular
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task, canonical_name
 
@@ -23,7 +24,7 @@ _PREPARATION: Final = 10.0
 """Seconds before the first epoch in which tables may be made, where epochs have a deadline."""
 
 
-class Execution:
+class Execution(Tabular):
     """A person, robots that may help, and the world; one call for each epoch.
 
     ``decided`` is what robots are going to do, ``step`` moves on by what the person does::
@@ -118,6 +119,10 @@ class Execution:
     def passed(self) -> tuple[Passed, ...]:
         """The epochs that are over."""
         return tuple(self._passed)
+
+    def table(self) -> Table:
+        """The epochs that are over, one a row."""
+        return Table(COLUMNS, tuple(passed.cells() for passed in self._passed))
 
     @property
     def human_cost(self) -> Fraction:

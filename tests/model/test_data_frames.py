@@ -50,6 +50,18 @@ def test_a_plan_has_a_row_a_step(library: str) -> None:
     assert list(nothing.columns) == ["epoch", "agents", "action", "cost"] and len(nothing) == 0
 
 
+def test_an_execution_has_a_row_an_epoch() -> None:
+    run = serendipity.Execution(serendipity.example("room2"), discount=0.6)
+    for name in (None, "move commx room13 hall8"):
+        run.step(name)
+    first, second = (dict(zip(run.table().columns, row, strict=True)) for row in run.table().rows)
+    assert (first["epoch"], first["human"], first["human_cost"]) == (1, None, 0.0)
+    assert (second["human"], second["human_cost"]) == ("move commx room13 hall8", 1.0)
+    assert str(second["steps"]).split("; ")[0] == "move commx room13 hall8"
+    for row, passed in zip((first, second), run.passed, strict=True):
+        assert (row["verdict"], row["reason"]) == (passed.decided.verdict, passed.decided.reason)
+
+
 def test_whichever_library_is_there_is_taken() -> None:
     there = [name for name in LIBRARIES if find_spec(name) is not None]
     if not there:
