@@ -23,10 +23,7 @@ if TYPE_CHECKING:
     from search.classical.planner import ClassicalPlanner
 
 _MANY: Final = 2_000
-"""States after which a better bound is worth its tables."""
-
-_ENOUGH: Final = 200
-"""States after which the kernel is worth its preparation, where there is one."""
+"""States after which a better bound is worth its tables; in one search, after which the kernel takes over."""
 
 _A_WHILE: Final = 0.5
 """Seconds without which they are not begun: loading what makes them takes some of that already."""
@@ -171,8 +168,8 @@ class IndividualPlanner:
         search = AStar(start, self._bound, self._deadline, limit=limit, deep_first=True)
         parents: dict[int, tuple[int, int]] = {}
         end, hopeless = None, True
-        for state, spent in search:
-            if self._refines(start):
+        for number, (state, spent) in enumerate(search):
+            if self._refines(start, number):
                 return self.key(start, limit)
             rest = self._rest(state)
             if rest is not None:
@@ -200,18 +197,19 @@ class IndividualPlanner:
             return max(projected, known if known < NO_PLAN else INFINITE_KEY)
         return projected if memory.refined is None else max(projected, memory.refined(state))
 
-    def _refines(self, start: int) -> bool:
+    def _refines(self, start: int, number: int) -> bool:
         """Whether so many states have come up that the bound has been refined: a search begins anew then.
 
         Args:
             start: where it began; that nothing leads to a goal from there may show.
+            number: how many states have come up before in this search.
 
         Raises:
             _TakenOverError: the kernel has been made ready to go on.
         """
         memory = self._memory
         memory.expanded += 1
-        if memory.expanded == (1 if self._blind else _ENOUGH):
+        if number == _MANY or (self._blind and memory.expanded == 1):
             self._take_over()
             if memory.classical is not None:
                 raise _TakenOverError
@@ -338,7 +336,7 @@ class IndividualPlanner:
         expanded: dict[int, list[tuple[int, int, int]]] = {}
         goals = []
         for state, spent in search:
-            if self._refines(start):
+            if self._refines(start, 0):
                 return self._optimal(start)
             steps: list[tuple[int, int, int]] = []
             expanded[state] = steps

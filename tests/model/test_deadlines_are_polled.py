@@ -1,6 +1,7 @@
 """A deadline ends long loops, and counts what a process of ours has in memory."""
 
 import os
+import threading
 
 import pytest
 
@@ -36,3 +37,13 @@ def test_variables_are_found_anew_under_a_deadline_where_they_no_longer_fit() ->
     assert task.at(task.init, Deadline(0)).variables is task.variables
     with pytest.raises(LimitReachedError):
         task.at(frozenset(), Deadline(0))
+
+
+def test_a_part_is_cancelled_with_the_whole() -> None:
+    """A cancel flag of the part's own replaced that of the whole."""
+    whole, own = threading.Event(), threading.Event()
+    part = Deadline(cancelled=whole).within(cancelled=own)
+    part.check()
+    whole.set()
+    with pytest.raises(LimitReachedError, match="cancelled"):
+        part.check()

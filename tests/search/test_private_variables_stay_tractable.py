@@ -1,5 +1,11 @@
 """The human's private variables are tabulated together only as far as that does not take long."""
 
+from pathlib import Path
+
+import pytest
+
+import search.human.own_problem
+import serendipity
 from search.human.pattern_database import human_graph, private_fields
 from search.packed.packed_task import PackedTask
 from serendipity.model import Deadline, Task
@@ -29,3 +35,13 @@ def test_what_can_only_become_little_together_is_kept_together() -> None:
     graph = human_graph(problem, Deadline())
     assert graph.mask == sum(private_fields(problem))
     assert len(graph.moves) == COUNT + 1
+
+
+def test_many_easy_searches_are_not_handed_over(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The kernel took over after 200 states in all, and takes milliseconds a question in large buildings."""
+    asked: list[object] = []
+    monkeypatch.setattr(search.human.own_problem, "own_planner", lambda *given: asked.append(given))
+    serendipity.generate_usar(tmp_path / "building", rooms=210, corridors=4)
+    building = serendipity.load(tmp_path / "building")
+    assert serendipity.plan(building, discount=0.9, window_weight=0).status == "optimal"
+    assert not asked

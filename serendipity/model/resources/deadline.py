@@ -49,7 +49,7 @@ class Deadline:
         self.started = time.perf_counter()
         self._end = None if time_limit is None else self.started + time_limit
         self._most = None if memory_limit is None else memory_limit * MIB
-        self._cancelled = cancelled
+        self._cancelled: tuple[threading.Event, ...] = () if cancelled is None else (cancelled,)
         self._ticks = 0
         self._measure_at = self.started
         if memory_limit is not None and resident() is None:
@@ -74,14 +74,14 @@ class Deadline:
         Args:
             time_limit: seconds from now on, or None.
             memory_limit: what the process may have in memory, in MiB, or None.
-            cancelled: ends the part when it is set; None: what ends the whole.
+            cancelled: ends the part when it is set, as what ends the whole does.
         """
         own = Deadline(time_limit, memory_limit, cancelled)
         part = copy(self)
         part.started = own.started
         part._end = _least(own._end, self._end)
         part._most = _least(own._most, self._most)
-        part._cancelled = self._cancelled if cancelled is None else cancelled
+        part._cancelled = self._cancelled + own._cancelled
         return part
 
     def part(self, share: float) -> "Deadline":
@@ -117,8 +117,9 @@ class Deadline:
         """
         if self._end is not None and time.perf_counter() >= self._end:
             raise LimitReachedError("time-limit")
-        if self._cancelled is not None and self._cancelled.is_set():
-            raise LimitReachedError("cancelled")
+        for cancelled in self._cancelled:
+            if cancelled.is_set():
+                raise LimitReachedError("cancelled")
         if self._most is not None:
             self._check_memory(self._most)
 
