@@ -83,7 +83,7 @@ def _installed(library: str | None) -> str:
     wanted = LIBRARIES if library is None else (library,)
     found = next((name for name in wanted if find_spec(name) is not None), None)
     if found is None:
-        more = ": install serendipity[data]" if "polars" in wanted else ""
+        more = ": install serendipity-planner[data]" if "polars" in wanted else ""
         raise UsageError(f"data frames need {' or '.join(wanted)}{more}")
     return found
 

@@ -13,7 +13,7 @@ try:
     import unified_planning  # noqa: F401  # the library is an extra: say so where it is missing
 except ImportError as error:
     raise ImportError(
-        "serendipity.up needs unified-planning: install the extra, serendipity[up]", name=error.name
+        "serendipity.up needs unified-planning: install the extra, serendipity-planner[up]", name=error.name
     ) from None
 
 from serendipity._siblings import require_siblings

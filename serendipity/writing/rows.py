@@ -57,7 +57,7 @@ def _parquet_writer() -> Callable[[Table], bytes]:
     for library, writer in (("polars", _with_polars), ("pyarrow", _with_pyarrow)):
         if find_spec(library) is not None:
             return writer
-    raise UsageError("Parquet needs polars or pyarrow: install serendipity[data]")
+    raise UsageError("Parquet needs polars or pyarrow: install serendipity-planner[data]")
 
 
 def _with_polars(table: Table) -> bytes:

@@ -92,7 +92,7 @@ def test_progress_counts_two_searches_for_each_window() -> None:
 
 
 def test_the_map_as_png(run: Runs, tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib", reason="needs the extra serendipity[plot]")
+    pytest.importorskip("matplotlib", reason="needs the extra serendipity-planner[plot]")
     assert run("interruptions --example room2 --discount 0.6 --heat-map map.png").code == 0
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
 

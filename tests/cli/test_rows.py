@@ -96,5 +96,7 @@ def test_parquet_without_a_library_is_one_line(
 ) -> None:
     for name in ("polars", "pyarrow"):
         monkeypatch.setitem(sys.modules, name, None)
-    assert_one_line(run(f"{words} -o rows.parquet"), "Parquet needs polars or pyarrow", "serendipity[data]")
+    assert_one_line(
+        run(f"{words} -o rows.parquet"), "Parquet needs polars or pyarrow", "serendipity-planner[data]"
+    )
     assert not Path("rows.parquet").exists()

@@ -131,7 +131,7 @@ def test_the_extra_is_named_where_it_is_missing(command: str, monkeypatch, capsy
     assert main([command]) == 2
     said = capsys.readouterr().err
     assert said.startswith(f"Error: {command}: needs ")
-    assert said.endswith("install serendipity[live]\n")
+    assert said.endswith("install serendipity-planner[live]\n")
 
 
 def test_a_port_in_use_is_one_line(server: Server, capsys) -> None:

@@ -35,7 +35,7 @@ except ImportError as error:
     print(error)
 """
     assert run(code, tmp_path) == (
-        "serendipity.up needs unified-planning: install the extra, serendipity[up]"
+        "serendipity.up needs unified-planning: install the extra, serendipity-planner[up]"
     )
 
 

@@ -57,7 +57,7 @@ def play(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Play the human yourself, on a page of this machine; needs serendipity[live]."""
+    """Play the human yourself, on a page of this machine; needs serendipity-planner[live]."""
     output.start_logging(verbose)
     for option, value, known in (("--view", view, _VIEWS), ("--robots-are", robots, _CONDITIONS)):
         if value not in known:
@@ -77,7 +77,7 @@ def play(
         from serendipity.live.play.opening import open_study, open_table
         from serendipity.live.server import serve as run
     except ImportError as missing:
-        raise UsageError(f"play: needs {missing.name}: install serendipity[live]") from None
+        raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
     how = {"discount": share, "view": view, "goals": goals, "deadline": seconds}
     host: Host
     if study is not None:

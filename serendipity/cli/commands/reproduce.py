@@ -43,7 +43,9 @@ def reproduce(
     jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", help="Processes.")] = 1,
     dask: Annotated[
         str | None,
-        typer.Option(help="Work on a Dask cluster (needs serendipity[dask]).", **choices("ADDRESS", "local")),
+        typer.Option(
+            help="Work on a Dask cluster (needs serendipity-planner[dask]).", **choices("ADDRESS", "local")
+        ),
     ] = None,
     time_limit: Annotated[
         str | None,

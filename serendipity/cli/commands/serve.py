@@ -44,7 +44,7 @@ def serve(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Answer requests over HTTP: plan, verify, sessions; needs serendipity[live]."""
+    """Answer requests over HTTP: plan, verify, sessions; needs serendipity-planner[live]."""
     output.start_logging(verbose)
     for option, number, least in (("--workers", workers, 1), ("--queue", queue, 0)):
         if number is not None and number < least:
@@ -55,7 +55,7 @@ def serve(
         from serendipity.live.service.application import ServiceLimits, service
         from serendipity.live.workers.pool import PoolLimits
     except ImportError as missing:
-        raise UsageError(f"serve: needs {missing.name}: install serendipity[live]") from None
+        raise UsageError(f"serve: needs {missing.name}: install serendipity-planner[live]") from None
     token = _token(token_file)
     if token is None and not addresses.loopback(host):
         raise UsageError(f"--host: others can reach {host}, so a token is needed: --token-file, or {_TOKEN}")

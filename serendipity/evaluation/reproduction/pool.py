@@ -40,7 +40,7 @@ def _client(address: str, jobs: int) -> Any:
     try:
         from distributed import Client, LocalCluster
     except ImportError:
-        raise UsageError("--dask: needs Dask: install serendipity[dask]") from None
+        raise UsageError("--dask: needs Dask: install serendipity-planner[dask]") from None
     if address == "local":
         cluster = LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
         return Client(cluster)

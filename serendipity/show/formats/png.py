@@ -28,7 +28,7 @@ def png(picture: Picture, scale: float = 2.0) -> bytes:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError:
-        raise UsageError("PNG pictures need matplotlib: pip install serendipity[plot]") from None
+        raise UsageError("PNG pictures need matplotlib: pip install serendipity-planner[plot]") from None
     scale = min(scale, _MOST_PIXELS / max(picture.width, picture.height))
     figure = Figure(figsize=(picture.width / _DPI, picture.height / _DPI), dpi=_DPI * scale)
     FigureCanvasAgg(figure)

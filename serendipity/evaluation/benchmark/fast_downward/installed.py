@@ -14,7 +14,7 @@ def absent() -> str | None:
     ]
     if not missing:
         return None
-    return f"fast-downward is left out: no {' and no '.join(missing)} here: pip install serendipity[bench]"
+    return f"fast-downward is left out: no {' and no '.join(missing)} here: pip install serendipity-planner[bench]"
 
 
 @cache
