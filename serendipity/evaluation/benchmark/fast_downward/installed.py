@@ -14,7 +14,8 @@ def absent() -> str | None:
     ]
     if not missing:
         return None
-    return f"fast-downward is left out: no {' and no '.join(missing)} here: pip install serendipity-planner[bench]"
+    absent = " and no ".join(missing)
+    return f"fast-downward is left out: no {absent} here: pip install serendipity-planner[bench]"
 
 
 @cache
