@@ -156,7 +156,7 @@ def test_answers_are_those_of_python(task: Task) -> None:
         return [alone.status, alone.cost, alone.human_plan, team.status, team.cost, team.saving]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("search.human.individual_planner._ENOUGH", 1)
+        patch.setattr("search.human.individual_planner._MANY", 0)
         compiled = ask()
         patch.setenv("SERENDIPITY_KERNEL", "off")
         assert ask() == compiled
