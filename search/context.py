@@ -52,6 +52,7 @@ class SearchContext:
         self.task = prepared.task
         self.options = options
         self.deadline = deadline
+        self.plan = plan
         if tables is None:
             whole = options.preservation == "state"
             tables = prepared.with_human_facts(deadline) if whole else prepared.plain(deadline)
@@ -195,7 +196,7 @@ class SearchContext:
 
     def under(self, deadline: Deadline) -> "SearchContext":
         """The same call with another deadline."""
-        return SearchContext(self.prepared, self.options, deadline, tables=self.tables)
+        return SearchContext(self.prepared, self.options, deadline, self.plan, self.tables)
 
     def amount_key(self, amount: int) -> int:
         """An amount of the team's as a key."""

@@ -23,7 +23,7 @@ _SHARE: Final = 0.4
 _LITTLE: Final = 0.05
 """The same where it only bounds the answer, and for what one composite plan suggests."""
 
-_ALONG: Final = 0.15
+_ALONG: Final = 0.1
 """The same for what the team would do after each epoch of ``pi_H``."""
 
 _SOON: Final = 0.2

@@ -27,8 +27,8 @@ from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans import Step, Window
 from serendipity.model.task.task import HumanPlan
 
-_SOON: Final = 0.15
-"""What of the time that is left a search for short windows may take, for the sake of an answer on the way."""
+_SOON: Final = 0.1
+"""What of the time that is left a search for short windows may take, or one for ties."""
 
 _FEW: Final = 1_000
 """Nodes for the sake of a better window for the same objective."""
@@ -191,9 +191,24 @@ class _Call:
             if joint.decide and not self._is_settled():
                 for _ in joint.within_horizon(min(self.baseline.key, self.best.key)):
                     yield self.best
-        ties = Ties(self.keys.objective_shift, _FEW) if self.context.is_shared else None
-        for _ in best_first(self._space(), self.best, self.progress, self.deadline, ties):
+        if self._is_settled():
+            yield from self._settle_ties()
+            return
+        for _ in best_first(self._space(), self.best, self.progress, self.deadline, self._ties()):
             yield self.best
+
+    def _settle_ties(self) -> Iterator[Incumbent]:
+        """Better windows and fewer actions for the same objective, as far as they come soon."""
+        context = self.context.under(self.deadline.part(_SOON))
+        with suppress(LimitReachedError):
+            for _ in best_first(
+                self._space(context), self.best, self.progress, context.deadline, self._ties()
+            ):
+                yield self.best
+        self.deadline.check()
+
+    def _ties(self) -> Ties | None:
+        return Ties(self.keys.objective_shift, _FEW) if self.context.is_shared else None
 
     def _in_one_epoch(self) -> Iterator[Incumbent]:
         """Answers with the shortest window, where longer ones may be better, too; if time is limited."""
@@ -279,15 +294,16 @@ class _Call:
                 self.unaided = replace(self.best)
         self.settled = True
 
-    def _space(self, *, idle: bool = False, max_window: int | None = None) -> Space[Node, Incumbent]:
-        most_cost = self._most_cost()
+    def _space(
+        self, context: SearchContext | None = None, *, idle: bool = False, max_window: int | None = None
+    ) -> Space[Node, Incumbent]:
+        context, most_cost = context or self.context, self._most_cost()
         if self.options.windowed:
             assert self.plan is not None and self.epochs is not None
-            context = self.context
             return window_space(
                 context, self.plan, self.epochs, most_cost, self.best.key, idle=idle, max_window=max_window
             )
-        return free_space(self.context, self.epochs, most_cost, self.best.key, idle=idle)
+        return free_space(context, self.epochs, most_cost, self.best.key, idle=idle)
 
     def _most_cost(self) -> int | None:
         """``max_cost`` (eq. 11), scaled and rounded down."""
