@@ -72,7 +72,8 @@ def test_whichever_library_is_there_is_taken() -> None:
 def test_without_a_library_there_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in LIBRARIES:
         monkeypatch.setitem(sys.modules, name, None)
-    with pytest.raises(UsageError, match=r"^data frames need pandas or polars: install serendipity\[data\]$"):
+    hint = r"^data frames need pandas or polars: install serendipity-planner\[data\]$"
+    with pytest.raises(UsageError, match=hint):
         Shown().to_dataframe()
     with pytest.raises(UsageError, match=r"^data frames need pandas$"):
         Shown().to_dataframe("pandas")

@@ -74,7 +74,7 @@ def test_png_without_matplotlib_says_what_to_install(room2: Scene, monkeypatch: 
     for name in [name for name in sys.modules if name.startswith("matplotlib")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(UsageError, match=r"pip install serendipity\[plot\]"):
+    with pytest.raises(UsageError, match=r"pip install serendipity-planner\[plot\]"):
         draw(room2, ".png")
 
 
