@@ -167,6 +167,16 @@ def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
     if early.status in ("optimal", "infeasible"):
         if early.realised.items() <= final.realised.items():  # verdicts come after the proof
             early = replace(early, realised=final.realised)
+        if early.human_plan is None and early.mode == "composite" and early.horizon == final.horizon:
+            # The joint optimum waits neither for pi_H nor for what is counted from it (semantics, Decisions).
+            early = replace(
+                early,
+                human_plan=final.human_plan,
+                human_cost=final.human_cost,
+                saving=final.saving,
+                saving_alone=final.saving_alone,
+                opportunity=final.opportunity,
+            )
         if _is_shared(call.task) and (early.objective, early.cost) == (final.objective, final.cost):
             # The proof is of the objective; ties are settled as far as the search got (semantics, Decisions).
             early = replace(
