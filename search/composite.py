@@ -5,8 +5,8 @@ The joint optimum does not depend on ``pi_H``: that is asked for afterwards, for
 
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from search.classical.team import Team
 from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
@@ -15,8 +15,11 @@ from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE
 from serendipity.model.task.task import HumanPlan
 
+if TYPE_CHECKING:  # loaded by the calls that it serves
+    from search.classical.team import Team
 
-def team_for(context: SearchContext) -> Team | None:
+
+def team_for(context: SearchContext) -> "Team | None":
     """The team's problem, where the kernel can answer the call; None where the general search has to."""
     options, task = context.options, context.task
     endless = options.horizon == INFINITE
@@ -34,7 +37,7 @@ class CompositeCall:
         human_plan: ``pi_H`` as it is given, or None to predict it.
     """
 
-    def __init__(self, context: SearchContext, team: Team, human_plan: HumanPlan | None) -> None:
+    def __init__(self, context: SearchContext, team: "Team", human_plan: HumanPlan | None) -> None:
         self._context = context
         self._team = team
         self._given = human_plan
