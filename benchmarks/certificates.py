@@ -13,7 +13,7 @@ file goes on where the first one stopped.
 import argparse
 import csv
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from statistics import median
 from time import perf_counter, process_time
@@ -41,7 +41,7 @@ def main() -> None:
                 if key not in done:
                     row = _measure(folder, mode, discount, arguments)
                     rows.append(row)
-                    _append(arguments.csv, row)
+                    append(arguments.csv, row)
     settings = _settings(arguments)
     _table([row for row in rows if tuple(row[name] for name in KEY[-3:]) == settings])
 
@@ -119,12 +119,13 @@ def _read(path: Path | None) -> dict[tuple[str, ...], dict[str, str]]:
     return {tuple(row[name] for name in KEY): row for row in rows}
 
 
-def _append(path: Path | None, row: dict[str, str]) -> None:
+def append(path: Path | None, row: dict[str, str], fields: Sequence[str] = FIELDS) -> None:
+    """One more row of a CSV file, which begins with the names of its fields."""
     if path is None:
         return
     new = not path.exists()
     with path.open("a", newline="") as file:
-        writer = csv.DictWriter(file, FIELDS)
+        writer = csv.DictWriter(file, fields)
         if new:
             writer.writeheader()
         writer.writerow(row)

@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import serendipity
-from benchmarks.certificates import DISCOUNTS, MODES, folders, processor
+from benchmarks.certificates import DISCOUNTS, MODES, append, folders, processor
 from serendipity.model import Result
 from verify.proofs import checker
 
@@ -41,7 +41,7 @@ def main() -> None:
                     if (folder.name, mode, discount) not in done:
                         row = _measure(folder, mode, discount, Path(scratch), arguments)
                         rows.append(row)
-                        _append(arguments.csv, row)
+                        append(arguments.csv, row, FIELDS)
     for line in _table(rows):
         print(line)
 
@@ -99,17 +99,6 @@ def _read(path: Path | None) -> list[dict[str, str]]:
         return []
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
-
-
-def _append(path: Path | None, row: dict[str, str]) -> None:
-    if path is None:
-        return
-    new = not path.exists()
-    with path.open("a", newline="") as file:
-        writer = csv.DictWriter(file, FIELDS)
-        if new:
-            writer.writeheader()
-        writer.writerow(row)
 
 
 def _table(rows: list[dict[str, str]]) -> Iterator[str]:

@@ -54,10 +54,9 @@ def optimum(model: Model) -> int:
     return sum(weight * values[x] for x, weight in model.objective.items())
 
 
-def _branched() -> Sample:
-    model = covering()
-    limit = optimum(model) - 1
-    program = {
+def entry(model: Model, limit: int | None) -> dict[str, Any]:
+    """A program as a proof file has it, with its tree."""
+    return {
         "name": "covering",
         "columns": [list(bounds) for bounds in zip(model.lower, model.upper, strict=True)],
         "objective": [list(term) for term in model.objective.items()],
@@ -73,6 +72,11 @@ def _branched() -> Sample:
         ],
         "tree": refutation(model, limit, Deadline()),
     }
+
+
+def _branched() -> Sample:
+    model = covering()
+    program = entry(model, optimum(model) - 1)
     return Sample({"schema": SCHEMA, "claim": "optimal", "encoding": "automata", "programs": [program]})
 
 

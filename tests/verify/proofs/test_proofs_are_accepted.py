@@ -22,7 +22,7 @@ from tests.support.builders import task as build
 from tests.support.cases import case_1, case_4, case_8, case_10
 from tests.support.strategies import Call, calls
 from tests.verify.doctored import dearer
-from tests.verify.proofs.samples import covering, optimum
+from tests.verify.proofs.samples import covering, entry, optimum
 from tests.verify.test_ip_parts import DETOUR
 from verify.base.undecided import UndecidedError
 from verify.calls.solve import solve
@@ -175,23 +175,7 @@ def test_what_is_not_proved_is_not_written(tmp_path: Path) -> None:
 
 def _refuted(model: Model, limit: int | None) -> int:
     """Leaves of a tree that the checker accepts."""
-    entry = {
-        "name": "model",
-        "columns": [list(bounds) for bounds in zip(model.lower, model.upper, strict=True)],
-        "objective": [list(term) for term in model.objective.items()],
-        "limit": limit,
-        "rows": [
-            {
-                "family": "",
-                "terms": [list(t) for t in row.terms.items()],
-                "sense": row.sense,
-                "right": row.right,
-            }
-            for row in model.rows
-        ],
-        "tree": refutation(model, limit, Deadline()),
-    }
-    return refute(program(json.loads(json.dumps(entry)), "program")).leaves
+    return refute(program(json.loads(json.dumps(entry(model, limit))), "program")).leaves
 
 
 def test_below_the_optimum_there_is_nothing() -> None:
