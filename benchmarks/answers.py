@@ -21,7 +21,7 @@ from typing import Any
 import serendipity
 from benchmarks.problems import PROBLEMS
 from serendipity import SerendipityError, Task
-from serendipity.evaluation.crosscheck.calls import PlanCall, random_call
+from serendipity.testing.generator.calls import PlanCall, random_call
 
 TIMED = ("elapsed_seconds", "seconds", "gap")
 """What depends on the clock: improvements are told of now and then."""

@@ -22,7 +22,7 @@ from serendipity.evaluation.crosscheck import (
     shrink,
     write_case,
 )
-from serendipity.evaluation.crosscheck.outside import Claim, OutsideJudge, by_name
+from serendipity.testing.judges import Claim, OutsideJudge, by_name
 
 SEARCH = {"search": JUDGES["search"]}
 STATUSES = ("optimal", "feasible", "infeasible", "unknown")

@@ -9,9 +9,9 @@ import pytest
 import serendipity
 from serendipity.cli.files.plan_file import plan_file
 from serendipity.model import Result, Task
+from serendipity.testing.builders import task
+from serendipity.testing.cases import WORKED, Worked
 from tests.cli.conftest import Run, assert_one_line
-from tests.support.builders import task
-from tests.support.cases import WORKED, Worked
 
 Runs = Callable[[str], Run]
 

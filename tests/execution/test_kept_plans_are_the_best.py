@@ -8,7 +8,7 @@ from serendipity.execution.adviser import Adviser
 from serendipity.execution.guard import Following
 from serendipity.execution.world import World
 from serendipity.model import Deadline, Options, PlanStep, Task
-from tests.support.strategies import corridor_tasks, usar_tasks
+from serendipity.testing.strategies import corridor_tasks, usar_tasks
 
 
 def _cost(plan: tuple[PlanStep, ...] | None) -> float:

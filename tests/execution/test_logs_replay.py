@@ -22,8 +22,8 @@ from serendipity.execution import (
     replay,
 )
 from serendipity.model import InputError, Task
+from serendipity.testing.strategies import tasks
 from tests.execution.living import other_goals
-from tests.support.strategies import tasks
 
 
 def _log(run: Execution) -> list[LogLine]:

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from serendipity.execution import Execution, Faults, Replanner, Unreliable
 from serendipity.model import Task
+from serendipity.testing.strategies import tasks, usar_tasks
 from tests.execution.living import live, other_goals
-from tests.support.strategies import tasks, usar_tasks
 
 DISCOUNTS = st.sampled_from(["0", "0.5", "0.9", "1"])
 SEEDS = st.integers(0, 2**32)

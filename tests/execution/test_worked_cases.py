@@ -5,8 +5,8 @@ import pytest
 import serendipity
 from serendipity.execution import Execution, Omniscient, Replanner, moment_of
 from serendipity.model import Condition, InputError, Task, UsageError
-from tests.support.builders import task as build
-from tests.support.builders import usar
+from serendipity.testing.builders import task as build
+from serendipity.testing.builders import usar
 
 
 def _live(run: Execution, person: Replanner | Omniscient) -> list[str]:

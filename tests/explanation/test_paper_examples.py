@@ -6,7 +6,7 @@ import pytest
 
 import serendipity
 from serendipity import Explanation, UsageError
-from tests.support import cases
+from serendipity.testing import cases
 
 
 def explained(name: str, **options: object) -> Explanation:

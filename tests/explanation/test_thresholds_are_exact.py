@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import Explanation, UsageError
 from serendipity.model import Options
-from tests.support.strategies import Call, calls
+from serendipity.testing.strategies import Call, calls
 
 DISCOUNTS = st.fractions(0, 1, max_denominator=12)
 WEIGHTS = st.fractions(0, 6, max_denominator=12)

@@ -9,7 +9,7 @@ from search import prepare
 from search.packed.packed_task import PackedTask
 from serendipity import Session, Task
 from serendipity.facade.prepared import HELD, LastPrepared
-from tests.support.cases import case_1
+from serendipity.testing.cases import case_1
 
 
 def copies(count: int) -> list[Task]:

@@ -8,8 +8,8 @@ from hypothesis import given
 
 import serendipity
 from serendipity import PlanError, Session, Task, UsageError
-from tests.support.cases import case_1, case_2
-from tests.support.strategies import tasks
+from serendipity.testing.cases import case_1, case_2
+from serendipity.testing.strategies import tasks
 
 
 def _fresh(session: Session, **options: object) -> serendipity.Result:

@@ -15,11 +15,11 @@ from serendipity.facade.ties import combined, until_settled
 from serendipity.model import Condition, Options, Task, Window
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.deadline import Deadline
-from tests.support.builders import task as build
-from tests.support.builders import usar
-from tests.support.cases import case_4
-from tests.support.oracle import best
-from tests.support.strategies import Call, calls
+from serendipity.testing.builders import task as build
+from serendipity.testing.builders import usar
+from serendipity.testing.cases import case_4
+from serendipity.testing.oracle import best
+from serendipity.testing.strategies import Call, calls
 
 
 def _answered(

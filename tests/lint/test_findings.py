@@ -10,11 +10,11 @@ from hypothesis import given
 import serendipity
 from serendipity.lint.reach import relevant
 from serendipity.model import Condition, Deadline, Task
+from serendipity.testing import cases
+from serendipity.testing.builders import task as built
+from serendipity.testing.strategies import tasks
 from tests.pddl.texts import action, domain, pair, problem
 from tests.show.test_wards import DATA
-from tests.support import cases
-from tests.support.builders import task as built
-from tests.support.strategies import tasks
 
 Rules = Callable[..., dict[str, str]]
 

@@ -6,8 +6,8 @@ from hypothesis import given
 import serendipity
 from serendipity.model import Condition, Task
 from serendipity.model.task.names import ActionNames
-from tests.support.builders import task as build
-from tests.support.strategies import Call, calls
+from serendipity.testing.builders import task as build
+from serendipity.testing.strategies import Call, calls
 
 
 @given(calls(modes=("composite",), ties=False))

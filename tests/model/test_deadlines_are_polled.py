@@ -7,8 +7,8 @@ import pytest
 
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.resources.memory import resident
-from tests.support.cases import case_4
-from tests.support.countdown import Countdown
+from serendipity.testing.cases import case_4
+from serendipity.testing.countdown import Countdown
 
 
 @pytest.mark.parametrize("count", [0, 1, 64, 65, 1000])

@@ -10,8 +10,8 @@ import pytest
 
 import serendipity
 from serendipity import Result, Task
-from tests.support.builders import task as build
-from tests.support.cases import case_4, case_5
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import case_4, case_5
 
 PARTS = ("gap", "ties", "optimal_plans", "bounds", "recognition", "goals")
 

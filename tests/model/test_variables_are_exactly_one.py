@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from serendipity import Task
 from serendipity.model import Condition, GroundAction
 from serendipity.model.task.variables import find_variables
-from tests.support.builders import task as build
-from tests.support.strategies import tasks
+from serendipity.testing.builders import task as build
+from serendipity.testing.strategies import tasks
 
 ACTIONS = st.builds(
     lambda pre, neg, add, delete: GroundAction(

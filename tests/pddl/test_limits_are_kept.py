@@ -9,8 +9,8 @@ import serendipity
 from serendipity import LimitReachedError, SerendipityError, Task, UsageError, pddl
 from serendipity.pddl import forget_parsed
 from serendipity.pddl.grounding.instantiate import Instantiator
+from serendipity.testing.countdown import Countdown
 from tests.pddl.texts import OFFICE, YARD, action, domain, names, one, pair, problem
-from tests.support.countdown import Countdown
 
 PLACES = " ".join(f"w{i}" for i in range(9))
 TOOLS = " ".join(f"t{i}" for i in range(62))

@@ -7,8 +7,8 @@ import pytest
 
 from serendipity import InputError, PlanError, load, plan, recognise
 from serendipity.model import GroundAction
+from serendipity.testing.builders import task as build
 from tests.pddl.texts import YARD, action, domain, names, one, problem, two
-from tests.support.builders import task as build
 
 WAIT = action("wait", "(home)", "(home) (increase (total-cost) 9)")
 REST = action("rest", "(and)", "(increase (total-cost) 3)")

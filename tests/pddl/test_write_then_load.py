@@ -7,9 +7,9 @@ from hypothesis import given
 
 from serendipity import Task, load, load_pddl
 from serendipity.pddl.write import task_files, write_pddl
+from serendipity.testing.builders import task as build
+from serendipity.testing.strategies import tasks
 from tests.pddl.texts import OFFICE, YARD
-from tests.support.builders import task as build
-from tests.support.strategies import tasks
 
 
 def again(task: Task) -> Task:

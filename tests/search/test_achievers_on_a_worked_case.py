@@ -7,7 +7,7 @@ from search.heuristics.interactions import Need
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask, TaskTables
 from serendipity.model.resources.deadline import Deadline
-from tests.support.builders import task
+from serendipity.testing.builders import task
 
 OPEN, OPEN_AND_IN_A = 0, 1
 

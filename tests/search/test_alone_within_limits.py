@@ -5,7 +5,7 @@ from search.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
-from tests.support.builders import task as build
+from serendipity.testing.builders import task as build
 
 
 def _door() -> Task:

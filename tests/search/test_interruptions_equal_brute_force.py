@@ -8,11 +8,11 @@ from hypothesis import given
 import serendipity
 from serendipity import Task, UsageError, Window
 from serendipity.facade.interruptibility import Interruption, InterruptionReport, removal
-from tests.support import cases
-from tests.support.oracle import action_sets, optimal_human_plan
-from tests.support.oracle.epochs import after, holds
-from tests.support.oracle.interruptions import best_by_window
-from tests.support.strategies import Call, calls
+from serendipity.testing import cases
+from serendipity.testing.oracle import action_sets, optimal_human_plan
+from serendipity.testing.oracle.epochs import after, holds
+from serendipity.testing.oracle.interruptions import best_by_window
+from serendipity.testing.strategies import Call, calls
 
 
 def report_of(call: Call) -> InterruptionReport:

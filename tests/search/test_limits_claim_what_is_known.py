@@ -8,9 +8,9 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.model import Result
+from serendipity.testing.builders import task as build
+from serendipity.testing.countdown import Countdown
 from tests.search.test_time_may_run_out_anywhere import answers
-from tests.support.builders import task as build
-from tests.support.countdown import Countdown
 
 
 def _detours() -> Task:

@@ -10,7 +10,7 @@ import pytest
 import serendipity
 from serendipity.model import Result
 from serendipity.model.resources.memory import resident
-from tests.support.builders import task
+from serendipity.testing.builders import task
 
 STATUS = Path("/proc/self/status")
 

@@ -9,8 +9,8 @@ import serendipity
 from search.human.pattern_database import human_graph, private_fields
 from search.packed.packed_task import PackedTask
 from serendipity.model import Deadline, Task
-from tests.support.builders import task
-from tests.support.countdown import Countdown
+from serendipity.testing.builders import task
+from serendipity.testing.countdown import Countdown
 
 COUNT = 30
 

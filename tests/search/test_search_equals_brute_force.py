@@ -9,8 +9,8 @@ from hypothesis.strategies import SearchStrategy
 
 import serendipity
 from serendipity import Result, Task, UsageError
-from tests.support.oracle import Optimum, best
-from tests.support.strategies import Call, calls, family_tasks, tasks
+from serendipity.testing.oracle import Optimum, best
+from serendipity.testing.strategies import Call, calls, family_tasks, tasks
 
 
 def _answer(call: Call) -> Result | str:

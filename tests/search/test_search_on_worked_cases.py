@@ -4,8 +4,8 @@ import pytest
 
 import serendipity
 from serendipity import UsageError, Window
-from tests.support.builders import task as build
-from tests.support.cases import WORKED, Worked, case_4, case_8
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import WORKED, Worked, case_4, case_8
 
 ROOMS = {
     # medkit1 in: {(mode, discount): (cost, window start)}

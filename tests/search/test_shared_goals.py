@@ -8,9 +8,9 @@ from hypothesis import given
 import search.classical.team
 import serendipity
 from serendipity.model import Options, UsageError
-from tests.support.builders import task as build
-from tests.support.oracle import best
-from tests.support.strategies import Call, calls, family_tasks
+from serendipity.testing.builders import task as build
+from serendipity.testing.oracle import best
+from serendipity.testing.strategies import Call, calls, family_tasks
 
 
 @pytest.mark.parametrize("mode", ["individual", "serendipity", "communication", "composite"])

@@ -12,9 +12,9 @@ from serendipity import LimitReachedError, Task
 from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result
 from serendipity.model.resources.deadline import Deadline
-from tests.support.builders import task as build
-from tests.support.cases import case_2, case_4
-from tests.support.countdown import Countdown
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import case_2, case_4
+from serendipity.testing.countdown import Countdown
 
 T = TypeVar("T")
 

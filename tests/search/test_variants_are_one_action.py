@@ -7,7 +7,7 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.model import Deadline, Options, PlanStep, Result, Window
-from tests.support.builders import task as build
+from serendipity.testing.builders import task as build
 from verify.calls.solve import solve
 from verify.rules.replay import replay
 

@@ -9,7 +9,7 @@ from search import PreparedTask
 from search.context import SearchContext
 from serendipity.model import Window
 from serendipity.model.resources.deadline import Deadline
-from tests.support import builders
+from serendipity.testing import builders
 
 OPTIONS = (
     {"discount": "0.9"},

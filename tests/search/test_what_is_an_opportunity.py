@@ -7,7 +7,7 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.model import Options, Result, Window
-from tests.support.builders import task as build
+from serendipity.testing.builders import task as build
 from verify.calls.solve import solve
 
 

@@ -7,7 +7,7 @@ import pytest
 import serendipity
 from serendipity.model import Task
 from serendipity.show import Scene, build_scene
-from tests.support import cases
+from serendipity.testing import cases
 
 
 def ground(task: Task) -> Task:

@@ -16,8 +16,8 @@ from serendipity.show.map.names import elided
 from serendipity.show.map.places import Whereabouts, find_places
 from serendipity.show.picture.map_picture import MARGIN, map_picture
 from serendipity.show.scene.scene import Meeting
+from serendipity.testing.builders import _atom_task
 from tests.show.drawn import SVG, Drawn, drawn_tokens
-from tests.support.builders import _atom_task
 
 H = 0
 

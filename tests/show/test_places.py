@@ -6,9 +6,9 @@ import serendipity
 from serendipity.model import Task
 from serendipity.scenarios.building import figure2
 from serendipity.show.map.places import Whereabouts, find_places
+from serendipity.testing import cases
+from serendipity.testing.builders import _atom_task, usar
 from tests.show.conftest import ground
-from tests.support import cases
-from tests.support.builders import _atom_task, usar
 
 
 def test_figure_2_is_found_as_it_was_written() -> None:

@@ -10,10 +10,10 @@ from serendipity.model import Condition, InputError, PlanStep, Window
 from serendipity.show import Scene, build_scene
 from serendipity.show.map.places import Whereabouts
 from serendipity.show.scene.headline import headline
+from serendipity.testing import cases
+from serendipity.testing.builders import task
+from serendipity.testing.cases import WORKED, Worked
 from tests.show.conftest import ground
-from tests.support import cases
-from tests.support.builders import task
-from tests.support.cases import WORKED, Worked
 
 
 @pytest.mark.parametrize("worked", WORKED, ids=str)

@@ -16,11 +16,11 @@ from unified_planning.plans import (
 
 import serendipity
 from serendipity.model import PlanError, UsageError
+from serendipity.testing.builders import task as build
 from serendipity.up import EpochPlan, from_problem, predict, to_plan, to_problem
 from serendipity.up.engine import SerendipityEngine
 from serendipity.up.plans import human_plan_of
 from serendipity.up.reading import read
-from tests.support.builders import task as build
 from tests.up.problems import corridor, kitchen
 
 get_environment().credits_stream = None

@@ -10,9 +10,9 @@ from typing import Any
 
 from serendipity.model import Condition, Options, PlanStep, Policy, Result, Task, Window
 from serendipity.model.answers.result_parts import TiedAnswer
-from tests.support.builders import task as build
-from tests.support.cases import CASE_3_PLAN, case_2, case_3, case_4, case_7, case_8, case_9, case_10
-from tests.verify.results import moved, result, step, with_steps
+from serendipity.testing.builders import task as build
+from serendipity.testing.by_hand import moved, result, step, with_steps
+from serendipity.testing.cases import CASE_3_PLAN, case_2, case_3, case_4, case_7, case_8, case_9, case_10
 from tests.verify.valid import (
     CASE_2_PI_H,
     CASE_4_PI_H,

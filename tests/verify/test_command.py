@@ -11,7 +11,7 @@ import serendipity
 from serendipity.cli.app import main
 from serendipity.model import Claim, Options, Result, Task
 from serendipity.pddl.write import write_pddl
-from tests.support.cases import case_4, case_10
+from serendipity.testing.cases import case_4, case_10
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs import effort

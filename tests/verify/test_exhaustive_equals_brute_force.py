@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 
 from serendipity.model import Options, Result, UsageError
-from tests.support.cases import WORKED, Worked
-from tests.support.oracle import Optimum, best
-from tests.support.strategies import Call, calls
+from serendipity.testing.cases import WORKED, Worked
+from serendipity.testing.oracle import Optimum, best
+from serendipity.testing.strategies import Call, calls
 from verify.base.execution import conflicting
 from verify.calls.solve import solve
 from verify.exhaustive.team import excluding

@@ -8,10 +8,10 @@ from hypothesis import given
 
 import serendipity
 from serendipity.model import Certificate, Claim, InputError, Options, Task, UsageError
-from tests.support.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8, case_10
-from tests.support.strategies import Call, calls
+from serendipity.testing.by_hand import result
+from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8, case_10
+from serendipity.testing.strategies import Call, calls
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED, dearer, solved
-from tests.verify.results import result
 from tests.verify.valid import CASE_4_PI_H
 from verify.calls.solve import solve
 from verify.certificate.certify import certify

@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model import Deadline, Options, Task
-from tests.support.builders import task as build
-from tests.support.cases import case_4
-from tests.support.oracle import best, human_plans
-from tests.support.oracle.epochs import action_sets, after
-from tests.support.strategies import tasks
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import case_4
+from serendipity.testing.oracle import best, human_plans
+from serendipity.testing.oracle.epochs import action_sets, after
+from serendipity.testing.strategies import tasks
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import FREE, WINDOW, Subproblem, prices

@@ -9,9 +9,9 @@ import pytest
 
 import serendipity
 from serendipity.model import Certificate, LimitReachedError, Options, Result, Task, UsageError
+from serendipity.testing.cases import case_2, case_4, case_5, case_8, case_10
+from serendipity.testing.countdown import Countdown
 from tests.search.goals.test_worked_cases import helped, workshop
-from tests.support.cases import case_2, case_4, case_5, case_8, case_10
-from tests.support.countdown import Countdown
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED
 from verify.calls.solve import solve
 from verify.certificate.certify import certify

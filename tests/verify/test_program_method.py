@@ -8,8 +8,8 @@ from hypothesis import given
 
 import serendipity
 from serendipity.model import Claim, Options, Result, Task, UsageError
-from tests.support.cases import case_1, case_4, case_8, case_10
-from tests.support.strategies import Call, calls
+from serendipity.testing.cases import case_1, case_4, case_8, case_10
+from serendipity.testing.strategies import Call, calls
 from tests.verify.doctored import dearer
 from verify.calls.solve import solve
 from verify.certificate.certify import certify

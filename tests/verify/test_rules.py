@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 from serendipity.model import Options, Task
 from serendipity.model.answers.result_parts import TiedAnswer
-from tests.support.builders import task as build
-from tests.support.countdown import Countdown
-from tests.support.oracle import Alone as OracleAlone
-from tests.support.oracle.epochs import after
-from tests.support.strategies import tasks
+from serendipity.testing.builders import task as build
+from serendipity.testing.countdown import Countdown
+from serendipity.testing.oracle import Alone as OracleAlone
+from serendipity.testing.oracle.epochs import after
+from serendipity.testing.strategies import tasks
 from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
 from verify.base import individual as alone

@@ -80,7 +80,7 @@ def crosscheck(
         shrink,
         write_case,
     )
-    from serendipity.evaluation.crosscheck.outside import by_command, by_name
+    from serendipity.testing.judges import by_command, by_name
 
     chosen = {}
     for name in judges.split(","):

@@ -1,9 +1,10 @@
 """Cross-validation: search, both integer programs, certificates and laws on the same calls."""
 
-from serendipity.evaluation.crosscheck.calls import PlanCall, random_call
-from serendipity.evaluation.crosscheck.judges import JUDGES, Disagreement, Figures, compare, shows_it_too
-from serendipity.evaluation.crosscheck.reproduce import command_line, write_case
-from serendipity.evaluation.crosscheck.shrink import shrink
+from serendipity.evaluation.crosscheck.judges import JUDGES, Figures, compare, shows_it_too
+from serendipity.testing.disagreement import Disagreement
+from serendipity.testing.generator.calls import PlanCall, random_call
+from serendipity.testing.shrinking import shrink
+from serendipity.testing.written_case import command_line, write_case
 
 __all__ = [
     "JUDGES",

@@ -5,15 +5,16 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
-from serendipity.evaluation.crosscheck.calls import PlanCall
 from serendipity.evaluation.crosscheck.laws import LAWS, Law
-from serendipity.evaluation.crosscheck.outside.claims import OutsideJudge, fault
-from serendipity.evaluation.crosscheck.outside.claims import said as said_by
 from serendipity.evaluation.crosscheck.refusals import may_be_refused
 from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
 from serendipity.facade.planning import plan
 from serendipity.model import Deadline, PlanError, Result, UsageError
+from serendipity.testing.disagreement import Disagreement
+from serendipity.testing.generator.calls import PlanCall
+from serendipity.testing.judges.claims import OutsideJudge, fault
+from serendipity.testing.judges.claims import said as said_by
 from verify.calls.solve import solve
 
 
@@ -32,18 +33,6 @@ class Figures:
             return self.status
         words = f"{self.status}, cost {self.cost}, objective {self.objective}"
         return f"{words}, opportunity" if self.opportunity else words
-
-
-@dataclass(frozen=True, slots=True)
-class Disagreement:
-    """Judges that differ on a call, with what each says; or a law that the search's answer breaks."""
-
-    call: PlanCall
-    said: Mapping[str, str]
-    law: str | None = None
-
-    def __str__(self) -> str:
-        return "; ".join(f"{judge}: {words}" for judge, words in self.said.items())
 
 
 Judge = Callable[[PlanCall, Deadline], Result]

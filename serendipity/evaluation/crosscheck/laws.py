@@ -10,13 +10,13 @@ from itertools import pairwise
 from random import Random
 from typing import Final
 
-from serendipity.evaluation.crosscheck.calls import PlanCall, random_options
-from serendipity.evaluation.crosscheck.tasks import split
 from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
 from serendipity.facade.planning import plan, plan_anytime
 from serendipity.facade.session import Session
 from serendipity.model import Deadline, LimitReachedError, Options, PlanError, Result, Task, UsageError
+from serendipity.testing.generator.calls import PlanCall, random_options
+from serendipity.testing.generator.tasks import split
 
 Law = Callable[[PlanCall, Result], Iterator[str]]
 

@@ -2,9 +2,9 @@
 
 from itertools import islice
 
-from serendipity.evaluation.crosscheck.calls import PlanCall
 from serendipity.facade.call import options_from
 from serendipity.model import INFINITE, Options, PlanError, UsageError
+from serendipity.testing.generator.calls import PlanCall
 from verify.base.optimal_plans import OptimalPlans
 
 

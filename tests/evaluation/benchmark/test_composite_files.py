@@ -13,7 +13,7 @@ from serendipity import Task, example, load_agents, plan
 from serendipity.evaluation.benchmark import CONTENDERS, fast_downward
 from serendipity.model import Options
 from serendipity.pddl.write import composite_files
-from tests.support.strategies import tasks
+from serendipity.testing.strategies import tasks
 
 DISCOUNTS = ("0", "0.5", "0.9")
 

@@ -9,8 +9,8 @@ import serendipity
 from serendipity.evaluation.crosscheck import random_call
 from serendipity.facade.call import options_from
 from serendipity.model import Options, UsageError
-from tests.support.oracle import best, optimal_human_plan
-from tests.support.oracle.reactions import best_reaction
+from serendipity.testing.oracle import best, optimal_human_plan
+from serendipity.testing.oracle.reactions import best_reaction
 
 
 def _float(value: Fraction | None) -> float | None:

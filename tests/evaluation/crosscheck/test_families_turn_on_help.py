@@ -7,9 +7,8 @@ import pytest
 
 from serendipity import UsageError, plan
 from serendipity.evaluation.crosscheck import PlanCall, random_call
-from serendipity.evaluation.crosscheck.families import FAMILIES
-from tests.support.families import family_task
-from tests.support.oracle import human_plans
+from serendipity.testing.generator.families import FAMILIES, family_task
+from serendipity.testing.oracle import human_plans
 
 
 @pytest.fixture(scope="module")

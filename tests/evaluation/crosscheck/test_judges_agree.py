@@ -22,8 +22,8 @@ from serendipity.evaluation.crosscheck import (
     write_case,
 )
 from serendipity.evaluation.crosscheck import judges as judging
-from tests.support.builders import task as build
-from tests.support.cases import case_4
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import case_4
 
 seeds = st.integers(0, 10**9)
 

@@ -22,8 +22,8 @@ from serendipity.evaluation.crosscheck import (
     shows_it_too,
     shrink,
 )
-from serendipity.evaluation.crosscheck.outside import Claim, OutsideJudge, by_command, by_name
-from tests.support.builders import task as build
+from serendipity.testing.builders import task as build
+from serendipity.testing.judges import Claim, OutsideJudge, by_command, by_name
 
 SEARCH = {"search": JUDGES["search"]}
 CALL = PlanCall(

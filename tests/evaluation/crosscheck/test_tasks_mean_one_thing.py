@@ -6,9 +6,9 @@ from itertools import combinations
 import pytest
 
 from serendipity.evaluation.crosscheck import PlanCall, random_call, shrink
-from serendipity.evaluation.crosscheck.tasks import unambiguous
 from serendipity.model import Task
-from tests.support.builders import task as build
+from serendipity.testing.builders import task as build
+from serendipity.testing.generator.tasks import unambiguous
 
 
 def ambiguous_pairs(task: Task) -> list[str]:

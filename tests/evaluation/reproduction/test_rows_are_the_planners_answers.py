@@ -13,8 +13,8 @@ from serendipity.evaluation.reproduction import COLUMNS, Progress, Reproduction,
 from serendipity.evaluation.reproduction.formats import rows_as_csv
 from serendipity.evaluation.reproduction.tables import table_1
 from serendipity.pddl.write import write_pddl
+from serendipity.testing.builders import task as build
 from tests.evaluation.reproduction.conftest import PRESETS
-from tests.support.builders import task as build
 
 MODES = ("individual", "serendipity", "communication")
 DISCOUNTS = ("0.6", "0.9")

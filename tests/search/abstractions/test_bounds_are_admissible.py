@@ -15,8 +15,8 @@ from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Lookup
 from serendipity import Task, plan
 from serendipity.model.resources.deadline import Deadline
-from tests.support.builders import task as build
-from tests.support.strategies import family_tasks, tasks
+from serendipity.testing.builders import task as build
+from serendipity.testing.strategies import family_tasks, tasks
 
 
 def packed_of(task: Task) -> PackedTask:

@@ -6,7 +6,7 @@ from search.abstractions import patterns as module
 from search.abstractions.patterns import Field, patterns
 from search.packed.packed_task import PackedTask
 from serendipity.model import Deadline
-from tests.support.builders import task
+from serendipity.testing.builders import task
 
 COUNT = 6
 

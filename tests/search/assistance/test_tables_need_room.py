@@ -10,7 +10,7 @@ from search.assistance.distances.layers import Layers
 from search.assistance.distances.perimeter import PackedPlaces, ball_around
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline, LimitReachedError
-from tests.support.cases import case_5
+from serendipity.testing.cases import case_5
 
 
 class Full(Deadline):

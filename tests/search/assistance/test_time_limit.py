@@ -19,11 +19,11 @@ from search.assistance.solvers import cheapest_run, lao_star
 from serendipity.model import Options, Task
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.deadline import Deadline
+from serendipity.testing.builders import task
+from serendipity.testing.cases import case_5, case_6
+from serendipity.testing.countdown import Countdown
 from tests.search.assistance.oracle import by_rounds, explore
 from tests.search.assistance.strategies import games
-from tests.support.builders import task
-from tests.support.cases import case_5, case_6
-from tests.support.countdown import Countdown
 
 TIES = ("optimistic", "fixed", "robust", "expected")
 

@@ -8,8 +8,8 @@ import pytest
 import serendipity
 from serendipity import Result, UsageError
 from serendipity.cli.text.policy_text import policy_lines, totals_line
-from tests.support.builders import task
-from tests.support.cases import case_5, case_6, case_8
+from serendipity.testing.builders import task
+from serendipity.testing.cases import case_5, case_6, case_8
 
 
 def pair(result: Result) -> tuple[str, str]:

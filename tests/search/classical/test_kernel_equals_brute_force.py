@@ -17,9 +17,9 @@ from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from serendipity import Task, plan
 from serendipity.model import Deadline, LimitReachedError
+from serendipity.testing.builders import usar
+from serendipity.testing.strategies import tasks
 from tests.search.abstractions.test_bounds_are_admissible import exact, packed_of
-from tests.support.builders import usar
-from tests.support.strategies import tasks
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
 

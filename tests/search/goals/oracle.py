@@ -7,8 +7,8 @@ from itertools import product
 
 from search.goals import Candidate
 from serendipity.model import GroundAction, Options, Task
-from tests.support.oracle import Alone
-from tests.support.oracle.epochs import State, after, compatible, holds, usable
+from serendipity.testing.oracle import Alone
+from serendipity.testing.oracle.epochs import State, after, compatible, holds, usable
 
 Worth = tuple[Fraction, Fraction]
 """Objective and cost."""

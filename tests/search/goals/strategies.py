@@ -1,4 +1,4 @@
-"""Candidate goals for the small tasks of ``tests.support.strategies``; everything by construction."""
+"""Candidate goals for the small tasks of ``serendipity.testing.strategies``; everything by construction."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from search.goals import Candidate
 from serendipity.model import Condition, Task
-from tests.support.oracle import Alone, optimal_human_plan
-from tests.support.strategies import tasks
+from serendipity.testing.oracle import Alone, optimal_human_plan
+from serendipity.testing.strategies import tasks
 
 WEIGHTS = (Fraction(1, 2), Fraction(1, 4), Fraction(9, 10))
 

@@ -14,11 +14,11 @@ from search.goals import Candidate, solve_expected
 from search.goals.planner import _Search
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
+from serendipity.testing.builders import task as build
+from serendipity.testing.oracle import optimal_human_plan
+from serendipity.testing.strategies import Call, calls
 from tests.search.goals.oracle import best_expected, robots_sets
 from tests.search.goals.strategies import literals, rivals
-from tests.support.builders import task as build
-from tests.support.oracle import optimal_human_plan
-from tests.support.strategies import Call, calls
 from verify.base.individual import IndividualOptimum
 from verify.goals.timelines import Timeline, rule_fault
 from verify.rules.case import Case

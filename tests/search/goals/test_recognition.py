@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Condition, Task, UsageError
+from serendipity.testing.builders import task as build
+from serendipity.testing.oracle import Alone, optimal_human_plan
+from serendipity.testing.strategies import tasks
 from tests.search.goals.strategies import literals, reachable_goals
-from tests.support.builders import task as build
-from tests.support.oracle import Alone, optimal_human_plan
-from tests.support.strategies import tasks
 
 
 def fork() -> Task:

@@ -8,9 +8,9 @@ import pytest
 
 import serendipity
 from serendipity.model import InputError, Result, Task, UsageError, Window
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import CASE_3_PLAN, case_3
 from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
-from tests.support.builders import task as build
-from tests.support.cases import CASE_3_PLAN, case_3
 
 
 def workshop(keep: str) -> Task:

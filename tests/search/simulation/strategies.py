@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from serendipity.model import Condition, HumanPlan, Options, Step, Task, surroundings
 from serendipity.model.task.actions import State
 from serendipity.model.task.visibility import Visible
-from tests.support.oracle import Alone, human_plans
-from tests.support.oracle.epochs import after, usable
-from tests.support.strategies import tasks
+from serendipity.testing.oracle import Alone, human_plans
+from serendipity.testing.oracle.epochs import after, usable
+from serendipity.testing.strategies import tasks
 
 
 @dataclass(frozen=True, slots=True)

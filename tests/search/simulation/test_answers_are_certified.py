@@ -9,10 +9,10 @@ from hypothesis import given, settings
 
 import serendipity
 from serendipity.model import Certificate, Options, PlanStep, Result, Task, surroundings
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import case_1, case_2, case_4
+from serendipity.testing.oracle.reactions import best_reaction
 from tests.search.simulation.strategies import Reaction, reactions
-from tests.support.builders import task as build
-from tests.support.cases import case_1, case_2, case_4
-from tests.support.oracle.reactions import best_reaction
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import Call
 from verify.certificate import reactions as played

@@ -6,8 +6,8 @@ import pytest
 
 import serendipity
 from serendipity import UsageError
-from tests.support.builders import task
-from tests.support.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8
+from serendipity.testing.builders import task
+from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8
 
 MODELS = ["observant", "local"]
 

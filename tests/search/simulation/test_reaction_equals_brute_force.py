@@ -6,8 +6,8 @@ from hypothesis import given
 from search import PreparedTask
 from search.simulation import simulate, solve_for_human
 from serendipity.model.answers.answer import Answer
+from serendipity.testing.oracle.reactions import best_reaction
 from tests.search.simulation.strategies import Reaction, reactions
-from tests.support.oracle.reactions import best_reaction
 
 MODELS = ["observant", "local"]
 

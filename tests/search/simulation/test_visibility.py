@@ -2,7 +2,7 @@
 
 import serendipity
 from serendipity.model import Task, surroundings
-from tests.support.builders import task
+from serendipity.testing.builders import task
 
 
 def _named(built: Task, *names: str) -> frozenset[int]:

@@ -8,7 +8,7 @@ import pytest
 
 import serendipity
 from serendipity import Task
-from tests.support.cases import case_1, case_2, case_4, case_8
+from serendipity.testing.cases import case_1, case_2, case_4, case_8
 from verify.simulator import realised_claim
 
 HELPED = [

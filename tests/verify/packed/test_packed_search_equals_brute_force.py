@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 
 from serendipity.model import Deadline, Task
-from tests.support.families import family_task
-from tests.support.strategies import tasks
+from serendipity.testing.generator.families import family_task
+from serendipity.testing.strategies import tasks
 from verify.base.execution import State, after, applicable, states_of_pi_h
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from serendipity.evaluation.crosscheck import PlanCall
-from tests.support.builders import task as build
-from tests.support.cases import case_1, case_4
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import case_1, case_4
 
 
 def hand_made() -> Iterator[PlanCall]:

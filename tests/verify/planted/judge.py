@@ -9,8 +9,8 @@ import serendipity
 from serendipity.evaluation.crosscheck import PlanCall, random_call
 from serendipity.facade.certify import verify
 from serendipity.model import PlanError, UsageError
-from tests.support.builders import task as build
-from tests.support.cases import WORKED
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import WORKED
 from tests.verify.planted.bug import Bug
 from tests.verify.planted.hand_made import hand_made
 

@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Deadline, Options, Result, Task, UsageError
-from tests.support.builders import task as build
-from tests.support.cases import case_1, case_4, case_8, case_10
-from tests.support.strategies import Call, calls
+from serendipity.testing.builders import task as build
+from serendipity.testing.cases import case_1, case_4, case_8, case_10
+from serendipity.testing.strategies import Call, calls
 from tests.verify.doctored import dearer
 from tests.verify.proofs.samples import covering, entry, optimum
 from tests.verify.test_ip_parts import DETOUR

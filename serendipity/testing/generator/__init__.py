@@ -1,0 +1,7 @@
+"""Seeded random tasks and calls: those of ``serendipity crosscheck``."""
+
+from serendipity.testing.generator.calls import PlanCall, random_call
+from serendipity.testing.generator.families import FAMILIES, family_task
+from serendipity.testing.generator.tasks import random_task
+
+__all__ = ["FAMILIES", "PlanCall", "family_task", "random_call", "random_task"]

@@ -1,0 +1,129 @@
+"""What a planner claims about the joint task without a horizon, and whether it can be so.
+
+Planners of other people know neither help nor epochs.  What they can be asked is the best joint plan, one
+action after another: ``composite`` with ``horizon="inf"`` and strict interference.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Final
+
+from serendipity.model import Deadline, Result, Task
+from serendipity.model.numbers import exact, total
+from serendipity.model.task.actions import apply
+from serendipity.testing.generator.calls import PlanCall
+
+_KEPT: Final = ("discount",)
+"""Options of a random call that the joint question has, too."""
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """A planner's answer.
+
+    Attributes:
+        status: ``optimal``, ``feasible`` (a plan, perhaps not the best), ``infeasible``, or ``unknown``.
+        plan: ids of actions in their order; None without a plan.
+        words: of the planner's own, where there is neither a plan nor a proof.
+    """
+
+    status: str
+    plan: tuple[int, ...] | None = None
+    words: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class OutsideJudge:
+    """A planner of somebody else.
+
+    Attributes:
+        name: as the user gave it.
+        answer: its claim about a call; what it raises is a disagreement.
+        unit_costs: whether all that it counts is actions.
+    """
+
+    name: str
+    answer: Callable[[PlanCall, Deadline], Claim]
+    unit_costs: bool = False
+
+    def fitted(self, call: PlanCall) -> PlanCall:
+        """The joint question about the call's task, as this planner can be asked it."""
+        options = {name: value for name, value in call.options.items() if name in _KEPT}
+        options.update(mode="composite", horizon="inf", interference="strict")
+        task = call.task
+        if self.unit_costs:
+            options["discount"] = "0"
+            actions = tuple(replace(action, cost=Fraction(1)) for action in task.actions)
+            task = replace(task, actions=actions, known_variables=task.variables)
+        return replace(call, task=task, options=options, human_plan=None)
+
+
+def fault(call: PlanCall, claim: Claim, result: Result | None) -> str | None:
+    """Why a claim can't be so; None if it can.
+
+    Args:
+        call: what was asked.
+        claim: the answer.
+        result: a proved answer of another judge, or None.
+    """
+    known = result.cost if result is not None and result.status == "optimal" else None
+    if claim.plan is None:
+        if claim.status == "infeasible" and known is not None:
+            return f"there is a plan of cost {known:g}"
+        return None
+    if claim.status not in ("optimal", "feasible"):
+        return f"{claim.status}, with a plan"
+    broken = _broken(call.task, claim.plan)
+    if broken is not None:
+        return broken
+    if result is not None and result.status == "infeasible":
+        return "its plan is one, where none was said to be"
+    cost = float(cost_of(call, claim.plan))  # as results have it
+    if known is not None and (cost < known or (claim.status == "optimal" and cost > known)):
+        return f"its plan costs {cost:g}, where {known:g} is the least"
+    return None
+
+
+def said(call: PlanCall, claim: Claim) -> str:
+    """A claim in words."""
+    words = (
+        claim.status if claim.plan is None else f"{claim.status}, cost {float(cost_of(call, claim.plan)):g}"
+    )
+    return f"{words} ({claim.words})" if claim.words else words
+
+
+def cost_of(call: PlanCall, plan: tuple[int, ...]) -> Fraction:
+    """What the team pays for a plan."""
+    discount = exact(call.options.get("discount", "0"), "discount")
+    return total(call.task.team_cost(call.task.actions[i], discount) for i in plan)
+
+
+def plan_of(task: Task, names: list[str]) -> tuple[int, ...]:
+    """The actions that a list of names means: of one name the first that is applicable there.
+
+    Raises:
+        ValueError: there is no action of a name.
+    """
+    plan: list[int] = []
+    state = task.init
+    for name in names:
+        ids = task.named.get(" ".join(name.lower().split()), ())
+        if not ids:
+            raise ValueError(f"there is no action '{name}'")
+        plan.append(next((i for i in ids if task.actions[i].applicable(state)), ids[0]))
+        state = apply(state, task.actions[plan[-1]])
+    return tuple(plan)
+
+
+def _broken(task: Task, plan: tuple[int, ...]) -> str | None:
+    """Why a sequence is no plan."""
+    state = task.init
+    for step, i in enumerate(plan, start=1):
+        action = task.actions[i]
+        if not action.applicable(state):
+            return f"step {step} of its plan, '{action.name}', is not applicable"
+        state = apply(state, action)
+    if not (task.goal.holds(state) and task.robot_goal.holds(state)):
+        return "its plan misses a goal"
+    return None

@@ -1,0 +1,76 @@
+"""Judges by what a user calls them: ``package.module:function``, ``up:ENGINE``, a command."""
+
+import sys
+from contextlib import chdir
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Final
+
+from serendipity.model import Deadline, UsageError
+from serendipity.model.numbers import exact
+from serendipity.testing.generator.calls import PlanCall
+from serendipity.testing.judges.claims import Claim, OutsideJudge, plan_of
+from serendipity.testing.judges.commands import Command
+
+_ENGINES: Final = "up"
+
+
+def by_name(name: str) -> OutsideJudge:
+    """A Python function, or an engine of unified-planning.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    module, _, what = name.partition(":")
+    if not module or not what:
+        raise UsageError(f"judge: expected 'package.module:function' or 'up:ENGINE', got '{name}'")
+    return _engine(name, what) if module == _ENGINES else _function(name, module, what)
+
+
+def by_command(command: str) -> OutsideJudge:
+    """A command line; see :class:`Command`.
+
+    Raises:
+        UsageError: there is no such program.
+    """
+    return OutsideJudge(command, Command(command))
+
+
+def _function(name: str, module: str, what: str) -> OutsideJudge:
+    folder = str(Path.cwd())
+    if folder not in sys.path:
+        sys.path.append(folder)
+    try:
+        function = getattr(import_module(module), what)
+    except (ImportError, AttributeError) as error:
+        raise UsageError(f"judge '{name}': {error}") from None
+    if not callable(function):
+        raise UsageError(f"judge '{name}': expected a function, got {type(function).__name__}")
+
+    def answer(call: PlanCall, _: Deadline) -> Claim:
+        discount = exact(call.options.get("discount", "0"), "discount")
+        names = function(call.task, discount)
+        if names is None:
+            return Claim("infeasible")
+        return Claim("optimal", plan_of(call.task, list(names)))
+
+    return OutsideJudge(name, answer)
+
+
+def _engine(name: str, engine: str) -> OutsideJudge:
+    try:
+        from serendipity.up.predicting import counts_actions_only, solve_with
+        from serendipity.up.writing import team_problem
+    except ImportError as error:
+        raise UsageError(f"judge '{name}': {error}") from None
+
+    def answer(call: PlanCall, deadline: Deadline) -> Claim:
+        problem, _ = team_problem(call.task, exact(call.options.get("discount", "0"), "discount"))
+        with TemporaryDirectory() as scratch, chdir(scratch):  # some leave files where they are called
+            solved = solve_with(engine, problem, deadline.left())
+        if solved.actions is not None:
+            return Claim("optimal" if solved.optimal else "feasible", solved.actions)
+        return Claim("infeasible" if solved.impossible else "unknown", words=solved.status.name)
+
+    return OutsideJudge(name, answer, unit_costs=counts_actions_only(engine))

@@ -1,0 +1,23 @@
+"""A brute-force enumerator of composite plans: semantics 1-3, as literally as possible.
+
+It walks forward over epochs through every state and every applicable action set,
+for every window.  Nothing is pruned; equal (state, label) pairs are merged.  It is
+slow, shares no code with ``search`` or ``verify``, and is what both are tested
+against.
+
+    optimum = best(task, Options(mode="serendipity", discount=0.6))
+"""
+
+from serendipity.testing.oracle.alone import Alone, human_plans, optimal_human_plan
+from serendipity.testing.oracle.answers import Optimum, best
+from serendipity.testing.oracle.epochs import action_sets, action_sets_of_names
+
+__all__ = [
+    "Alone",
+    "Optimum",
+    "action_sets",
+    "action_sets_of_names",
+    "best",
+    "human_plans",
+    "optimal_human_plan",
+]

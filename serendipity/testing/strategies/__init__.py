@@ -1,0 +1,40 @@
+"""Hypothesis strategies (extra ``testing``) for small tasks and planning calls; they only build.
+
+Everything is built by construction, nothing is filtered.  The oracle answers a
+typical call in some ten milliseconds.
+
+    @given(calls())
+    def test_law(call: Call) -> None:
+        optimum = best(call.task, call.options, call.human_plan)
+"""
+
+try:
+    import hypothesis  # noqa: F401  # the library is an extra: say so where it is missing
+except ImportError as error:
+    raise ImportError(
+        "serendipity.testing.strategies needs hypothesis: install the extra, serendipity-planner[testing]",
+        name=error.name,
+    ) from None
+
+from serendipity.testing.call import Call
+from serendipity.testing.strategies.calls import MODES, calls
+from serendipity.testing.strategies.tasks import (
+    corridor_tasks,
+    errand_tasks,
+    family_tasks,
+    strips_tasks,
+    tasks,
+    usar_tasks,
+)
+
+__all__ = [
+    "MODES",
+    "Call",
+    "calls",
+    "corridor_tasks",
+    "errand_tasks",
+    "family_tasks",
+    "strips_tasks",
+    "tasks",
+    "usar_tasks",
+]

@@ -1,0 +1,71 @@
+"""A disagreement as files: the task in PDDL and the command lines that show it."""
+
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from serendipity.model.numbers import exact
+from serendipity.pddl.write import composite_files, task_files
+from serendipity.testing.disagreement import Disagreement
+from serendipity.testing.generator.calls import PlanCall
+from serendipity.writing.together import write_together
+
+PLAN: Final = "plan.txt"
+"""File of the human plan that is given."""
+
+
+def write_case(found: Disagreement, folder: Path, outside: Sequence[str] = ()) -> Path:
+    """Write ``folder`` (task, ``plan.txt`` where a plan is given, ``commands.txt``) whole; returns the last.
+
+    Args:
+        found: the disagreement.
+        folder: where to.
+        outside: the words that name judges from outside: then what they were given is written, too.
+
+    Raises:
+        OSError: it can't be written.
+    """
+    call = found.call
+    texts = {
+        folder / agent / name: text
+        for agent, pair in task_files(call.task).items()
+        for name, text in zip(("domain.pddl", "problem.pddl"), pair, strict=True)
+    }
+    if call.human_plan is not None:
+        texts[folder / PLAN] = "".join(f"{_written(name)}\n" for name in call.human_plan)
+    if outside:
+        files = composite_files(call.task, exact(call.options.get("discount", "0"), "discount"))
+        texts |= {folder / "joint-domain.pddl": files.domain, folder / "joint-problem.pddl": files.problem}
+    lines = [f"# {judge}: {words}" for judge, words in found.said.items()]
+    if len(call.task.named) < len(call.task.actions):
+        lines.append("# variants of one action are written under names of their own, which may hide it")
+    if call.seed is not None:
+        lines.append(
+            shlex.join(["serendipity", *f"crosscheck --count 1 --seed {call.seed}".split(), *outside])
+        )
+    lines += [command_line(call, folder, command) for command in ("plan", "solve", "solve --encoding paper")]
+    commands = folder / "commands.txt"
+    texts[commands] = "\n".join([*lines, ""])
+    write_together({path: text.encode() for path, text in texts.items()})
+    return commands
+
+
+def command_line(call: PlanCall, folder: Path, command: str = "plan") -> str:
+    """The command line that makes the call on the task written to ``folder``.
+
+    Args:
+        call: what is asked.
+        folder: where its task was written.
+        command: the command to show.
+    """
+    words = ["serendipity", *command.split(), str(folder), "--human", call.task.agents[call.task.human]]
+    words += call.command_words()
+    if call.human_plan is not None:
+        words += ["--human-plan", str(folder / PLAN)]
+    return shlex.join(words)
+
+
+def _written(name: str) -> str:
+    """An action's name as :func:`write_pddl` writes it."""
+    return name.replace(" ", "_")
