@@ -15,7 +15,7 @@ _VERDICT_SHARE: Final = 0.02
 
 
 def answers(call: Call) -> Iterator[Answer]:
-    """Answers with falling objective and rising lower bound, each with how it came to be so good."""
+    """Answers as they get better, or their bounds do, each with how it came to be so good."""
     return _told(call, call.given)
 
 

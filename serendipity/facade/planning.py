@@ -119,7 +119,11 @@ def plan_anytime(
     deadline: Deadline | None = None,
     **options: Any,
 ) -> Iterator[Result]:
-    """Answers with falling objective and rising lower bound; the last is what :func:`plan` returns.
+    """Answers as they get better, or as more is known of them; the last is what :func:`plan` returns.
+
+    From one to the next the objective never rises and the lower bound never falls, with one exception: an
+    answer without a window has its cost as objective, so the first one with a window, which costs less,
+    has an objective that may be larger by up to ``window_weight`` an epoch (semantics 3.1).
 
     Args and errors are those of :func:`plan`.
     """
