@@ -1,8 +1,9 @@
 """Help while it happens: a person, robots and the world go on epoch by epoch."""
 
-from serendipity.execution.decided import VERDICTS, Decided, Passed, event_lines
+from serendipity.execution.crews import ADAPTERS, Crew, Maker
+from serendipity.execution.decided import VERDICTS, Decided, Passed, Reported, event_lines
 from serendipity.execution.execution import Execution
-from serendipity.execution.faults import Faults, Unreliable
+from serendipity.execution.faults import Faults
 from serendipity.execution.log import LogLine, as_text, log_lines, read_logs, replay
 from serendipity.execution.outlook import Outlook, Robots
 from serendipity.execution.persons import (
@@ -16,31 +17,31 @@ from serendipity.execution.persons import (
 )
 from serendipity.execution.policies import POLICIES, Policy, policy_from
 from serendipity.execution.runs import TIES, Run, Runs, execute
-from serendipity.execution.world import Actuator, Outcome
 
 __all__ = [
+    "ADAPTERS",
     "POLICIES",
     "TIES",
     "VERDICTS",
-    "Actuator",
+    "Crew",
     "Decided",
     "Execution",
     "Faults",
     "LogLine",
+    "Maker",
     "Moment",
     "Noisy",
     "Omniscient",
-    "Outcome",
     "Outlook",
     "Passed",
     "Person",
     "Policy",
     "Recorded",
     "Replanner",
+    "Reported",
     "Robots",
     "Run",
     "Runs",
-    "Unreliable",
     "as_text",
     "event_lines",
     "execute",

@@ -29,6 +29,7 @@ class Adviser:
     def __init__(self, task: Task, options: Options) -> None:
         self._task = task
         self._options: dict[str, Any] = {
+            "mode": options.mode,
             "discount": options.discount,
             "human_model": options.human_model,
             "interference": options.interference,

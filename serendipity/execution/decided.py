@@ -7,6 +7,7 @@ from typing import Any, Final
 from serendipity.execution.world import WHY, Unfinished
 from serendipity.model.table import Cell
 from serendipity.model.task.plans import PlanStep, Window
+from serendipity.robot import Order, Report
 
 VERDICTS: Final = {
     "helps": "robots do their part of a plan that pays",
@@ -88,6 +89,22 @@ class Decided:
 
 
 @dataclass(frozen=True, slots=True)
+class Reported:
+    """What robots were told to do, and what they report of it."""
+
+    order: Order
+    report: Report
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object."""
+        return {
+            "agents": list(self.order.agents),
+            "action": self.order.action,
+            **self.report.to_dict(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
 class Passed:
     """An epoch that is over.
 
@@ -98,6 +115,7 @@ class Passed:
         in_vain: whether that turned out to be impossible.
         steps: what took place.
         unfinished: what robots meant to do, and what came of it instead.
+        reports: what an adapter says of what it was told to do.
         changes: facts that have changed, ``!`` in front of those that are false now.
         human_cost: what the person has paid up to now, undiscounted.
         cost: what the team has paid up to now.
@@ -110,6 +128,7 @@ class Passed:
     in_vain: bool
     steps: tuple[PlanStep, ...]
     unfinished: tuple[Unfinished, ...]
+    reports: tuple[Reported, ...]
     changes: tuple[str, ...]
     human_cost: float
     cost: float
@@ -125,6 +144,7 @@ class Passed:
             "unfinished": [
                 {**unfinished.step.to_dict(), "why": unfinished.why} for unfinished in self.unfinished
             ],
+            **({"reports": [reported.to_dict() for reported in self.reports]} if self.reports else {}),
             "changes": list(self.changes),
             "human_cost": self.human_cost,
             "cost": self.cost,
@@ -172,9 +192,20 @@ def event_lines(event: Mapping[str, Any], human: str) -> Iterator[str]:
     else:
         deed = event["human"] or "waits"
         yield f"epoch {event['epoch']}: {human} {f'tries {deed}, in vain' if event['in_vain'] else deed}"
+        told = {(*one["agents"], one["action"]): one for one in event.get("reports", ())}
         for step in event["steps"]:
-            if human not in step["agents"]:
-                yield f"  {', '.join(step['agents'])}: {step['action']}"
+            report = told.get((*step["agents"], step["action"]))
+            if human not in step["agents"] or report is not None:
+                yield f"  {', '.join(step['agents'])}: {step['action']}{_reported(report)}"
         for missed in event["unfinished"]:
-            yield f"  does not happen: {missed['action']} ({WHY[missed['why']]})"
+            report = told.get((*missed["agents"], missed["action"]))
+            yield f"  does not happen: {missed['action']} ({WHY[missed['why']]}){_reported(report)}"
         yield f"  robots: {event['decision']['reason']}"
+
+
+def _reported(report: Mapping[str, Any] | None) -> str:
+    """What robots report, behind what they did."""
+    if report is None:
+        return ""
+    note = f", {report['note']}" if report["note"] else ""
+    return f": {report['seconds']:.3g} s{note}"

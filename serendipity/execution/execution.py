@@ -1,13 +1,13 @@
 """The loop, an epoch at a time: robots decide, somebody says what the person does, the world moves on."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
 from serendipity.execution.brain import Brain
-from serendipity.execution.decided import COLUMNS, Decided, Passed
+from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
 from serendipity.execution.outlook import Outlook, Robots
-from serendipity.execution.world import Actuator, Outcome, World, done_at_once
+from serendipity.execution.world import World
 from serendipity.model.errors import LIMITS, UsageError
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options, limit_of
@@ -16,6 +16,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task, canonical_name
+from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
@@ -46,7 +47,9 @@ class Execution(Tabular):
         interference: which actions may share an epoch.
         told: the person knows the robots' plan and keeps to it, so that only its part of theirs has to
             stay possible.
-        actuator: what robots make of their actions; None: whatever is possible is done at once.
+        mode: ``serendipity``, or ``communication`` with somebody who is told: then robots' plan may also ask
+            them to leave their own before they are met.
+        adapter: carries out what robots do; None: whatever is possible is done within the epoch.
         robots: who decides for them, see :class:`serendipity.execution.Robots`; None: the planner.
 
     Attributes:
@@ -70,17 +73,23 @@ class Execution(Tabular):
         deadline: float | None = None,
         interference: str = "paper",
         told: bool = False,
-        actuator: Actuator | None = None,
+        mode: str = "serendipity",
+        adapter: Adapter | None = None,
         robots: Robots | None = None,
     ) -> None:
-        options = Options(discount=discount, human_model=human_model, interference=interference)  # type: ignore[arg-type]
+        if mode != "serendipity" and not (told and mode == "communication"):
+            expected = "serendipity or communication" if told else "serendipity, where nobody is told"
+            raise UsageError(f"mode: expected {expected}, got '{mode}'")
+        given: dict[str, Any] = {"mode": mode, "discount": discount, "human_model": human_model}
+        options = Options(**given, interference=interference)
         self.task = task
         self.options = options
         self.events: list[dict[str, Any]] = []
         self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
         self._world = World(task, options.discount, strict=options.strict)
         self._brain: Robots = robots or Brain(task, options, goals, beta, told=told)
-        self._actuator = actuator or done_at_once
+        self._adapter = adapter
+        self._reports: tuple[Reported, ...] = ()
         self._running: list[PlanStep] = []
         self._decided: Decided | None = None
         self._passed: list[Passed] = []
@@ -165,7 +174,7 @@ class Execution(Tabular):
         his = None if in_vain else his
         before = self._world.state
         robots = [*([] if offer is None else [offer]), *decided.actions]
-        happened = self._world.play(his, robots, lambda step: self._carry_out(decided.epoch, step))
+        happened = self._world.play(his, robots, lambda steps: self._carry_out(his, steps))
         self._running = [u.step for u in happened.unfinished if u.why == "running" and u.step is not offer]
         paid, team = self._world.cost(happened.executed)
         self._paid, self._team = self._paid + paid, self._team + team
@@ -177,6 +186,7 @@ class Execution(Tabular):
             in_vain=in_vain,
             steps=tuple(self._world.step(decided.epoch, i) for i in happened.executed),
             unfinished=happened.unfinished,
+            reports=self._reports,
             changes=self._world.changes(before),
             human_cost=float(self._paid),
             cost=float(self._team),
@@ -250,6 +260,16 @@ class Execution(Tabular):
         name = canonical_name(action)
         return next((step for step in decided.offers if step.action == name), None)
 
-    def _carry_out(self, epoch: int, step: PlanStep) -> Outcome:
-        robots = " ".join(agent for agent in step.agents if agent != self.human)
-        return self._actuator(epoch, robots, step.action)
+    def _carry_out(self, his: int | None, steps: Sequence[PlanStep]) -> Sequence[Outcome]:
+        if self._adapter is None:
+            return ["done"] * len(steps)
+        human = None if his is None else self.task.actions[his].name
+        orders = tuple(Order(step.agents, step.action) for step in steps)
+        reports = self._adapter.execute(Epoch(self.epoch, self._world.state, human, orders))
+        if len(reports) != len(orders):
+            raise UsageError(f"adapter: expected {len(orders)} reports, got {len(reports)}")
+        wrong = next((r.outcome for r in reports if r.outcome not in OUTCOMES), None)
+        if wrong is not None:
+            raise UsageError(f"adapter: expected one of {', '.join(OUTCOMES)}, got {wrong!r:.50}")
+        self._reports = tuple(Reported(*pair) for pair in zip(orders, reports, strict=True))
+        return [report.outcome for report in reports]

@@ -1,16 +1,11 @@
-"""Robots that fail, take longer or drop out, by dice."""
+"""How often robots fail, take longer or drop out."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from random import Random
-from typing import Final
 
-from serendipity.execution.world import Outcome
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import exact
-
-_LONGEST: Final = 3
-"""Epochs that a slow action takes at most beyond its first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,38 +45,9 @@ class Faults:
             found[name] = probability(value, name)
         return cls(**found)
 
-    def __bool__(self) -> bool:
-        return any((self.fail, self.slow, self.drop))
-
-
-class Unreliable:
-    """An actuator with faults.
-
-    Args:
-        faults: how often.
-        dice: draws.
-    """
-
-    def __init__(self, faults: Faults, dice: Random) -> None:
-        self._faults = faults
-        self._dice = dice
-        self._left: dict[tuple[str, str], int] = {}
-
-    def __call__(self, epoch: int, robots: str, action: str) -> Outcome:
-        """See :data:`serendipity.execution.Actuator`."""
-        begun = self._left.pop((robots, action), None)
-        if begun is None:
-            if self._dice.random() < self._faults.fail:
-                return "failed"
-            begun = self._dice.randint(1, _LONGEST) if self._dice.random() < self._faults.slow else 0
-        if begun:
-            self._left[robots, action] = begun - 1
-            return "running"
-        return "done"
-
-    def dropped(self, robots: Sequence[str]) -> list[str]:
+    def dropped(self, robots: Sequence[str], dice: Random) -> list[str]:
         """Those of some robots that drop out now."""
-        return [robot for robot in robots if self._dice.random() < self._faults.drop]
+        return [robot for robot in robots if dice.random() < self.drop] if self.drop else []
 
 
 def probability(value: float | str, what: str) -> float:

@@ -8,12 +8,12 @@ from typing import Any, Final, NamedTuple
 from serendipity.execution.decided import Decided
 from serendipity.execution.execution import Execution
 from serendipity.execution.outlook import Outlook
-from serendipity.execution.world import Outcome
 from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
 from serendipity.pddl.parsing.files import read_text
+from serendipity.robot import Epoch, Report
 
 SCHEMA: Final = "serendipity.execution/1"
 
@@ -37,6 +37,7 @@ def header(run: Execution, /, **notes: Any) -> dict[str, Any]:
         "schema": SCHEMA,
         "task": run.task.name,
         "human": run.task.agents[run.task.human],
+        "mode": options.mode,
         "discount": str(options.discount),
         "human_model": options.human_model,
         "interference": options.interference,
@@ -100,6 +101,7 @@ def replay(task: Task, lines: Sequence[LogLine], file: object = None) -> Executi
     if first.value.get("human") != task.agents[task.human]:
         raise InputError("log: is of another task: it has another human", file, first.number)
     script = _Script(file)
+    reported = any("reports" in line.value for line in rest)
     try:
         run = Execution(
             task,
@@ -107,7 +109,7 @@ def replay(task: Task, lines: Sequence[LogLine], file: object = None) -> Executi
             human_model=first.value.get("human_model", "observant"),
             interference=first.value.get("interference", "paper"),
             robots=script,
-            actuator=script.carry_out,
+            adapter=script if reported else None,
         )
     except UsageError as error:
         raise InputError(f"log: {error}", file, first.number) from None
@@ -172,12 +174,13 @@ class _Script:
             seconds=value["seconds"],
         )
 
-    def carry_out(self, _epoch: int, _robots: str, action: str) -> Outcome:
-        """What the line says became of an action."""
-        for told in self.line.value["unfinished"]:
-            if told["action"] == action and told["why"] in ("failed", "running"):
-                return "failed" if told["why"] == "failed" else "running"
-        return "done"
+    def execute(self, _epoch: Epoch) -> list[Report]:
+        """What the line says that robots reported."""
+        told = self.line.value.get("reports", ())
+        return [Report(one["outcome"], one["seconds"], one["note"]) for one in told]
+
+    def close(self) -> None:
+        """There is nothing to give back."""
 
     def saw(self, own: int | None, executed: Sequence[int]) -> None:
         """Nothing is learnt."""

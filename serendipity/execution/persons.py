@@ -66,10 +66,17 @@ class Replanner:
     """
 
     def __init__(self, task: Task, human_model: str = "observant", dice: Random | None = None) -> None:
-        self._task = task
         self._dice = dice
-        joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
-        self._human = Human(PreparedTask(task), Options(), Deadline(), human_model=human_model, actions=joint)
+        self._human_model = human_model
+        self._joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
+        self._begin(task)
+
+    def _begin(self, task: Task) -> None:
+        """Begin anew, with nothing in mind, from a state that they know."""
+        self._task = task
+        self._human = Human(
+            PreparedTask(task), Options(), Deadline(), human_model=self._human_model, actions=self._joint
+        )
         self._expected = self._human.packed.pack(task.init)
         self._intention = self._human.intentions.of(())
 
@@ -80,6 +87,8 @@ class Replanner:
 
     def choose(self, moment: Moment) -> str | None:
         """See :class:`Person`."""
+        if not self._task.fits(moment.state):
+            self._begin(self._task.at(moment.state))
         human = self._human
         state = human.packed.pack(moment.state)
         belief = human.eyes.look(self._expected, state)
@@ -101,6 +110,8 @@ class Replanner:
 
     def does(self, state: frozenset[int], action: int | None) -> None:
         """Say that they did something else than they had chosen: an own action, or nothing."""
+        if not self._task.fits(state):
+            self._begin(self._task.at(state))
         human = self._human
         belief = human.eyes.look(self._expected, human.packed.pack(state))
         if action is not None:

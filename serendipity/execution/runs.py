@@ -1,6 +1,7 @@
 """Executions with a simulated person, run by run: what each of them came to."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import closing, nullcontext
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from random import Random
@@ -8,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 from search import PreparedTask
 from search.planner import canonical_human_plan
+from serendipity.execution.crews import Crew, Maker
 from serendipity.execution.decided import event_lines
 from serendipity.execution.execution import Execution
-from serendipity.execution.faults import Faults, Unreliable
+from serendipity.execution.faults import Faults
 from serendipity.execution.log import log_lines
 from serendipity.execution.persons import Person, moment_of
 from serendipity.execution.policies import Policy, policy_from, recorded_actions
@@ -24,6 +26,7 @@ from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import HumanPlan, Task
 from serendipity.recognition.candidates import candidate_goals
+from serendipity.robot import Durations
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
@@ -157,7 +160,7 @@ class _Settings:
     task: Task
     policy: Policy
     drawn: bool
-    faults: Faults
+    crew: Crew
     epochs: int
     alone: Fraction | None
     goal: str | None
@@ -173,6 +176,9 @@ def execute(
     seed: int = 0,
     ties: str = "fixed",
     faults: Faults | str | None = None,
+    adapter: str | Maker | None = None,
+    durations: Durations | str | None = None,
+    epoch_seconds: float | None = None,
     human_model: str | None = None,
     goals: "GoalsGiven | None" = None,
     epochs: int | None = None,
@@ -190,12 +196,18 @@ def execute(
         seed: of the first run's dice; the others count on from it.
         ties: ``fixed``: the person follows the canonical one of their optimal plans; ``drawn``: any.
         faults: how unreliable robots are, ``"fail=0.1,slow=0.1,drop=0.01"`` for example.
+        adapter: what carries out what robots do: ``simulated``, or what makes a
+            :class:`serendipity.robot.Adapter` for a run from the task and its dice; None: simulated where
+            there are faults or durations, else whatever is possible is done within the epoch.
+        durations: of what simulated robots do, ``"move=2..4,*=1"`` for example: seconds by the first word of
+            an action.
+        epoch_seconds: how long an epoch is for robots; None: 1.
         human_model: what robots take the person to be; None: what they are, ``observant`` if in doubt.
         goals: goals that the person may have; robots do not know which.
         epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.
         jobs: processes.
         on_progress: called with the number of runs that are over, and of all.
-        **options: ``discount``, ``deadline``, ``beta`` and ``interference`` of :class:`Execution`.
+        **options: ``discount``, ``deadline``, ``beta``, ``mode`` and ``interference`` of :class:`Execution`.
 
     Raises:
         UsageError: an argument is wrong.
@@ -217,12 +229,14 @@ def execute(
         known = ", ".join(CHOICES["human_model"])
         raise UsageError(f"human_model: expected one of {known}, got '{model}'")
     wrong = Faults.parse(faults) if isinstance(faults, str) else faults or Faults()
+    given = Durations.parse(durations) if isinstance(durations, str) else durations
+    crew = Crew(adapter, wrong, given, epoch_seconds)
     plan = canonical_human_plan(PreparedTask(task), Deadline())
     settings = _Settings(
         task=task,
         policy=policy,
         drawn=ties == "drawn",
-        faults=wrong,
+        crew=crew,
         epochs=epochs or 100 + 10 * len(plan or ()),
         alone=None if plan is None else task.cost_of(plan),
         goal=None if goals is None else _name_of(task, goals),
@@ -258,17 +272,18 @@ def _run(assignment: tuple[_Settings, int, int]) -> tuple[Run, tuple[dict[str, A
     settings, number, seed = assignment
     task = settings.task
     dice, luck = Random(f"person {seed}"), Random(f"robots {seed}")
-    robots = Unreliable(settings.faults, luck)
-    run = Execution(task, actuator=robots, **settings.arguments)
+    adapter = settings.crew.adapter(task, luck)
+    run = Execution(task, adapter=adapter, **settings.arguments)
     person = settings.policy.person(task, dice, drawn=settings.drawn)
     spoilt = 0
     left = [task.agents[i] for i in task.robots]
-    while not run.done and run.epoch <= settings.epochs:
-        gone = robots.dropped(left) if settings.faults.drop else []
-        if gone:
-            run.drop(gone)
-            left = [robot for robot in left if robot not in gone]
-        spoilt += _spoils(run, person)
+    with nullcontext() if adapter is None else closing(adapter):
+        while not run.done and run.epoch <= settings.epochs:
+            gone = settings.crew.faults.dropped(left, luck)
+            if gone:
+                run.drop(gone)
+                left = [robot for robot in left if robot not in gone]
+            spoilt += _spoils(run, person)
     row = Run(
         run=number,
         seed=seed,

@@ -3,20 +3,14 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final, Literal
+from typing import Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.task.actions import apply, conflicting
 from serendipity.model.task.execution import actions_named, participants
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task, canonical_name
-
-Outcome = Literal["done", "failed", "running"]
-"""What became of a robot's action in an epoch: it took place, it never will, or it takes longer."""
-
-Actuator = Callable[[int, str, str], Outcome]
-"""``carry_out(epoch, robots, action)``: what robots, one or several names with blanks between, make of an
-action.  It is asked once in each epoch from the one in which the action begins until it is over."""
+from serendipity.robot import Outcome
 
 WHY: Final = {
     "inapplicable": "its preconditions do not hold",
@@ -26,11 +20,6 @@ WHY: Final = {
     "running": "it takes longer",
 }
 """Why something that robots meant to do did not take place, in words."""
-
-
-def done_at_once(_epoch: int, _robots: str, _action: str) -> Outcome:
-    """The actuator of a robot that never fails."""
-    return "done"
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,29 +89,33 @@ class World:
         return self.task.actions[action].applicable(self.state)
 
     def play(
-        self, his: int | None, robots: Sequence[PlanStep], carry_out: Callable[[PlanStep], Outcome]
+        self,
+        his: int | None,
+        robots: Sequence[PlanStep],
+        carry_out: Callable[[Sequence[PlanStep]], Sequence[Outcome]],
     ) -> Happened:
         """One epoch: what can take place does; the human has priority, then robots in the given order.
 
         Args:
             his: what the human does, an action that is applicable; None: they wait.
             robots: what robots mean to do without the human, or, where ``his`` is it, with them.
-            carry_out: what robots make of an action that is possible.
+            carry_out: what robots make of those actions that are possible.
         """
-        executed = [] if his is None else [his]
-        unfinished: list[Unfinished] = []
+        taken = [] if his is None else [his]
+        obstacles: list[str | None] = []
         for step in robots:
             action = self.of(step)
-            why = self._obstacle(action, executed)
-            if why is None:
-                outcome = carry_out(step)
-                if outcome == "done":
-                    executed.append(action)
-                    continue
-                why = outcome
-            unfinished.append(Unfinished(step, why))
+            obstacles.append(self._obstacle(action, taken))
+            if obstacles[-1] is None:
+                taken.append(action)
+        possible = (step for step, why in zip(robots, obstacles, strict=True) if why is None)
+        outcomes = iter(carry_out(tuple(possible)))
+        whys = [why or next(outcomes) for why in obstacles]
+        meant = list(zip(robots, whys, strict=True))
+        executed = [] if his is None else [his]
+        executed += [self.of(step) for step, why in meant if why == "done"]
         self.state = self.after(executed)
-        return Happened(tuple(executed), tuple(unfinished))
+        return Happened(tuple(executed), tuple(Unfinished(step, why) for step, why in meant if why != "done"))
 
     def after(self, actions: Iterable[int]) -> frozenset[int]:
         """The state that some actions would lead to from here."""

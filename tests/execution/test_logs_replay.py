@@ -1,6 +1,5 @@
 """A log replays to the same run, and to no other."""
 
-import json
 from pathlib import Path
 from random import Random
 
@@ -11,10 +10,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.execution import (
     Execution,
-    Faults,
-    LogLine,
     Replanner,
-    Unreliable,
     as_text,
     log_lines,
     moment_of,
@@ -22,20 +18,17 @@ from serendipity.execution import (
     replay,
 )
 from serendipity.model import InputError, Task
+from serendipity.robot import Simulated
 from serendipity.testing.strategies import tasks
 from tests.execution.living import other_goals
-
-
-def _log(run: Execution) -> list[LogLine]:
-    lines = json.loads(json.dumps(list(log_lines(run, seed=1))))
-    return [LogLine(number, line) for number, line in enumerate(lines, start=1)]
+from tests.execution.reading import as_lines
 
 
 @given(tasks(), st.integers(0, 2**32))
 def test_with_faults_and_doubts_and_changes(task: Task, seed: int) -> None:
     dice = Random(seed)
-    robots = Unreliable(Faults(fail=0.3, slow=0.3), dice)
-    run = Execution(task, discount="0.9", actuator=robots, goals=other_goals(task, dice))
+    robots = Simulated(dice, fail=0.3, slow=0.3)
+    run = Execution(task, discount="0.9", adapter=robots, goals=other_goals(task, dice))
     person = Replanner(task)
     for epoch in range(6):
         run.step(person.choose(moment_of(run)))
@@ -43,7 +36,7 @@ def test_with_faults_and_doubts_and_changes(task: Task, seed: int) -> None:
             run.change({dice.choice(task.facts): dice.random() < 0.5})
         if epoch == 4:
             run.drop([task.agents[dice.choice(task.robots)]])
-    again = replay(task, _log(run))
+    again = replay(task, as_lines(run))
     assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
     assert list(log_lines(again))[1:] == [
         _with_seconds(line, told) for line, told in zip(list(log_lines(run))[1:], again.events, strict=True)

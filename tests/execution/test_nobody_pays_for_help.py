@@ -5,8 +5,9 @@ from random import Random
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity.execution import Execution, Faults, Replanner, Unreliable
+from serendipity.execution import Execution, Replanner
 from serendipity.model import Task
+from serendipity.robot import Simulated
 from serendipity.testing.strategies import tasks, usar_tasks
 from tests.execution.living import live, other_goals
 
@@ -37,8 +38,8 @@ def test_who_is_taken_to_be_omniscient_and_is_not(task: Task, discount: str) -> 
 
 @given(tasks(), DISCOUNTS, SEEDS)
 def test_whose_robots_fail_and_drop_out(task: Task, discount: str, seed: int) -> None:
-    robots = Unreliable(Faults(fail=0.2, slow=0.3), Random(seed))
-    run = Execution(task, discount=discount, actuator=robots)
+    robots = Simulated(Random(seed), fail=0.2, slow=0.3)
+    run = Execution(task, discount=discount, adapter=robots)
     live(task, run, Replanner(task))
 
 

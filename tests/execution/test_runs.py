@@ -89,6 +89,6 @@ def test_a_record_names_actions_of_the_person() -> None:
 
 
 def test_faults_are_probabilities() -> None:
-    assert not Faults() and Faults.parse("slow=0.5") == Faults(slow=0.5)
+    assert Faults.parse("slow=0.5") == Faults(slow=0.5)
     with pytest.raises(UsageError, match="drop: expected a probability"):
         Faults(drop=1.5)

@@ -38,6 +38,13 @@ def execute(
     agent: naming.Agents = None,
     team: naming.Team = None,
     example: naming.Example = None,
+    mode: Annotated[
+        str | None,
+        typer.Option(
+            help="Communication: robots' plan may ask an omniscient person to leave their own.",
+            **choices("serendipity", "communication"),
+        ),
+    ] = None,
     discount: plan_options.Discount = None,
     human_model: Annotated[
         str | None,
@@ -65,6 +72,25 @@ def execute(
             help="How often a robot's action fails or takes longer, and a robot drops out.",
         ),
     ] = None,
+    adapter: Annotated[
+        str | None,
+        typer.Option(
+            help="What carries out what robots do; by default simulated where there are durations or faults, "
+            "else all that is possible is done within its epoch.",
+            **choices("simulated"),
+        ),
+    ] = None,
+    durations: Annotated[
+        str | None,
+        typer.Option(
+            metavar="VERB=SECONDS,...",
+            help="How long simulated robots take for actions of that first word, '*' for all others: "
+            "move=2..4,*=1.",
+        ),
+    ] = None,
+    epoch_seconds: Annotated[
+        str | None, typer.Option(metavar="SECONDS", help="How long an epoch is for robots; 1.")
+    ] = None,
     deadline: Annotated[
         str | None,
         typer.Option(metavar="SECONDS", help="For each decision; without one in time robots do nothing."),
@@ -89,7 +115,7 @@ def execute(
     task = naming.load(named, person, robot, agent, team, example, quiet=quiet)
     if replay is not None:
         return _replayed(task, replay, output_file)
-    given = plan_options.given(discount=discount, interference=interference, beta=beta)
+    given = plan_options.given(mode=mode, discount=discount, interference=interference, beta=beta)
     with progress.counting("runs", quiet=quiet) as on_progress:
         found = serendipity.execute(
             task,
@@ -98,12 +124,15 @@ def execute(
             seed=seed,
             ties=ties,
             faults=faults,
+            adapter=adapter,
+            durations=durations,
+            epoch_seconds=_seconds("epoch_seconds", epoch_seconds),
             human_model=human_model,
             goals=goals,
             epochs=epochs,
             jobs=jobs,
             on_progress=on_progress if runs > 1 else None,
-            deadline=None if deadline is None else limit_of("deadline", deadline, "seconds"),
+            deadline=_seconds("deadline", deadline),
             **given,
         )
     answers = [output.Answer(_answer(form, found), output_file)]
@@ -113,6 +142,10 @@ def execute(
         answers.append(output.Answer("".join(map(as_text, found.logs)), log, "--log"))
     output.write_answers(answers)
     return ExitCode.ANSWERED
+
+
+def _seconds(name: str, text: str | None) -> float | None:
+    return None if text is None else limit_of(name, text, "seconds")
 
 
 def _recorded(files: list[Path] | None, human: str) -> tuple[list[Path] | None, str]:

@@ -22,7 +22,7 @@ COMMANDS: Final = (
 OPTIONS: Final = tuple(each.name for each in fields(Options))
 AGENTS: Final = ("human", "robots", "agents", "team")
 
-_NAMESAKES: Final = {"execute": ("ties", "human_model"), "simulate": ("human_model",)}
+_NAMESAKES: Final = {"execute": ("ties", "human_model", "mode"), "simulate": ("human_model",)}
 """By command, its options that mean something else."""
 
 _FILE: Final = "serendipity.toml"

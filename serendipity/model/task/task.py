@@ -184,12 +184,16 @@ class Task:
         """
         held = {d.fact for d in self.disjunctions if d.holds(state)}
         state = state.difference([d.fact for d in self.disjunctions]) | held
-        groups = (variable for variable in self.variables if not variable.boolean)
-        if all(len(state.intersection(group.facts)) == 1 for group in groups):
+        if self.fits(state):
             variables = self.variables  # what would be found, or better
         else:
             variables = find_variables(len(self.facts), state, self.actions, deadline)
         return replace(self, init=state, known_variables=variables)
+
+    def fits(self, state: frozenset[int]) -> bool:
+        """Whether each variable has one value in a state; otherwise it is none of this task's."""
+        groups = (variable.facts for variable in self.variables if not variable.boolean)
+        return all(len(state.intersection(facts)) == 1 for facts in groups)
 
     def with_goal(self, goal: Condition, robot_goal: Condition | None = None) -> "Task":
         """The same task with another goal of the human's and, unless that is None, of the robots'."""

@@ -1,0 +1,152 @@
+"""Robots' bodies in the loop: late and failed actions are planned around, and stand in the log."""
+
+from collections.abc import Sequence
+
+import pytest
+
+import serendipity
+from serendipity.execution import Execution, Moment, Omniscient, Replanner, moment_of, replay
+from serendipity.model import InputError, Task, UsageError
+from serendipity.robot import Adapter, Epoch, Report
+from tests.execution.reading import as_lines
+
+
+class Scripted:
+    """Robots that report what is written down, epoch by epoch, then that all is done."""
+
+    def __init__(self, *reports: Report) -> None:
+        self.left = list(reports)
+        self.asked: list[Epoch] = []
+
+    def execute(self, epoch: Epoch) -> Sequence[Report]:
+        self.asked.append(epoch)
+        return [self.left.pop(0) if self.left else Report("done") for _ in epoch.orders]
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.fixture(name="room2")
+def _room2() -> Task:
+    return serendipity.example("room2")
+
+
+def live(task: Task, adapter: Adapter) -> Execution:
+    run = Execution(task, discount="0.6", adapter=adapter)
+    person = Replanner(task)
+    while not run.done:
+        run.step(person.choose(moment_of(run)))
+    return run
+
+
+def test_an_adapter_sees_the_person_and_what_is_true(room2: Task) -> None:
+    robot = Scripted()
+    run = live(room2, robot)
+    assert float(run.cost) == 12.6
+    assert [epoch.number for epoch in robot.asked] == list(range(1, 12))
+    assert robot.asked[0].state == room2.init and robot.asked[0].human == "move commx room13 hall8"
+    (hand_over,) = robot.asked[5].orders
+    assert hand_over.agents == ("commx", "robot") and robot.asked[5].human is None
+
+
+def test_a_late_robot_is_noticed_and_the_person_gets_there(room2: Task) -> None:
+    late = Scripted(*[Report("running", 5.0 * n, "the door is stuck") for n in range(1, 6)])
+    run = live(room2, late)
+    first = run.passed[1]
+    assert [missed.why for missed in first.unfinished] == ["running"]
+    assert first.lines("commx")[1].endswith("(it takes longer): 5 s, the door is stuck")
+    assert run.human_cost == 13, "it is too late to meet him"
+    assert "helps" not in {passed.decided.verdict for passed in run.passed[7:]}
+
+
+def test_a_failed_action_is_tried_again_while_it_pays(room2: Task) -> None:
+    robot = Scripted(Report("failed"))
+    run = Execution(room2, discount="0.6", human_model="omniscient", told=True, adapter=robot)
+    person = Omniscient(room2)
+    while not run.done:
+        run.step(person.choose(moment_of(run)))
+    assert run.passed[0].unfinished[0].why == "failed"
+    assert run.passed[0].decided.actions[0].action == run.passed[1].decided.actions[0].action
+
+
+def test_logs_replay_without_the_robot(room2: Task) -> None:
+    run = live(room2, Scripted(Report("running", 1, "slow"), Report("failed", 2.5, "slipped")))
+    again = replay(room2, as_lines(run))
+    assert (again.state, again.cost) == (run.state, run.cost)
+    assert [passed.reports for passed in again.passed] == [passed.reports for passed in run.passed]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        ("running", "gone", "adapter: expected one of done, failed, running, got 'gone'"),
+        ("running", "done", "steps: comes out as"),
+    ],
+)
+def test_doctored_reports_are_noticed(room2: Task, old: str, new: str, complaint: str) -> None:
+    lines = as_lines(live(room2, Scripted(Report("running"))))
+    report = next(line.value for line in lines if line.value.get("reports"))["reports"][0]
+    assert report["outcome"] == old
+    report["outcome"] = new
+    with pytest.raises(InputError, match=complaint):
+        replay(room2, lines)
+
+
+def test_a_report_for_each_order(room2: Task) -> None:
+    class Mute(Scripted):
+        def execute(self, epoch: Epoch) -> Sequence[Report]:
+            return []
+
+    run = Execution(room2, discount="0.6", human_model="omniscient", told=True, adapter=Mute())
+    with pytest.raises(UsageError, match="adapter: expected 1 reports, got 0"):
+        run.step(None)
+
+
+def test_runs_have_an_adapter_each(room2: Task) -> None:
+    made: list[Scripted] = []
+
+    def make(task: Task, dice: object) -> Scripted:
+        made.append(Scripted())
+        return made[-1]
+
+    serendipity.execute(room2, runs=2, discount="0.6", adapter=make)
+    assert [len(robot.asked) for robot in made] == [11, 11]
+
+
+def test_slow_robots_help_less(room2: Task) -> None:
+    paid = [
+        serendipity.execute(room2, discount="0.6", durations=f"move=0.5..{most}").rows[0].human_cost
+        for most in ("0.9", "9")
+    ]
+    assert paid == [11, 13]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ({"adapter": "nao"}, "adapter: expected one of simulated.*, got 'nao'"),
+        ({"durations": "move"}, "durations: expected some of"),
+        ({"epoch_seconds": 0}, "epoch_seconds: expected more than 0"),
+        ({"adapter": lambda *_: Scripted(), "durations": "*=1"}, "durations: only simulated robots"),
+        ({"adapter": lambda *_: Scripted(), "faults": "fail=0.1"}, "faults: only simulated robots"),
+        ({"mode": "communication"}, "mode: expected serendipity, where nobody is told"),
+        ({"human": "omniscient", "mode": "composite"}, "mode: expected serendipity or communication"),
+    ],
+)
+def test_wrong_arguments_are_refused(room2: Task, arguments: dict[str, object], complaint: str) -> None:
+    with pytest.raises(UsageError, match=complaint):
+        serendipity.execute(room2, **arguments)
+
+
+def test_with_a_word_the_person_leaves_their_own_plan() -> None:
+    room7 = serendipity.example("room7")  # the paper's III-D
+    silent = serendipity.execute(room7, "omniscient", discount="0.6").rows[0]
+    spoken = serendipity.execute(room7, "omniscient", discount="0.6", mode="communication").rows[0]
+    assert (silent.cost, spoken.cost, spoken.human_cost) == (13, 12.6, 11)
+
+
+def test_somebody_in_two_places_at_once_goes_on_from_one_of_them(room2: Task) -> None:
+    here = next(i for i, fact in enumerate(room2.facts) if fact == "at commx hall4")
+    state = room2.init | {here}
+    chosen = Replanner(room2).choose(Moment(state, (), planned=False, wish=None))
+    assert any(action.name == chosen and action.applicable(state) for action in room2.actions)
