@@ -11,6 +11,7 @@ from serendipity.execution.outlook import Outlook
 from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.schemas import schema_fault
 from serendipity.model.task.task import Task
 from serendipity.pddl.parsing.files import read_text
 from serendipity.robot import Epoch, Report
@@ -60,7 +61,8 @@ def read_logs(file: str | PathLike[str]) -> list[list[LogLine]]:
     """The runs of a file of logs, one after another.
 
     Raises:
-        InputError: it can't be read, or a line is no JSON object, or comes before any header.
+        InputError: it can't be read, a header has another schema, or a line is no JSON object, or comes
+            before any header.
     """
     runs: list[list[LogLine]] = []
     for number, text in enumerate(read_text(file).splitlines(), start=1):
@@ -72,7 +74,9 @@ def read_logs(file: str | PathLike[str]) -> list[list[LogLine]]:
             value = None
         if not isinstance(value, dict):
             raise InputError("log: expected a JSON object", file, number)
-        if value.get("schema") is not None:
+        if (schema := value.get("schema")) is not None:
+            if fault := schema_fault(schema, SCHEMA):
+                raise InputError(f"log: {fault}", file, number)
             runs.append([])
         if not runs:
             raise InputError(f"log: expected a line with the schema '{SCHEMA}' first", file, number)
@@ -96,8 +100,6 @@ def replay(task: Task, lines: Sequence[LogLine], file: object = None) -> Executi
         InputError: a line is malformed, or something else happens; it says where.
     """
     first, *rest = lines
-    if first.value.get("schema") != SCHEMA:
-        raise InputError(f"log: schema: expected '{SCHEMA}'", file, first.number)
     if first.value.get("human") != task.agents[task.human]:
         raise InputError("log: is of another task: it has another human", file, first.number)
     script = _Script(file)

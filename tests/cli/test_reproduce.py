@@ -29,7 +29,7 @@ def test_formats_say_the_same(run: Runs, suite: Path) -> None:
     assert (shown.code, shown.err) == (0, "")
     rows = run(f"reproduce suite {SHORT} --format csv").out.splitlines()
     data = json.loads(run(f"reproduce suite {SHORT} --format json").out)
-    assert data["schema"] == "serendipity.evaluation.reproduction/1"
+    assert data["schema"] == "serendipity.reproduction/1"
     for line, row in zip(rows[1:], data["rows"], strict=True):
         cells = line.split(",")[:-1]
         assert cells == ["" if row[name] is None else str(row[name]) for name in rows[0].split(",")[:-1]]

@@ -85,8 +85,8 @@ def check(data: Any) -> list[Checked]:
         MalformedProofError: it is no proof.
         RejectedProofError: it does not hold.
     """
-    if _field(data, "schema", str, "proof") != SCHEMA:
-        _malformed(f"schema: expected {SCHEMA}")
+    if (schema := _field(data, "schema", str, "proof")) != SCHEMA:
+        _malformed(f"schema: expected '{SCHEMA}', got {schema!r:.50}")
     if _field(data, "claim", str, "proof") not in CLAIMS:
         _malformed(f"claim: expected one of {', '.join(CLAIMS)}")
     given = _field(data, "programs", list, "proof") or _malformed("programs: expected at least one")

@@ -8,7 +8,7 @@ from serendipity.evaluation.reproduction.run import Reproduction
 from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Times
 from serendipity.writing.csv_text import as_csv
 
-SCHEMA: Final = "serendipity.evaluation.reproduction/1"
+SCHEMA: Final = "serendipity.reproduction/1"
 
 
 def rows_as_csv(run: Reproduction) -> str:
@@ -29,7 +29,7 @@ def table_2_as_csv(times: Sequence[Times]) -> str:
 def as_json(
     run: Reproduction, entries: Sequence[Entry], times: Sequence[Times], answers: Sequence[ExampleAnswer]
 ) -> dict[str, Any]:
-    """The JSON object (schema ``serendipity.evaluation.reproduction/1``)."""
+    """The JSON object (schema ``serendipity.reproduction/1``)."""
     return {
         "schema": SCHEMA,
         "complete": run.complete,

@@ -8,11 +8,15 @@ import json
 import os
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from serendipity.evaluation.reproduction.rows import Row
 from serendipity.evaluation.reproduction.work import TaskRows
 from serendipity.model import InputError, UsageError
+from serendipity.model.schemas import schema_fault
+
+SCHEMA: Final = "serendipity.journal/1"
+"""Of each line; lines of the first versions have none."""
 
 
 class Journal:
@@ -53,7 +57,8 @@ class Journal:
         """
         before = self.path.stat().st_size if self.path.exists() else None
         rows = [row.to_dict() for row in record.rows]
-        line = json.dumps({"test": record.test, "fingerprint": record.fingerprint, "rows": rows})
+        told = {"schema": SCHEMA, "test": record.test, "fingerprint": record.fingerprint, "rows": rows}
+        line = json.dumps(told)
         try:
             with self.path.open("ab") as file:
                 file.write(line.encode() + b"\n")
@@ -74,7 +79,9 @@ class Journal:
     def _record(self, line: bytes, number: int) -> TaskRows:
         try:
             data: dict[str, Any] = json.loads(line)
+            if fault := schema_fault(data.get("schema", SCHEMA), SCHEMA):
+                raise InputError(f"journal: {fault}", self.path, number)
             rows = tuple(Row.from_dict(row) for row in data["rows"])
             return TaskRows(data["test"], data["fingerprint"], rows)
-        except (ValueError, KeyError, TypeError):
+        except (AttributeError, ValueError, KeyError, TypeError):
             raise InputError("expected a journal of `serendipity reproduce`", self.path, number) from None

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from serendipity.model.answers.fields import Fields, MalformedError
 from serendipity.model.numbers import as_written, rounded
+from serendipity.model.schemas import schema_fault
 from serendipity.model.table import Table, Tabular
 
 SCHEMA: Final = "serendipity.recognition/1"
@@ -122,9 +123,9 @@ def read_recognition(value: Any) -> Recognition:
         MalformedError: a field is missing or of another type.
     """
     data = Fields(value, "statistics.recognition", "recognition")
-    schema, human = data.raw("schema"), data.raw("human")
-    if schema != SCHEMA or not isinstance(human, str):
-        raise MalformedError(f"statistics.recognition: expected schema '{SCHEMA}' and the result's human")
+    if fault := schema_fault(data.raw("schema"), SCHEMA):
+        raise MalformedError(f"statistics.recognition: {fault}")
+    human = data.text("human")
     return Recognition(
         human,
         data.texts("observed"),

@@ -17,6 +17,7 @@ from serendipity.model.answers.result_parts import (
 from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.options import Options
+from serendipity.model.schemas import schema_fault
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.plans import PlanStep, Window
 
@@ -159,8 +160,8 @@ class _Reader(StepReader):
         super().__init__(file)
         if not isinstance(data, dict):
             raise self.error(f"expected a JSON object, got {type(data).__name__}")
-        if data.get("schema") != SCHEMA:
-            raise self.error(f"schema: expected '{SCHEMA}', got {data.get('schema')!r:.50}")
+        if fault := schema_fault(data.get("schema"), SCHEMA):
+            raise self.error(fault)
         self.data = data
 
     def result(self) -> Result:
