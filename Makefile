@@ -6,7 +6,7 @@ READY := .venv/.ready
 PROBLEMS := $(or $(SERENDIPITY_PROBLEMS),../shared)
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test test-browser pictures browser check docs bench bench-domains bench-extra fuzz wheels requirements clean
+.PHONY: help .venv demo test test-browser pictures browser check docs bench bench-domains bench-extra fuzz wheels release-check requirements clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z.-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -118,6 +118,9 @@ wheels: $(READY)  ## what is released, into dist/: a wheel for each platform, on
 	@set -e; for platform in $(PLATFORMS); do \
 	  SERENDIPITY_WHEEL=$$platform $(BIN)/python -m hatchling build -t wheel; done
 	@$(BIN)/python -m hatchling build -t sdist
+
+release-check:  ## install wheels and sources in fresh environments, and try them, on every Python from 3.11 on that is here
+	@$(PYTHON) .ci/release.py
 
 requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
