@@ -1,14 +1,16 @@
 """From a task and options to answers: which space, from which incumbent (semantics 3)."""
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
+from search.apart.one_by_one import FIRST, one_by_one
 from search.composite import CompositeCall, team_for
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, Ties, best_first
+from search.engine.few import EnoughError, Few
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.heuristics.first_interaction import no_team_bound
 from search.human.plan_graph import PlanGraph
@@ -184,6 +186,8 @@ class _Call:
             )
             joint.without_horizon()
             yield self.best
+            if not self._is_settled() and (yield from self._in_short_windows()):
+                return
             if not self._is_settled():
                 for _ in joint.along_human_plan():
                     yield self.best
@@ -209,6 +213,18 @@ class _Call:
 
     def _ties(self) -> Ties | None:
         return Ties(self.keys.objective_shift, _FEW) if self.context.is_shared else None
+
+    def _in_short_windows(self) -> Generator[Incumbent, None, bool]:
+        """Robots one by one, where longer windows can't be better; whether a short search did."""
+        best, progress = self.best, self.progress
+        longer = INFINITE_KEY if self.options.max_window == 1 else progress.bound + self.keys.epoch_weight
+        if not self.options.windowed or not self.plan or best.key >= longer:
+            return False
+        with suppress(EnoughError):
+            yield from best_first(Few(self._space(), FIRST), best, progress, self.deadline, self._ties())
+            return True
+        yield from one_by_one(self.context, self.plan, int(self.horizon), best, progress, longer)
+        return False
 
     def _in_one_epoch(self) -> Iterator[Incumbent]:
         """Answers with the shortest window, where longer ones may be better, too; if time is limited."""

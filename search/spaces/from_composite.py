@@ -1,6 +1,7 @@
 """Answers that a composite plan suggests: agents act as it says for a while, then the human goes on alone."""
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node
@@ -90,6 +91,46 @@ class Suggestions:
             node = self._after(node, careful)
             for op in careful[1:]:
                 left.remove(op)
+
+    def on_time(self, epochs: Sequence[Sequence[Operator]]) -> Iterator[Incumbent]:
+        """What robots do in each epoch, while the human follows ``pi_H``; the last one is the window.
+
+        In it the human does the next step of ``pi_H``, or begins what they do alone after it, or waits.
+
+        Args:
+            epochs: per epoch what robots do in it.
+
+        Raises:
+            LimitReachedError: the context's deadline came.
+        """
+        node = self._root()
+        for number, ops in enumerate(epochs[:-1]):
+            together = [self._plan[number], *ops]
+            if not self._fit(node.state, together):
+                return
+            node = self._after(node, together)
+        last = list(epochs[-1])
+        for op in self._in_window(node.state, len(epochs), last):
+            together = last if op is None else [op, *last]
+            if self._fit(node.state, together):
+                yield from self._ended(self._after(node, together)._replace(start=len(epochs)))
+
+    def _in_window(self, state: int, epoch: int, ops: list[Operator]) -> Iterator[Operator | None]:
+        """What the human may do in a window of one epoch."""
+        yield None
+        yield self._plan[epoch - 1]
+        after = _changed(state, ops)
+        if self._suffix.key(after, self._horizon, epoch, INFINITE_KEY) < INFINITE_KEY:
+            for action in self._suffix.actions(after, self._horizon, epoch)[:1]:
+                yield self._context.packed.op(action)
+
+    def _fit(self, state: int, ops: Sequence[Operator]) -> bool:
+        """Whether ops may happen in one epoch."""
+        strict = self._context.options.strict
+        pairs = combinations(ops, 2)
+        return all(applicable(op, state) for op in ops) and all(
+            self._context.packed.compatible(a.action, b.action, strict) for a, b in pairs
+        )
 
     def _chosen(self, state: int, epoch: int, left: list[Operator], *, keeps: bool) -> list[Operator]:
         """The human's step of ``pi_H``, and what robots, each in its order, can do of what is left.

@@ -1,0 +1,57 @@
+"""Where robots may be looked at one by one."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from search.apart.rows import Rows, column
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
+from serendipity.model.resources.deadline import Deadline
+
+
+def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
+    """Whether every action has one participant, and robots leave the human what they need in the same epoch.
+
+    Where a robot may take away what an action of the human's only asks for, while that is being done,
+    what the human pays after a window is no bound on what they pay in it.
+
+    Args:
+        packed: the packed task.
+        deadline: polled.
+        strict: strict interference, which forbids the latter.
+    """
+    if packed.joint or any(op.agents & op.agents - 1 for op in packed.others):
+        return False
+    return strict or not any(
+        packed.compatible(own.action, other.action, strict=False)
+        for own, other in _in_the_way(packed, deadline)
+    )
+
+
+def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operator, Operator]]:
+    """The human's actions with robots' ones that may happen in the same state and undo what they ask for."""
+    words = max(1, -(-packed.all_ones.bit_length() // 64))
+    others = packed.others
+    if not others:
+        return
+    need_mask, need = (
+        _table(words, [op.need_mask for op in others]),
+        _table(words, [op.need for op in others]),
+    )
+    keep = _table(words, [op.keep & packed.all_ones for op in others])
+    put = _table(words, [op.put for op in others])
+    for own in packed.own:
+        deadline.tick()
+        mask, value = column(own.need_mask, words), column(own.need, words)
+        disabled = (((value & keep | put) ^ value) & mask).any(axis=0)
+        for field, forbidden in own.forbidden:
+            sets = (~keep & column(field, words)).any(axis=0)
+            disabled |= sets & (put & column(field, words) == column(forbidden, words)).all(axis=0)
+        together = ~((need ^ value) & need_mask & mask).any(axis=0)
+        for place in np.flatnonzero(disabled & together):
+            yield own, others[place]
+
+
+def _table(words: int, masks: Sequence[int]) -> Rows:
+    return np.concatenate([column(mask, words) for mask in masks], axis=1)

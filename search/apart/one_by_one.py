@@ -1,0 +1,47 @@
+"""Robots one by one, in the share of a call's time that this is worth."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from search.context import SearchContext
+from search.engine.best_first import Incumbent, Progress
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.task.task import HumanPlan
+
+FIRST: Final = 500
+"""Nodes that are searched before."""
+
+_SHARE: Final = 0.5
+"""What of the time that is left it may take."""
+
+
+def one_by_one(
+    context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent, progress: Progress, longer: int
+) -> Iterator[Incumbent]:
+    """Yield the incumbent whenever a window of one epoch has made it better; then raise the bound.
+
+    Args:
+        context: of the call, in a mode with windows.
+        plan: ``pi_H``.
+        horizon: ``T``.
+        best: the incumbent, which is made better.
+        progress: what is known so far, which is brought up to date.
+        longer: no plan with a longer window has a smaller key.
+
+    Raises:
+        LimitReachedError: the deadline of the call came, not only that of its part for this.
+    """
+    from search.apart.short_windows import (
+        short_windows,
+    )  # only here: it loads what most calls come by without
+
+    short = None
+    try:
+        short = short_windows(context.under(context.deadline.part(_SHARE)), plan, horizon, best)
+        if short is not None:
+            for _ in short.answers():
+                yield best
+    except LimitReachedError:
+        context.deadline.check()
+    if short is not None:
+        progress.bound = max(progress.bound, min(short.bound, longer, best.key))

@@ -1,0 +1,140 @@
+"""What robots leave behind for the human, each on its own, and all of them together.
+
+An outcome is told by its difference from what is there without any robot.  Where several robots set the same
+field, one of them was the last: so each may do without what another could have set, and no two of them differ
+in one field.
+"""
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from search.apart.rows import Amounts, Rows, cheapest, column
+from search.apart.timeline import Layer, TooManyStatesError
+from serendipity.model.resources.deadline import Deadline
+
+MOST_OUTCOMES: Final = 1_000_000
+"""Of all robots together."""
+
+_MOST_PAIRS: Final = 50_000_000
+
+_AT_ONCE: Final = 2_000_000
+
+Parts = NDArray[np.int32]
+"""Per outcome of all robots the places of those of each of them."""
+
+
+class Outcomes(NamedTuple):
+    """Differences, each once at its least cost.
+
+    Attributes:
+        rows: per outcome the bits that differ.
+        amounts: what robots pay for it, at least.
+    """
+
+    rows: Rows
+    amounts: Amounts
+
+
+def outcomes(layer: Layer, base: int, fields: Sequence[int], shared: int) -> Outcomes:
+    """What a robot can leave behind.
+
+    Args:
+        layer: what it can have made of the world.
+        base: the packed state without any robot.
+        fields: those that the robot sets and that matter to the human.
+        shared: those that others set, too.
+    """
+    words = layer.rows.shape[0]
+    rows = (layer.rows ^ column(base, words)) & column(sum(fields), words)
+    found = _least(rows, layer.amounts)
+    for field in fields:
+        if field & shared:
+            bits = column(field, words)
+            without = (found.rows & bits).any(axis=0)
+            rows = np.concatenate([found.rows, found.rows[:, without] & ~bits], axis=1)
+            found = _least(rows, np.concatenate([found.amounts, found.amounts[without]]))
+    return found
+
+
+class Together:
+    """What robots leave behind together.
+
+    Args:
+        apart: what each of them can leave behind.
+        fields: those that they set and that matter to the human.
+        most: what costs as much is left out.
+        deadline: polled; asked for memory.
+
+    Attributes:
+        found: what they leave behind together.
+
+    Raises:
+        LimitReachedError: there are too many, or the deadline came.
+    """
+
+    def __init__(
+        self, apart: Sequence[Outcomes], fields: Sequence[int], most: int, deadline: Deadline
+    ) -> None:
+        self._deadline = deadline
+        self._most = most
+        self._fields = [column(field, apart[0].rows.shape[0]) for field in fields]
+        self.found, self._parts = _only(apart[0])
+        for more in apart[1:]:
+            self._join(more)
+
+    def parts(self, place: int) -> list[int]:
+        """Places of each robot's own outcome, for one of all together."""
+        return [int(part) for part in self._parts[:, place]]
+
+    def _join(self, more: Outcomes) -> None:
+        known, parts = self.found, self._parts
+        if len(known.amounts) * len(more.amounts) > _MOST_PAIRS:
+            raise TooManyStatesError
+        mine, theirs = self._mentioned(known.rows), self._mentioned(more.rows)
+        rows, amounts, places = [], [], []
+        size = 0
+        self.found, self._parts = Outcomes(known.rows[:, :0], known.amounts[:0]), parts[:, :0]
+        self._parts = np.concatenate([self._parts, self._parts[:1]])
+        for i, amount in enumerate(known.amounts):
+            self._deadline.tick()
+            fits = more.amounts + amount < self._most
+            for word, row in enumerate(theirs):
+                fits &= (row & mine[word, i]) == 0
+            chosen = fits.nonzero()[0]
+            rows.append(more.rows[:, chosen] | known.rows[:, i : i + 1])
+            amounts.append(more.amounts[chosen] + amount)
+            places.append(np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [chosen]]))
+            size += len(chosen)
+            if size > _AT_ONCE:
+                self._add(rows, amounts, places)
+                rows, amounts, places, size = [], [], [], 0
+        self._add(rows, amounts, places)
+
+    def _add(self, rows: list[Rows], amounts: list[Amounts], places: list[Parts]) -> None:
+        every = np.concatenate([self.found.rows, *rows], axis=1)
+        paid = np.concatenate([self.found.amounts, *amounts])
+        parts = np.concatenate([self._parts, *places], axis=1)
+        self._deadline.require(3 * every.nbytes)
+        kept = cheapest(every, paid)
+        if len(kept) > MOST_OUTCOMES:
+            raise TooManyStatesError
+        self.found, self._parts = Outcomes(every[:, kept], paid[kept]), parts[:, kept].astype(np.int32)
+
+    def _mentioned(self, rows: Rows) -> Rows:
+        """The fields in which outcomes differ from what is there without any robot, whole."""
+        found = np.zeros_like(rows)
+        for field in self._fields:
+            found |= np.where((rows & field).any(axis=0), field, np.uint64(0))
+        return found
+
+
+def _least(rows: Rows, amounts: Amounts) -> Outcomes:
+    kept = cheapest(rows, amounts)
+    return Outcomes(rows[:, kept], amounts[kept])
+
+
+def _only(outcomes: Outcomes) -> tuple[Outcomes, Parts]:
+    return outcomes, np.arange(len(outcomes.amounts), dtype=np.int32).reshape(1, -1)

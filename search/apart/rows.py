@@ -1,0 +1,51 @@
+"""Packed states as columns of 64-bit words, many at once."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Rows = NDArray[np.uint64]
+"""A column for each state, a row for each of its words."""
+
+Amounts = NDArray[np.int64]
+"""Per state an amount (see :mod:`search.classical.problem`)."""
+
+Flags = NDArray[np.bool_]
+
+
+def column(state: int, words: int) -> Rows:
+    """A packed state as the only column."""
+    return np.frombuffer(state.to_bytes(8 * words, "little"), dtype=np.uint64).reshape(words, 1)
+
+
+def states(rows: Rows) -> list[int]:
+    """Columns as packed states."""
+    size, data = 8 * rows.shape[0], np.ascontiguousarray(rows.T).tobytes()
+    return [int.from_bytes(data[at : at + size], "little") for at in range(0, len(data), size)]
+
+
+def agree(rows: Rows, mask: int, value: int) -> Flags:
+    """Which columns have a value in the fields of a mask."""
+    found = np.ones(rows.shape[1], dtype=np.bool_)
+    for word, row in enumerate(rows):
+        part = mask >> 64 * word & 2**64 - 1
+        if part:
+            found &= row & np.uint64(part) == np.uint64(value >> 64 * word & 2**64 - 1)
+    return found
+
+
+def cheapest(rows: Rows, amounts: Amounts, last: NDArray[Any] | None = None) -> NDArray[np.int64]:
+    """Places of a cheapest one of each different column, in the order of columns.
+
+    Args:
+        rows: the columns.
+        amounts: of each.
+        last: decides among equal amounts, the least first.
+    """
+    keys = (amounts, *rows) if last is None else (last, amounts, *rows)
+    order = np.lexsort(keys)
+    first = np.ones(len(order), dtype=np.bool_)
+    ordered = rows[:, order]
+    first[1:] = (ordered[:, 1:] != ordered[:, :-1]).any(axis=0)
+    return order[first]

@@ -1,0 +1,290 @@
+"""One robot beside the human's timetable: what it can have made of the world by each epoch, and at what cost.
+
+The other robots are left out, but for this: what one of them can have provided by then (:mod:`.provision`)
+may be asked for as if it had.  Whatever a robot does in a plan of all, it does here too, and what it was the
+last to set has the same value; so the costs are lower bounds, and exact where robots have nothing to do with
+each other.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from search.apart.provision import Provision
+from search.apart.rows import Amounts, Flags, Rows, agree, cheapest, column
+from search.packed.operators import Operator, split
+from search.packed.packed_task import PackedTask
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
+
+MOST_STATES: Final = 200_000
+"""Of a robot after an epoch."""
+
+
+class TooManyStatesError(LimitReachedError):
+    """A robot can bring the world into more states than are looked at."""
+
+    def __init__(self) -> None:
+        super().__init__("too-many-states")
+
+
+class Layer(NamedTuple):
+    """States after some epochs.
+
+    Attributes:
+        rows: the states, in the fields that matter to the robot.
+        amounts: what the robot has paid by then, at least.
+        fresh: which of them what the robot can do next may be new for.
+    """
+
+    rows: Rows
+    amounts: Amounts
+    fresh: Flags
+
+
+class _Literal(NamedTuple):
+    """A condition of an operator's, by field and value, and when others can have seen to it."""
+
+    field: int
+    value: int
+    epoch: int
+
+
+class _Act(NamedTuple):
+    """What the robot can do.
+
+    Attributes:
+        op: the operator.
+        amount: what it costs.
+        needs: what it asks for.
+        forbids: what it must not find.
+    """
+
+    op: Operator
+    amount: int
+    needs: list[_Literal]
+    forbids: list[_Literal]
+
+
+_NEVER: Final = 1 << 30
+
+
+class Timeline:
+    """A robot's states, epoch by epoch.
+
+    Args:
+        packed: the packed task.
+        robot: bit of the robot.
+        steps: the human's plan, an action an epoch.
+        others: what other robots can set, and after how many epochs.
+        amount: of an operator of the robot's.
+        strict: strict interference.
+        deadline: polled; asked for memory.
+
+    Attributes:
+        changes: the fields that the robot sets.
+    """
+
+    def __init__(
+        self,
+        packed: PackedTask,
+        robot: int,
+        steps: Sequence[Operator],
+        others: Provision,
+        amount: Callable[[Operator], int],
+        *,
+        strict: bool,
+        deadline: Deadline,
+    ) -> None:
+        self._packed = packed
+        self._steps = steps
+        self._others = others
+        self._strict = strict
+        self._deadline = deadline
+        self._fields = {field & -field: field for field in packed.fields}
+        self._words = max(1, -(-packed.all_ones.bit_length() // 64))
+        ops = [op for op in packed.others if op.agents == robot]
+        self.changes = packed.changed_by(ops)
+        self._settable: dict[int, dict[int, int]] = {}
+        for (field, value), epoch in others.items():
+            self._settable.setdefault(field, {})[value] = epoch
+        self._acts = [self._act(op, amount(op)) for op in deadline.each(ops)]
+        self._local = 0
+        for op in ops:
+            self._local |= packed.mentioned(op)
+        self._asked = self._local & ~self.changes
+        for op in ops:
+            self._asked |= op.need_mask
+            for field, _ in op.forbidden:
+                self._asked |= field
+        self._changing = {n.epoch for act in self._acts for n in (*act.needs, *act.forbids)}
+        start = column(packed.init & self._local, self._words)
+        self._layers = [Layer(start, np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.bool_))]
+        self._free: Layer | None = None
+
+    def _act(self, op: Operator, amount: int) -> _Act:
+        needs = [
+            _Literal(field, op.need & field, self._others.get((field, op.need & field), _NEVER))
+            for field in split(op.need_mask, self._fields)
+        ]
+        forbids = [_Literal(field, value, self._rid_of(field, value)) for field, value in op.forbidden]
+        return _Act(op, amount, needs, forbids)
+
+    def _rid_of(self, field: int, value: int) -> int:
+        """After how many epochs others can have set a field to another value."""
+        epochs = (e for other, e in self._settable.get(field, {}).items() if other != value)
+        return min(epochs, default=_NEVER)
+
+    @property
+    def epochs(self) -> int:
+        """How many epochs of the human's plan have been followed."""
+        return len(self._layers) - 1
+
+    def ends(self) -> Layer:
+        """States after one more epoch in which the human waits.
+
+        Raises:
+            LimitReachedError: there are too many, or the deadline came.
+        """
+        if self._free is None:
+            self._free = self._moved(self._layers[-1], None)
+        return self._free
+
+    def follow(self) -> None:
+        """One more epoch of the human's plan.
+
+        Raises:
+            LimitReachedError: there are too many states, or the deadline came.
+        """
+        epoch, step, layer = len(self._layers), self._steps[len(self._layers) - 1], self._layers[-1]
+        fits = self._allows(step, layer.rows, epoch)
+        in_the_way = any(not self._beside(act, step) for act in self._acts)
+        if in_the_way or not fits.all():
+            layer = self._moved(Layer(layer.rows[:, fits], layer.amounts[fits], layer.fresh[fits]), step)
+        else:
+            layer = self.ends()
+        rows = self._after(layer.rows, step)
+        fresh = layer.fresh | (in_the_way or epoch in self._changing or self._stirs(step))
+        self._layers.append(_distinct(rows, layer.amounts, fresh))
+        self._free = None
+
+    def _allows(self, step: Operator, rows: Rows, epoch: int) -> Flags:
+        """After which states the human can go on with their plan, unless others see to what is missing."""
+        fits = np.ones(rows.shape[1], dtype=np.bool_)
+        for field in split(step.need_mask & self.changes, self._fields):
+            if self._others.get((field, step.need & field), _NEVER) >= epoch:
+                fits &= agree(rows, field, step.need & field)
+        for field, value in step.forbidden:
+            if field & self.changes and self._rid_of(field, value) >= epoch:
+                fits &= ~agree(rows, field, value)
+        return fits
+
+    def _stirs(self, step: Operator) -> bool:
+        """Whether a step of the human's changes what the robot can do, or undoes what it has done."""
+        changed = self._packed.all_ones & ~step.keep
+        if changed & self._asked:
+            return True
+        return any((act.op.put ^ step.put) & changed & ~act.op.keep for act in self._acts)
+
+    def _beside(self, act: _Act, step: Operator) -> bool:
+        return self._packed.compatible(step.action, act.op.action, self._strict)
+
+    def _after(self, rows: Rows, op: Operator) -> Rows:
+        """States after an operator, in the fields that matter."""
+        keep, put = op.keep & self._local, op.put & self._local
+        return rows & column(keep, self._words) | column(put, self._words)
+
+    def _moved(self, layer: Layer, step: Operator | None) -> Layer:
+        """States after the robot's part of the next epoch; ``step``: what the human does in it."""
+        amounts = layer.amounts[layer.fresh]
+        rows = layer.rows[:, layer.fresh]
+        found, paid = [layer.rows], [layer.amounts]
+        size = 0
+        for act in self._acts:
+            self._deadline.tick()
+            if step is not None and not self._beside(act, step):
+                continue
+            able = self._able(act, rows)
+            if able.any():
+                found.append(self._after(rows[:, able], act.op))
+                paid.append(amounts[able] + act.amount)
+                size += found[-1].shape[1]
+                if size > 20 * MOST_STATES:
+                    raise TooManyStatesError
+        self._deadline.require(5 * 8 * (self._words + 1) * size)
+        fresh = np.ones(size + layer.rows.shape[1], dtype=np.bool_)
+        fresh[: layer.rows.shape[1]] = False
+        moved = _distinct(np.concatenate(found, axis=1), np.concatenate(paid), fresh)
+        if moved.rows.shape[1] > MOST_STATES:
+            raise TooManyStatesError
+        return moved
+
+    def _able(self, act: _Act, rows: Rows) -> Flags:
+        """After which states the robot can do something in the next epoch."""
+        return self._able_in(act, rows, len(self._layers))
+
+    def _able_in(self, act: _Act, rows: Rows, epoch: int) -> Flags:
+        mask = value = 0
+        for literal in act.needs:
+            if literal.epoch >= epoch:
+                mask |= literal.field
+                value |= literal.value
+        able = agree(rows, mask, value)
+        for literal in act.forbids:
+            if literal.epoch >= epoch:
+                able &= ~agree(rows, literal.field, literal.value)
+        return able
+
+    # -- the way back
+
+    def way(self, mask: int, end: int, amount: int) -> list[Operator | None]:
+        """What the robot does epoch by epoch, at a cost, to a state at the end of :meth:`ends`.
+
+        Args:
+            mask: the fields that are asked about.
+            end: their values.
+            amount: what it has paid.
+        """
+        found: list[Operator | None] = []
+        for epoch in range(len(self._layers), 0, -1):
+            op, mask, end, amount = self._before(epoch, mask, end, amount, last=not found)
+            found.append(op)
+        found.reverse()
+        return found
+
+    def _before(
+        self, epoch: int, mask: int, end: int, amount: int, *, last: bool
+    ) -> tuple[Operator | None, int, int, int]:
+        """A last action, or None, and the state and the cost before it."""
+        layer = self._layers[epoch - 1]
+        step = None if last else self._steps[epoch - 1]
+        fits = np.ones(len(layer.amounts), dtype=np.bool_)
+        if step is not None:
+            fits = self._allows(step, layer.rows, epoch)
+        for op, before, rows in self._ways(layer, epoch, amount, fits, step):
+            after = rows if op is None else self._after(rows, op)
+            if step is not None:
+                after = self._after(after, step)
+            right = agree(after, mask, end).nonzero()[0]
+            if len(right):
+                state = int.from_bytes(rows[:, right[0]].tobytes(), "little")
+                return op, self._local, state, before
+        raise AssertionError("every state but the first has one before it")
+
+    def _ways(
+        self, layer: Layer, epoch: int, amount: int, fits: Flags, step: Operator | None
+    ) -> Iterator[tuple[Operator | None, int, Rows]]:
+        """Per last action what had been paid before it, and from which states it is possible."""
+        yield None, amount, layer.rows[:, fits & (layer.amounts == amount)]
+        for act in self._acts:
+            self._deadline.tick()
+            if step is None or self._beside(act, step):
+                before = amount - act.amount
+                rows = layer.rows[:, fits & (layer.amounts == before)]
+                yield act.op, before, rows[:, self._able_in(act, rows, epoch)]
+
+
+def _distinct(rows: Rows, amounts: Amounts, fresh: Flags) -> Layer:
+    kept = cheapest(rows, amounts, fresh)
+    return Layer(rows[:, kept], amounts[kept], fresh[kept])

@@ -1,0 +1,162 @@
+"""Robots one by one: bounds on short windows against brute force, and answers where nothing else is asked."""
+
+from fractions import Fraction
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import search.planner
+import serendipity
+from search.apart.short_windows import ShortWindows, short_windows
+from search.context import SearchContext
+from search.engine.best_first import Incumbent
+from search.prepared_task import PreparedTask
+from serendipity.evaluation.crosscheck.families import AGENTS, FAMILIES, SMALL
+from serendipity.model import Options, Task, UsageError
+from serendipity.model.resources.deadline import Deadline
+from tests.support.builders import task as build
+from tests.support.oracle import best
+from tests.support.strategies import Call, calls, family_tasks
+
+ONE_EPOCH = Options(mode="serendipity", max_window=1)
+
+
+def _asked(task: Task, options: Options) -> tuple[SearchContext, ShortWindows, Incumbent] | None:
+    """Short windows of a task, with ``pi_H`` as the incumbent; None where there are none."""
+    context = SearchContext(PreparedTask(task), options, Deadline())
+    optimal = context.canonical_plan()
+    if optimal is None or not optimal.actions:
+        return None
+    keys, plan = context.keys, optimal.actions
+    idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
+    incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
+    windows = short_windows(context, plan, len(plan), incumbent)
+    return None if windows is None else (context, windows, incumbent)
+
+
+def _bound_and_cost(task: Task, options: Options) -> tuple[Fraction, Fraction] | None:
+    """The least that a plan with a window of one epoch may cost, and what the best that was found does."""
+    asked = _asked(task, options)
+    if asked is None:
+        return None
+    context, windows, incumbent = asked
+    for _ in windows.answers():
+        pass
+    bound = context.keys.objective(min(windows.bound, incumbent.key)) - options.window_weight
+    return bound, context.keys.cost(incumbent.key)
+
+
+def test_no_bound_is_above_the_optimum() -> None:
+    exact = asked = 0
+    for seed in range(150):
+        dice = Random(seed)
+        family = dice.choice(sorted(FAMILIES))
+        size, agents = dice.choice(SMALL[family])
+        task = FAMILIES[family](dice, size, AGENTS[:agents])
+        options = ONE_EPOCH.but(
+            discount=dice.choice(["0", "1/2", "9/10", "1"]), interference=dice.choice(["paper", "strict"])
+        )
+        found = _bound_and_cost(task, options)
+        if found is not None:
+            optimum = best(task, options).cost
+            assert optimum is not None
+            assert found[0] <= optimum <= found[1]
+            asked, exact = asked + 1, exact + (found[0] == optimum)
+    assert asked > 40
+    assert exact > asked * 3 / 4
+
+
+def test_answers_equal_brute_force(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Robots one by one from the first node on, in every option."""
+    monkeypatch.setattr(search.planner, "FIRST", 0)
+
+    @given(calls(modes=("serendipity",), of=family_tasks(), ties=False))
+    def law(call: Call) -> None:
+        try:
+            optimum = best(call.task, call.options, call.human_plan)
+        except UsageError:
+            return
+        options = {name: getattr(call.options, name) for name in call.options.to_dict()}
+        answer = serendipity.plan(call.task, human_plan=call.human_plan_names, **options)
+        assert answer.status == optimum.status
+        assert answer.window == optimum.window
+        assert answer.objective == (None if optimum.objective is None else float(optimum.objective))
+
+    law()
+
+
+def _errands(robots: int, places: int) -> Task:
+    """Each agent goes from place to place and does something there, a robot with a tool."""
+    agents = ["h", *(f"r{i}" for i in range(robots))]
+    init = [f"at_{agent}_0" for agent in agents]
+    actions: dict[str, str] = {}
+    for agent in agents:
+        tool = "" if agent == "h" else f" tool_{agent}"
+        if tool:
+            actions[f"take_{agent} {agent}"] = f"at_{agent}_0 ->{tool} @ 1"
+        for place in range(places):
+            actions[f"do_{agent}_{place} {agent}"] = f"at_{agent}_{place}{tool} -> done_{place} @ 1"
+            for other in range(places):
+                if place != other:
+                    actions[f"go_{agent}_{place}_{other} {agent}"] = (
+                        f"at_{agent}_{place} -> at_{agent}_{other} !at_{agent}_{place} @ 1"
+                    )
+    goal = " ".join(f"done_{place}" for place in range(1, places))
+    return build(agents=" ".join(agents), init=" ".join(init), goal=goal, actions=actions)
+
+
+@pytest.mark.parametrize(
+    ("robots", "places", "cost"), [(1, 4, "4.3"), (2, 4, "2.6"), (2, 5, "4.5"), (2, 6, "4.8")]
+)
+def test_robots_who_do_not_need_one_another(robots: int, places: int, cost: str) -> None:
+    """Then the bound is what the best answer costs; brute force says the same of the first three."""
+    found = _bound_and_cost(_errands(robots, places), ONE_EPOCH.but(discount="9/10"))
+    assert found is not None
+    assert found[0] == found[1] == Fraction(cost)
+
+
+def test_a_call_that_robots_one_by_one_settle(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search.planner, "FIRST", 0)
+    task = _errands(2, 5)
+    answer = serendipity.plan(task, discount="0.9")
+    assert (answer.status, answer.cost) == ("optimal", 4.5)
+    assert serendipity.check(task, answer).verdict != "refuted"
+
+
+def test_what_another_robot_has_to_do_first() -> None:
+    """It may be asked for as soon as it can have been done, for nothing."""
+    task = build(
+        agents="h r s",
+        init="",
+        goal="end",
+        actions={
+            "one h": "-> a @ 3",
+            "two h": "a -> b @ 3",
+            "three h": "b -> end @ 3",
+            "open s": "-> gate @ 1",
+            "reach r": "gate -> end @ 1",
+        },
+    )
+    options = ONE_EPOCH.but(discount="9/10")
+    assert best(task, options).cost == Fraction("3.2")
+    found = _bound_and_cost(task, options)
+    assert found is not None
+    assert found[0] == Fraction("3.1")
+
+
+@given(st.integers(0, 10**6))
+def test_a_limit_leaves_a_bound(seed: int) -> None:
+    """However soon it ends, no plan with a short window has a smaller key."""
+    task = FAMILIES["switches"](Random(seed), 4, AGENTS[:2])
+    asked = _asked(task, ONE_EPOCH)
+    if asked is None:
+        return
+    context, windows, incumbent = asked
+    optimum = best(task, ONE_EPOCH).cost
+    answers = windows.answers()
+    next(answers, None)
+    assert optimum is not None
+    bound = context.keys.objective(min(windows.bound, incumbent.key))
+    assert bound <= optimum + ONE_EPOCH.window_weight
