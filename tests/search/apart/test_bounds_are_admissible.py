@@ -13,12 +13,12 @@ from search.apart.short_windows import ShortWindows, short_windows
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.prepared_task import PreparedTask
-from serendipity.evaluation.crosscheck.families import AGENTS, FAMILIES, SMALL
 from serendipity.model import Options, Task, UsageError
 from serendipity.model.resources.deadline import Deadline
-from tests.support.builders import task as build
-from tests.support.oracle import best
-from tests.support.strategies import Call, calls, family_tasks
+from serendipity.testing.builders import task as build
+from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+from serendipity.testing.oracle import best
+from serendipity.testing.strategies import Call, calls, family_tasks
 
 ONE_EPOCH = Options(mode="serendipity", max_window=1)
 
