@@ -8,7 +8,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from search.context import SearchContext
-from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from serendipity.model.answers.answer import Answer, saved
 from serendipity.model.errors import LIMITS, limit_reason
@@ -48,20 +47,14 @@ class CompositeCall:
         self._limit: str | None = None
 
     def answers(self) -> Iterator[Answer]:
-        """Some plan first, then an optimal one, then what it saves."""
-        planner, init, deadline = self._team.planner, self._context.packed.init, self._context.deadline
+        """Some plan first, then better ones, then what the best saves."""
+        init, deadline = self._context.packed.init, self._context.deadline
         status = "unknown"
         try:
-            first = self._team.first_plan(init, deadline)
-            if first is None:
-                status, self._bound = "infeasible", INFINITE_KEY
-            else:
-                status, self._sets = "feasible", first
-                self._raise(planner.bound(init, deadline))
+            for sets in self._team.better_plans(init, deadline, self._raise):
+                status, self._sets = "feasible", sets
                 yield self._answer(status)
-                best = self._team.best_plan(init, deadline, self._raise)
-                assert best is not None, "there is a plan"
-                status, self._sets = "optimal", best
+            status = "infeasible" if self._sets is None else "optimal"
             self._look_at_human()
         except LIMITS as limit:
             self._limit = limit_reason(limit)

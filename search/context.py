@@ -9,7 +9,7 @@ from search.classical.problem import NO_PLAN
 from search.heuristics.first_interaction import no_team_bound
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
-from search.human.individual_planner import HumanOptimum, IndividualPlanner, OptimalPlan
+from search.human.individual_planner import FoundPlan, HumanOptimum, IndividualPlanner
 from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_keys
 from search.human.plan_graph import PlanGraph
 from search.human.priced_planner import PricedPlanner
@@ -211,7 +211,7 @@ class SearchContext:
         """``G_H`` and ``G_R``, packed."""
         return self.packed.goal, self.packed.robot_goal
 
-    def canonical_plan(self) -> OptimalPlan | None:
+    def canonical_plan(self) -> FoundPlan | None:
         """The human's canonical plan from ``I``, or None where they have none."""
         return self.alone.canonical(self.packed.init)
 

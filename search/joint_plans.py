@@ -75,19 +75,16 @@ class JointPlans:
         context, team = self._context, self._context.team
         if team is None:
             return
-        init, task = context.packed.init, context.task
         part = context.deadline.part(_SHARE if self.decide else _LITTLE)
+        found = False
         try:
-            first = team.first_plan(init, part)
-            if first is not None:
-                self._offer(schedule(task, first))
-            best = team.best_plan(init, part, self._raise)
+            for sets in team.better_plans(context.packed.init, part, self._raise):
+                found = True
+                self._offer(schedule(context.task, sets))
         except LimitReachedError:
             context.deadline.check()
             return
-        self._raise(NO_PLAN if best is None else team.planner.least)
-        if best is not None:
-            self._offer(schedule(task, best))
+        self._raise(team.planner.least if found else NO_PLAN)
 
     def along_human_plan(self) -> Iterator[None]:
         """Robots begin at once with what would be best after an epoch of ``pi_H``; if time is limited.

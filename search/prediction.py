@@ -6,6 +6,7 @@ from typing import Final, NamedTuple
 
 from search.context import SearchContext
 from search.engine.paths import plan_steps
+from search.human.individual_planner import FoundPlan
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.task.task import HumanPlan
@@ -46,7 +47,8 @@ def expected_plan(context: SearchContext, given: HumanPlan | None) -> Prediction
         optimal = context.under(context.deadline.part(_SHARE)).canonical_plan()
     except LimitReachedError:
         context.deadline.check()
-        return Prediction(first, optimal=context.task.cost_of(first) <= _least(context))
+        best = _cheaper(context, first).actions
+        return Prediction(best, optimal=context.task.cost_of(best) <= _least(context))
     assert optimal is not None, "there is a plan"
     return Prediction(optimal.actions, optimal=True)
 
@@ -64,7 +66,7 @@ def individual_answers(context: SearchContext, human_plan: HumanPlan | None) -> 
         if first is None and context.is_shared:
             first = context.alone.first_plan(context.packed.init)
         if first is not None:
-            known = _some(context, first, proved=False)
+            known = _some(context, FoundPlan(first, 0, 0), proved=False)
             yield known
         yield _optimal(context, human_plan)
     except LIMITS as limit:
@@ -72,11 +74,21 @@ def individual_answers(context: SearchContext, human_plan: HumanPlan | None) -> 
         if known is None:
             yield Answer("unknown", reason=reason)
         else:
-            plan = known.human_plan or ()
-            yield _some(context, plan, proved=_least(context) >= context.task.cost_of(plan))
+            plan = _cheaper(context, known.human_plan or (), given=human_plan is not None)
+            yield _some(context, plan, proved=_least(context) >= context.task.cost_of(plan.actions))
 
 
-def _some(context: SearchContext, plan: HumanPlan, *, proved: bool) -> Answer:
+def _cheaper(context: SearchContext, plan: HumanPlan, *, given: bool = False) -> FoundPlan:
+    """The best plan that the human's searches came across, where one was interrupted; or else this one."""
+    best = context.alone.best_plan(context.packed.init)
+    if best is None:
+        return FoundPlan(plan, 0, 0)
+    cheaper = not given and context.task.cost_of(best.actions) < context.task.cost_of(plan)
+    return best if cheaper else best._replace(actions=plan)
+
+
+def _some(context: SearchContext, found: FoundPlan, *, proved: bool) -> Answer:
+    plan = found.actions
     cost, bound = context.task.cost_of(plan), _least(context)
     return Answer(
         "optimal" if proved else "feasible",
@@ -89,6 +101,8 @@ def _some(context: SearchContext, plan: HumanPlan, *, proved: bool) -> Answer:
         baseline=cost,
         saving=Fraction(0),
         saving_alone=Fraction(0) if proved else None,
+        expanded=found.expanded,
+        generated=found.generated,
     )
 
 

@@ -7,7 +7,7 @@ alone; tables of projections follow once a question turns out to be worth them.
 
 import ctypes
 from array import array
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from ctypes import c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from typing import Final
 
@@ -62,7 +62,10 @@ _SIGNATURES: Final = {
     "planner_least": (c_int64, [c_void_p]),
     "planner_wanted": (c_size_t, [c_void_p]),
     "planner_counts": (None, [c_void_p, c_void_p]),
-    "planner_way": (c_int32, [c_void_p, c_int, c_void_p, c_int32]),
+    "planner_greedy_way": (c_int32, [c_void_p, c_void_p, c_int32]),
+    "planner_best_way": (c_int32, [c_void_p, c_void_p, c_int32]),
+    "planner_known_way": (c_int32, [c_void_p, c_char_p, c_void_p, c_int32]),
+    "planner_allowed": (c_int32, [c_void_p, c_char_p, c_void_p]),
     "planner_pattern": (c_int64, [c_void_p, c_void_p, c_int32, c_int64]),
     "planner_samples": (c_int, [c_void_p, c_int32]),
     "planner_order": (c_int, [c_void_p, c_int32]),
@@ -107,7 +110,8 @@ class ClassicalPlanner:
         self._planner = self._kernel.planner_new(ctypes.byref(self._data))
         if not self._planner:
             raise LimitReachedError("memory-limit")
-        self._tables = self._met = False
+        self._tables = False
+        self._asked: int | None = None
 
     def _spec(self) -> _Spec:
         problem, goal = self.problem, self.problem.goal
@@ -164,7 +168,7 @@ class ClassicalPlanner:
         """
         kernel, planner = self._kernel, self._planner
         row, most = self._row(state), self.problem.limit(limit)
-        self._met = True
+        self._asked = state & self._mask
         self._allowed(lambda room: kernel.planner_begin(planner, row, most, room), deadline)
         while self._allowed(lambda room: kernel.planner_run(planner, _SLICE, room), deadline) == _RUNNING:
             deadline.check()
@@ -204,28 +208,64 @@ class ClassicalPlanner:
         while outcome == _RUNNING:
             deadline.check()
             outcome = self._allowed(lambda room: kernel.planner_run_greedy(planner, _SLICE, room), deadline)
-        return self._way(greedy=True) if outcome == _FOUND else None
+        if outcome != _FOUND:
+            return None
+        return [*reversed(self._numbers(lambda *to: kernel.planner_greedy_way(planner, *to)) or ())]
 
     def cheapest_plan(
-        self, state: int, deadline: Deadline, on_bound: Callable[[int], None] | None = None
+        self,
+        state: int,
+        deadline: Deadline,
+        limit: int = NO_PLAN,
+        on_bound: Callable[[int], None] | None = None,
     ) -> list[int] | None:
-        """A cheapest plan from a packed state, by numbers of operators, or None where there is none.
+        """A cheapest plan from a packed state, by numbers of operators, or None where none is below a limit.
 
         Which of several does not depend on what was asked before: all that was learnt is forgotten.
 
         Args:
             state: the packed state.
             deadline: polled.
+            limit: as for :meth:`cheapest`.
             on_bound: as for :meth:`cheapest`.
 
         Raises:
             LimitReachedError: the deadline came first.
         """
-        if self._met:
+        if self._asked is not None:
             self._start()
-        if self.cheapest(state, deadline, on_bound=on_bound) >= NO_PLAN:
-            return None
-        return self._way(greedy=False)
+        found = self.cheapest(state, deadline, limit, on_bound)
+        return self.known_plan(state) if found < limit else None
+
+    def amount(self, numbers: Iterable[int]) -> int:
+        """The amount of operators, one after another."""
+        return self.problem.amount(sum(self.problem.weights[number] for number in numbers))
+
+    def known_plan(self, state: int) -> list[int] | None:
+        """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite."""
+        kernel, planner, row = self._kernel, self._planner, self._row(state)
+
+        def ask(address: int, room: int) -> int:
+            moving = ctypes.create_string_buffer(row, len(row))
+            return int(kernel.planner_known_way(planner, moving, address, room))
+
+        return self._numbers(ask)
+
+    def best_so_far(self, state: int) -> list[int] | None:
+        """The best plan from a packed state that is at hand, by numbers: a cheapest one, or what the last
+        :meth:`cheapest` has come across, finished or not.
+        """
+        known = self.known_plan(state)
+        if known is not None or self._asked != state & self._mask:
+            return known
+        kernel, planner = self._kernel, self._planner
+        return self._numbers(lambda *to: kernel.planner_best_way(planner, *to))
+
+    def allowed(self, state: int) -> list[int]:
+        """The numbers of the operators that a packed state allows, ascending."""
+        numbers = array("i", bytes(4 * max(len(self.problem.operators), 1)))
+        count = self._kernel.planner_allowed(self._planner, self._row(state), numbers.buffer_info()[0])
+        return numbers[:count].tolist()
 
     def counts(self) -> tuple[int, int, int]:
         """How many states were expanded, generated and evaluated so far."""
@@ -233,11 +273,14 @@ class ClassicalPlanner:
         self._kernel.planner_counts(self._planner, found.buffer_info()[0])
         return found[0], found[1], found[2]
 
-    def _way(self, *, greedy: bool) -> list[int]:
-        length = self._kernel.planner_way(self._planner, greedy, None, 0)
+    def _numbers(self, ask: Callable[[int, int], int]) -> list[int] | None:
+        """Numbers that the kernel writes to an address, as many as it says; None where it says -1."""
+        length = ask(0, 0)
+        if length < 0:
+            return None
         numbers = array("i", bytes(4 * max(length, 1)))
-        self._kernel.planner_way(self._planner, greedy, numbers.buffer_info()[0], length)
-        return list(reversed(numbers[:length]))
+        ask(numbers.buffer_info()[0], length)
+        return numbers[:length].tolist()
 
     def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
         """Call the kernel, with as much memory as it wants if there is that much."""

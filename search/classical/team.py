@@ -1,6 +1,6 @@
 """What all agents do together where epochs don't count, as the kernel's problem."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import reduce
 
 from search.classical.circles import TooManyError, circles
@@ -10,6 +10,7 @@ from search.kernel.library import library
 from search.packed.cost_vector import Weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
+from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
 Sets = list[tuple[int, ...]]
@@ -31,18 +32,10 @@ class Team:
         self.planner = planner
         self._actions = actions
 
-    def first_plan(self, state: int, deadline: Deadline) -> Sets | None:
-        """Some plan from a packed state, as sets of actions; None where there is none.
+    def better_plans(self, state: int, deadline: Deadline, on_bound: Callable[[int], None]) -> Iterator[Sets]:
+        """Some plan from a packed state soon, then cheaper ones; at the end the last one is a cheapest.
 
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
-        return self._sets(self.planner.first_plan(state, deadline))
-
-    def best_plan(
-        self, state: int, deadline: Deadline, on_bound: Callable[[int], None] | None = None
-    ) -> Sets | None:
-        """A cheapest one.
+        There is no plan where none comes.  Plans are sets of actions.
 
         Args:
             state: the packed state.
@@ -50,12 +43,36 @@ class Team:
             on_bound: told now and then what no plan is cheaper than.
 
         Raises:
+            LimitReachedError: the deadline came before the end.
+        """
+        planner = self.planner
+        first = planner.first_plan(state, deadline)
+        if first is None:
+            return
+        yield self._sets(first)
+        on_bound(planner.bound(state, deadline))
+        amount = planner.amount(first)
+        try:
+            best = planner.cheapest_plan(state, deadline, amount, on_bound)
+        except LimitReachedError:
+            best = planner.best_so_far(state)
+            if best is not None:
+                yield self._sets(best)
+            raise
+        if best is not None:
+            yield self._sets(best)
+
+    def best_plan(self, state: int, deadline: Deadline) -> Sets | None:
+        """A cheapest plan from a packed state, as sets of actions; None where there is none.
+
+        Raises:
             LimitReachedError: the deadline came first.
         """
-        return self._sets(self.planner.cheapest_plan(state, deadline, on_bound))
+        best = self.planner.cheapest_plan(state, deadline)
+        return None if best is None else self._sets(best)
 
-    def _sets(self, numbers: list[int] | None) -> Sets | None:
-        return None if numbers is None else [self._actions[number] for number in numbers]
+    def _sets(self, numbers: list[int]) -> Sets:
+        return [self._actions[number] for number in numbers]
 
 
 def team_planner(

@@ -5,7 +5,7 @@ Costs are cached on the facts that their own actions mention, so a state costs o
 search per projection, and a search also fills in the states along its result.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from search.algorithms.astar import AStar
@@ -55,13 +55,13 @@ class Memory:
         self.plans: tuple[int, PlanGraph | None] | None = None
 
 
-class OptimalPlan(NamedTuple):
-    """The canonical optimal plan of the human alone.
+class FoundPlan(NamedTuple):
+    """A plan of the human alone.
 
     Attributes:
         actions: its actions.
-        expanded: states that the search for it expanded.
-        generated: steps that it looked at.
+        expanded: states that the searches for it expanded.
+        generated: steps that they looked at.
     """
 
     actions: tuple[int, ...]
@@ -79,11 +79,14 @@ class HumanOptimum(Protocol):
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The optimal key alone from a packed state; from ``limit`` (a key) on any value says "not below"."""
 
-    def canonical(self, state: int) -> OptimalPlan | None:
+    def canonical(self, state: int) -> FoundPlan | None:
         """The canonical optimal plan (semantics 1) from a packed state; None if there is no plan."""
 
     def first_plan(self, state: int) -> tuple[int, ...] | None:
         """Some plan from a packed state, soon; None where there is none, or no way to find one soon."""
+
+    def best_plan(self, state: int) -> FoundPlan | None:
+        """The best plan from a packed state that searches have come across so far; None: no plan yet."""
 
     def least(self, state: int) -> int:
         """What is known so far that no key from a packed state is below."""
@@ -260,7 +263,7 @@ class IndividualPlanner:
             self._known[state] = rest
         return rest
 
-    def canonical(self, state: int) -> OptimalPlan | None:
+    def canonical(self, state: int) -> FoundPlan | None:
         """See :class:`HumanOptimum`."""
         start = state & self._mask
         if self._memory.classical is None:
@@ -271,26 +274,27 @@ class IndividualPlanner:
             else:
                 if graph is None:
                     return None
-                return OptimalPlan(graph.canonical(), graph.expanded, graph.generated)
-        plan = self._first_steps(start)
-        assert self._memory.classical is not None, "it has taken over"
-        expanded, generated, _ = self._memory.classical.counts()
-        return None if plan is None else OptimalPlan(plan, self._memory.expanded + expanded, generated)
+                return FoundPlan(graph.canonical(), graph.expanded, graph.generated)
+        from search.classical.canonical import canonical_plan  # only here, as below
 
-    def _first_steps(self, state: int) -> tuple[int, ...] | None:
-        """The canonical plan: at each step the first action after which the rest is as cheap as it can be."""
-        plan: list[int] = []
-        rest = self.key(state)
-        if rest >= INFINITE_KEY:
+        if self.key(start) >= INFINITE_KEY:
             return None
-        while rest:
-            for option in sorted(self._lookup.options(state), key=lambda option: option.actions):
-                after, left = (state & option.keep | option.put) & self._mask, rest - option.weight
-                if left >= 0 and self.key(after, left + 1) == left:
-                    break
-            plan.append(option.actions[0])
-            state, rest = after, left
-        return tuple(plan)
+        assert self._memory.classical is not None, "it has taken over"
+        return self._found(canonical_plan(self._memory.classical, start, self._deadline))
+
+    def best_plan(self, state: int) -> FoundPlan | None:
+        """See :class:`HumanOptimum`."""
+        classical = self._memory.classical
+        return None if classical is None else self._found(classical.best_so_far(state & self._mask))
+
+    def _found(self, numbers: Sequence[int] | None) -> FoundPlan | None:
+        """What the kernel has found."""
+        classical = self._memory.classical
+        if numbers is None or classical is None:
+            return None
+        expanded, generated, _ = classical.counts()
+        actions = tuple(self._packed.own[number].action for number in numbers)
+        return FoundPlan(actions, self._memory.expanded + expanded, generated)
 
     def first_plan(self, state: int) -> tuple[int, ...] | None:
         """See :class:`HumanOptimum`."""

@@ -1,6 +1,6 @@
 """The human alone in the keys of a call: what one call finds serves others that weigh otherwise."""
 
-from search.human.individual_planner import IndividualPlanner, Memory, OptimalPlan
+from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
 from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
@@ -37,13 +37,17 @@ class PricedPlanner:
             found = self._alone.key(state, self._weights.own_limit(limit))
         return found if found >= INFINITE_KEY else self._weights.of_own({state: found})[state]
 
-    def canonical(self, state: int) -> OptimalPlan | None:
+    def canonical(self, state: int) -> FoundPlan | None:
         """See :class:`HumanOptimum`."""
         return self._alone.canonical(state)
 
     def first_plan(self, state: int) -> tuple[int, ...] | None:
         """See :class:`HumanOptimum`."""
         return self._alone.first_plan(state)
+
+    def best_plan(self, state: int) -> FoundPlan | None:
+        """See :class:`HumanOptimum`."""
+        return self._alone.best_plan(state)
 
     def least(self, state: int) -> int:
         """See :class:`HumanOptimum`."""

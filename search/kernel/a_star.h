@@ -11,6 +11,7 @@
 #include "heap.h"
 #include "learning.h"
 #include "lists.h"
+#include "lookahead.h"
 #include "problem.h"
 #include "relaxation.h"
 #include "state_table.h"
@@ -23,13 +24,15 @@ typedef struct {
     Relaxation *relaxation;
     Evaluator evaluator;
     Stubborn stubborn;
+    Lookahead lookahead;
     Table table;
     Heap open;
-    Ints applicable, closed;
+    Ints applicable, closed, plan, spare; /* plan: the best that was found, if has_plan; it costs what the limit is */
     Word *row;
     Cost limit, least; /* nothing from the limit on is of interest; no plan is cheaper than least */
     uint32_t stamp;
-    int32_t start, end, serial;
+    int32_t start, serial, has_plan;
+    Cost nearest; /* what was left where plans were looked for, since least has risen */
     int cut_off; /* whether something was left out because of the limit */
     int64_t expanded, generated;
 } AStar;
@@ -37,13 +40,14 @@ typedef struct {
 static int a_star_new(AStar *s, const Problem *p, Relaxation *r) {
     s->problem = p, s->relaxation = r, s->table.words = p->words;
     s->row = malloc((size_t)p->words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
-    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem) && stubborn_new(&s->stubborn, p);
+    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem) &&
+           stubborn_new(&s->stubborn, p) && lookahead_new(&s->lookahead, p, &r->problem);
 }
 
 static void a_star_free(AStar *s) {
-    evaluator_free(&s->evaluator), table_free(&s->table);
+    evaluator_free(&s->evaluator), table_free(&s->table), lookahead_free(&s->lookahead);
     if (s->problem) stubborn_free(&s->stubborn, s->problem->n_ops);
-    free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->row);
+    free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->plan.at), free(s->spare.at), free(s->row);
 }
 
 static void open_node(AStar *s, int32_t id) {
@@ -57,10 +61,78 @@ static void open_node(AStar *s, int32_t id) {
     heap_push(&s->open, (Entry){total, node->rest, id, s->serial++});
 }
 
+static int first_first(const void *a, const void *b) { return *(const int32_t *)a - *(const int32_t *)b; }
+
+/* Operators that are applicable in a state, ascending. */
+static const Ints *allowed_in(AStar *s, const Word *state) {
+    successors(s->problem, state, &s->applicable);
+    qsort(s->applicable.at, s->applicable.count, sizeof(int32_t), first_first);
+    return &s->applicable;
+}
+
+/* The next operator of the cheapest plan that was found from a state, which `row` becomes the state after; NONE: there
+   is none, or it ends here. */
+static int32_t known_step(AStar *s, Word *row) {
+    const Problem *p = s->problem;
+    int32_t id = met(&s->table, row);
+    if (id == NONE || !node_of(&s->table, id)->exact || !node_of(&s->table, id)->rest) return NONE;
+    Cost rest = node_of(&s->table, id)->rest;
+    const Ints *ops = allowed_in(s, row);
+    for (size_t i = 0; i < ops->count; i++) {
+        apply(p, ops->at[i], state_of(&s->table, id), row);
+        int32_t next = met(&s->table, row);
+        if (next == NONE) continue;
+        const Node *after = node_of(&s->table, next);
+        if (after->exact && after->rest != INFINITE_COST && after->rest + p->weight[ops->at[i]] == rest) return ops->at[i];
+    }
+    return NONE;
+}
+
+/* A better plan: by the way to a node, and on from there. */
+static int keep_plan(AStar *s, int32_t id, const Ints *rest) {
+    Ints *way = &s->spare;
+    way->count = 0;
+    Cost total = node_of(&s->table, id)->spent;
+    for (; id != s->start; id = node_of(&s->table, id)->parent)
+        if (!ints_push(way, node_of(&s->table, id)->op)) return 0;
+    for (size_t i = 0, j = way->count; i + 1 < j; i++) {
+        int32_t op = way->at[i];
+        way->at[i] = way->at[--j], way->at[j] = op;
+    }
+    for (size_t i = 0; i < rest->count; i++) {
+        total += s->problem->weight[rest->at[i]];
+        if (!ints_push(way, rest->at[i])) return 0;
+    }
+    Ints before = s->plan;
+    s->plan = *way, s->spare = before;
+    s->has_plan = 1, s->limit = total;
+    return 1;
+}
+
+/* What relaxed plans suggest from a node may be a better plan, if it is nearer to the goal than all others that cost as much. */
+static void suggest(AStar *s, int32_t id) {
+    const Node *node = node_of(&s->table, id);
+    if (node->rest >= s->nearest) return;
+    s->nearest = node->rest;
+    Cost left = s->limit - node->spent;
+    if (look_ahead(&s->lookahead, s->relaxation, s->problem, state_of(&s->table, id), left) != INFINITE_COST)
+        keep_plan(s, id, &s->lookahead.plan);
+}
+
+/* From a node of which the cost is known: the plan that it is known by. */
+static int go_on(AStar *s, int32_t id) {
+    Ints *rest = &s->lookahead.plan;
+    rest->count = 0;
+    memcpy(s->lookahead.state, state_of(&s->table, id), (size_t)s->problem->words * sizeof(Word));
+    for (int32_t op; (op = known_step(s, s->lookahead.state)) != NONE;)
+        if (!ints_push(rest, op)) return 0;
+    return keep_plan(s, id, rest);
+}
+
 static int finish(AStar *s, int outcome, Cost total) {
     learn(&s->table, &s->closed, total);
     s->least = total;
-    if (outcome == FOUND) learn_plan(&s->table, s->problem, s->start, s->end);
+    if (outcome == FOUND && s->has_plan) learn_plan(&s->table, s->problem, s->start, &s->plan, total, s->row);
     return outcome;
 }
 
@@ -73,7 +145,7 @@ static int a_star_begin(AStar *s, const Word *state, Cost limit, size_t allowed)
     s->start = find(&s->table, state, &is_new);
     Node *node = node_of(&s->table, s->start);
     if (is_new) look_up(&s->evaluator, s->problem, node, state);
-    s->limit = limit, s->cut_off = 0, s->serial = 0;
+    s->limit = limit, s->cut_off = 0, s->serial = 0, s->has_plan = 0, s->nearest = INFINITE_COST;
     s->stamp++;
     node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = NONE;
     open_node(s, s->start);
@@ -126,13 +198,15 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
             heap_pop(&s->open);
             continue;
         }
-        if (entry.key > s->least) s->least = entry.key;
+        if (entry.key >= s->limit) break;
+        if (entry.key > s->least) s->least = entry.key, s->nearest = INFINITE_COST;
         if (now() >= end) return RUNNING;
         const Word *state = state_of(&s->table, entry.item);
         if (!node->exact && is_goal(p, state)) node->rest = 0, node->exact = 1;
         if (node->exact && node->spent + node->rest == entry.key) {
-            s->end = entry.item;
-            return finish(s, FOUND, entry.key);
+            if (entry.item == s->start && node->rest) return finish(s, FOUND, entry.key); /* its plan is known */
+            if (!go_on(s, entry.item)) return MEMORY;
+            break;
         }
         look_up(&s->evaluator, p, node, state);
         if (node->evaluated < N_TURNS && node->rest < INFINITE_COST && node->spent + node->rest == entry.key)
@@ -143,12 +217,15 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
             continue;
         }
         if (node->evaluated < N_TURNS) continue;
+        suggest(s, entry.item);
+        if (entry.key >= s->limit) break;
         size_t more = (size_t)p->n_ops + 1;
         if (!reserve(&s->table, (int32_t)more) || !heap_reserve(&s->open, more, &s->table)) return MEMORY;
         heap_pop(&s->open);
         expand(s, entry.item);
     }
-    return s->cut_off ? finish(s, NOT_BELOW, s->limit) : finish(s, HOPELESS, INFINITE_COST);
+    if (!s->has_plan) return s->cut_off ? finish(s, NOT_BELOW, s->limit) : finish(s, HOPELESS, INFINITE_COST);
+    return reserve(&s->table, (int32_t)s->plan.count + 1) ? finish(s, FOUND, s->limit) : MEMORY;
 }
 
 /* Lower bound from a state; -1 where memory is missing. */

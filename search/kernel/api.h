@@ -62,15 +62,39 @@ API Cost planner_bound(Planner *s, const Word *state, size_t allowed) { return a
 API int planner_begin_greedy(Planner *s, const Word *state, size_t allowed) { return greedy_begin(&s->greedy, state, allowed); }
 API int planner_run_greedy(Planner *s, double seconds, size_t allowed) { return greedy_run(&s->greedy, seconds, allowed); }
 
-/* The operators of the way that was found, from its end back to the start; how many. */
-API int32_t planner_way(const Planner *s, int greedy, int32_t *ops, int32_t room) {
-    const Table *t = greedy ? &s->greedy.table : &s->a_star.table;
+/* The operators of the way that greedy search has found, from its end back to the start; how many. */
+API int32_t planner_greedy_way(const Planner *s, int32_t *ops, int32_t room) {
+    const Table *t = &s->greedy.table;
     int32_t count = 0;
-    for (int32_t id = greedy ? s->greedy.goal : s->a_star.end; node_of(t, id)->parent != NONE; id = node_of(t, id)->parent) {
+    for (int32_t id = s->greedy.goal; node_of(t, id)->parent != NONE; id = node_of(t, id)->parent) {
         if (count < room) ops[count] = node_of(t, id)->op;
         count++;
     }
     return count;
+}
+
+/* The best plan that the optimal search has come across so far; how many operators, NONE: no plan. */
+API int32_t planner_best_way(const Planner *s, int32_t *ops, int32_t room) {
+    const Ints *plan = &s->a_star.plan;
+    if (!s->a_star.has_plan) return NONE;
+    for (size_t i = 0; i < plan->count && i < (size_t)room; i++) ops[i] = plan->at[i];
+    return (int32_t)plan->count;
+}
+
+/* The operators of a cheapest plan from a state, `row`, which becomes its end; NONE where its cost is not known. */
+API int32_t planner_known_way(Planner *s, Word *row, int32_t *ops, int32_t room) {
+    int32_t count = 0, id = met(&s->a_star.table, row);
+    if (id == NONE || !node_of(&s->a_star.table, id)->exact || node_of(&s->a_star.table, id)->rest == INFINITE_COST) return NONE;
+    for (int32_t op; (op = known_step(&s->a_star, row)) != NONE; count++)
+        if (count < room) ops[count] = op;
+    return count;
+}
+
+/* Operators that a state allows, ascending; how many. */
+API int32_t planner_allowed(Planner *s, const Word *state, int32_t *ops) {
+    const Ints *found = allowed_in(&s->a_star, state);
+    memcpy(ops, found->at, found->count * sizeof *ops);
+    return (int32_t)found->count;
 }
 
 /* Bytes that were missing where there was not enough memory. */

@@ -101,7 +101,7 @@ static int greedy_run(Greedy *s, double seconds, size_t allowed) {
             return FOUND;
         }
         s->first.count = 0;
-        Cost rest = relaxed_plan(&s->relaxed_plan, s->relaxation, s->problem, state, &s->first);
+        Cost rest = relaxed_plan(&s->relaxed_plan, s->relaxation, s->problem, state, 0, &s->first);
         s->evaluated++;
         if (rest == INFINITE_COST) continue;
         if (rest < s->best_rest) s->best_rest = rest, s->turn_preferred -= BOOST;

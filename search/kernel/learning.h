@@ -23,14 +23,15 @@ static void learn(Table *t, const Ints *closed, Cost total) {
     }
 }
 
-/* Along the plan that was found: the exact costs. */
-static void learn_plan(Table *t, const Problem *p, int32_t start, int32_t end) {
-    Cost rest = node_of(t, end)->rest;
-    for (int32_t id = end;;) {
+/* Along a cheapest plan: the exact costs.  There is room for its states; `row` is for one of them. */
+static void learn_plan(Table *t, const Problem *p, int32_t start, const Ints *plan, Cost total, Word *row) {
+    int32_t id = start, is_new;
+    for (size_t i = 0;; i++) {
         Node *node = node_of(t, id);
-        node->rest = rest, node->exact = 1;
-        if (id == start) break;
-        rest += p->weight[node->op];
-        id = node->parent;
+        node->rest = total, node->exact = 1;
+        if (i == plan->count) return;
+        apply(p, plan->at[i], state_of(t, id), row);
+        total -= p->weight[plan->at[i]];
+        id = find(t, row, &is_new);
     }
 }

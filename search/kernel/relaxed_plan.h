@@ -17,29 +17,33 @@
 typedef struct {
     int32_t *supporter; /* per fact the operator that adds it first */
     uint8_t *chosen;    /* operators; 0 between two calls */
+    Ints plan;          /* the operators that were chosen last, later ones first */
 } RelaxedPlan;
 
 static int relaxed_plan_new(RelaxedPlan *f, const RelaxedProblem *x) {
     f->supporter = malloc(((size_t)x->n_facts + 1) * sizeof *f->supporter), f->chosen = calloc((size_t)x->n_ops + 1, 1);
-    return f->supporter && f->chosen;
+    f->plan.at = malloc(((size_t)x->n_ops + 1) * sizeof(int32_t));
+    return f->supporter && f->chosen && f->plan.at;
 }
 
-static void relaxed_plan_free(RelaxedPlan *f) { free(f->supporter), free(f->chosen); }
+static void relaxed_plan_free(RelaxedPlan *f) { free(f->supporter), free(f->chosen), free(f->plan.at); }
 
-/* Number of operators of a relaxed plan, whose first ones are added to `preferred`; each costs 1. */
-static Cost relaxed_plan(RelaxedPlan *f, Relaxation *r, const Problem *p, const Word *state, Ints *preferred) {
+/* Number of operators of a relaxed plan, whose first ones are added to `preferred`, if that is there; each costs what it
+   weighs, or 1. */
+static Cost relaxed_plan(RelaxedPlan *f, Relaxation *r, const Problem *p, const Word *state, int weighed, Ints *preferred) {
     const RelaxedProblem *x = &r->problem;
     int32_t *supporter = f->supporter;
     uint8_t *chosen = f->chosen;
     start_from(r, p, state);
-    for (int32_t o = 0; o < x->n_ops; o++) r->ops[o].cost = 1;
+    if (!weighed)
+        for (int32_t o = 0; o < x->n_ops; o++) r->ops[o].cost = 1;
     for (size_t i = 0; i < r->initial.count; i++) supporter[r->initial.at[i]] = NONE;
     for (size_t i = 0; i < x->always.count; i++) {
         int32_t op = x->always.at[i];
         for (int32_t k = x->add.start[op]; k < x->add.start[op + 1]; k++) {
-            if (r->cost[x->add.at[k]] <= 1) continue;
+            if (r->cost[x->add.at[k]] <= r->ops[op].cost) continue;
             supporter[x->add.at[k]] = op;
-            reach(r, x->add.at[k], 1);
+            reach(r, x->add.at[k], r->ops[op].cost);
         }
     }
     while (r->queue.count) {
@@ -64,12 +68,13 @@ static Cost relaxed_plan(RelaxedPlan *f, Relaxation *r, const Problem *p, const 
         r->mark[x->goal.at[i]] = r->round;
         put(&r->zone, x->goal.at[i]);
     }
-    Cost total = 0;
+    f->plan.count = 0;
     for (size_t i = 0; i < r->zone.count; i++) {
         int32_t op = supporter[r->zone.at[i]];
         if (op == NONE || chosen[op]) continue;
-        chosen[op] = 1, total++;
-        if (r->ops[op].cost == 1) ints_push(preferred, op);
+        chosen[op] = 1;
+        put(&f->plan, op);
+        if (preferred && r->ops[op].cost == (weighed ? x->weight[op] : 1)) ints_push(preferred, op);
         for (int32_t j = x->pre.start[op]; j < x->pre.start[op + 1]; j++) {
             int32_t fact = x->pre.at[j];
             if (r->mark[fact] == r->round) continue;
@@ -78,5 +83,5 @@ static Cost relaxed_plan(RelaxedPlan *f, Relaxation *r, const Problem *p, const 
         }
     }
     memset(chosen, 0, (size_t)x->n_ops);
-    return total;
+    return (Cost)f->plan.count;
 }

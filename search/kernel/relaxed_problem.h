@@ -17,13 +17,14 @@ typedef struct {
     int32_t *fact_of, *class_of; /* of the problem's facts and operators; NONE: left out */
     Cost *weight;
     Lists pre, add, asked_by, added_by; /* operators' facts, facts' operators */
+    Lists members;                      /* per operator those of the problem that it is */
     int32_t *adder;                     /* per place in add.at its operator */
     Ints goal, always;                  /* always: operators that ask for nothing */
 } RelaxedProblem;
 
 static void relaxed_problem_free(RelaxedProblem *x) {
     free(x->fact_of), free(x->class_of), free(x->weight), free(x->adder), free(x->goal.at), free(x->always.at);
-    lists_free(&x->pre), lists_free(&x->add), lists_free(&x->asked_by), lists_free(&x->added_by);
+    lists_free(&x->pre), lists_free(&x->add), lists_free(&x->asked_by), lists_free(&x->added_by), lists_free(&x->members);
 }
 
 static int32_t number_facts(RelaxedProblem *x, const Problem *p) {
@@ -116,6 +117,11 @@ static int relax(RelaxedProblem *x, const Problem *p) {
            lists_of(&x->asked_by, x->n_facts, &lists[1], &lists[0]) && lists_of(&x->added_by, x->n_facts, &lists[3], &lists[2]);
     x->n_slots = (int32_t)lists[2].count;
     if (fine) x->adder = copied(lists[2].at, lists[2].count * sizeof(int32_t));
+    Ints class = {0}, op = {0};
+    for (int32_t o = 0; fine && o < p->n_ops; o++)
+        if (x->class_of[o] != NONE) fine = ints_push(&class, x->class_of[o]) && ints_push(&op, o);
+    fine = fine && lists_of(&x->members, x->n_ops, &class, &op);
     for (int i = 0; i < 4; i++) free(lists[i].at);
+    free(class.at), free(op.at);
     return fine && x->adder;
 }

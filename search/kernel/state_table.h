@@ -115,6 +115,14 @@ static int heap_reserve(Heap *heap, size_t more, Table *t) {
     return 1;
 }
 
+/* The number of a state that was met, or NONE. */
+static int32_t met(const Table *t, const Word *state) {
+    if (!t->n_slots) return NONE;
+    for (size_t i = hash(state, t->words) & (t->n_slots - 1); t->slots[i] != NONE; i = (i + 1) & (t->n_slots - 1))
+        if (!memcmp(state_of(t, t->slots[i]), state, (size_t)t->words * sizeof *state)) return t->slots[i];
+    return NONE;
+}
+
 /* The number of a state, which is added where it is new; there is room for one more. */
 static int32_t find(Table *t, const Word *state, int *is_new) {
     size_t i = hash(state, t->words) & (t->n_slots - 1);

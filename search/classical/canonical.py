@@ -1,0 +1,97 @@
+"""Of all cheapest plans the first: the smallest operator at each step.
+
+Some cheapest plan is put in order first, which costs no search.  Then for each step smaller operators are
+asked about: whether a cheapest plan begins with one.  One that begins none still begins none after an
+operator that has nothing to do with it (sleep sets of Godefroid, Partial-Order Methods for the
+Verification of Concurrent Systems, 1996).
+"""
+
+from collections.abc import Sequence
+from heapq import heapify, heappop, heappush
+
+from search.classical.planner import ClassicalPlanner
+from search.classical.problem import NO_PLAN
+from search.packed.operators import Operator
+from serendipity.model.resources.deadline import Deadline
+
+
+def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) -> list[int] | None:
+    """The cheapest plan with the smallest operators, by their numbers; None where there is no plan.
+
+    Args:
+        planner: the kernel on the problem.
+        state: the packed state to begin in.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came first.
+    """
+    operators = planner.problem.operators
+    left = planner.cheapest(state, deadline)
+    if left >= NO_PLAN:
+        return None
+    rest = in_order(operators, planner.known_plan(state) or ())
+    amounts = [planner.problem.amount(weight) for weight in planner.problem.weights]
+    plan: list[int] = []
+    refuted: set[int] = set()
+    while rest:
+        for number in planner.allowed(state):
+            if number >= rest[0]:
+                break
+            if number in refuted:
+                continue
+            op = operators[number]
+            after, amount = state & op.keep | op.put, left - amounts[number]
+            if amount >= 0 and planner.cheapest(after, deadline, amount + 1) == amount:
+                rest = [number, *in_order(operators, planner.known_plan(after) or ())]
+                break
+            refuted.add(number)
+        chosen = operators[rest[0]]
+        plan.append(rest.pop(0))
+        state, left = state & chosen.keep | chosen.put, left - amounts[plan[-1]]
+        refuted = {number for number in refuted if _independent(operators[number], chosen)}
+    return plan
+
+
+def in_order(operators: Sequence[Operator], plan: Sequence[int]) -> list[int]:
+    """Of all orders in which a plan's operators do the same the first.
+
+    Args:
+        operators: of the problem.
+        plan: some of them, by their numbers, as they can be done one after another.
+    """
+    waits = [0] * len(plan)
+    after: list[list[int]] = [[] for _ in plan]
+    for later, number in enumerate(plan):
+        for earlier in range(later):
+            if not _independent(operators[plan[earlier]], operators[number]):
+                after[earlier].append(later)
+                waits[later] += 1
+    ready = [(plan[place], place) for place, count in enumerate(waits) if not count]
+    heapify(ready)
+    found = []
+    while ready:
+        number, place = heappop(ready)
+        found.append(number)
+        for later in after[place]:
+            waits[later] -= 1
+            if not waits[later]:
+                heappush(ready, (plan[later], later))
+    return found
+
+
+def _independent(a: Operator, b: Operator) -> bool:
+    """Whether neither sets what the other one asks for or sets: then their order does not matter."""
+    return not (_sets(a) & (_asks(b) | _sets(b)) or _sets(b) & _asks(a))
+
+
+def _sets(op: Operator) -> int:
+    """The bits that an operator may change; all beyond the fields are kept."""
+    return ~op.keep
+
+
+def _asks(op: Operator) -> int:
+    asked = op.need_mask
+    for mask, _ in op.forbidden:
+        asked |= mask
+    return asked

@@ -1,0 +1,116 @@
+"""Of all cheapest plans the kernel finds the one that enumeration puts first, and keeps those on its way."""
+
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from search.classical.canonical import canonical_plan, in_order
+from search.classical.planner import ClassicalPlanner
+from search.classical.problem import NO_PLAN
+from search.kernel.library import library
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
+from serendipity import Task
+from serendipity.model import Deadline, LimitReachedError
+from serendipity.testing.builders import usar
+from serendipity.testing.strategies import tasks
+from tests.search.abstractions.test_bounds_are_admissible import packed_of
+from tests.search.classical.test_kernel_equals_brute_force import amounts, assert_leads_to_goal, planner_of
+
+pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
+
+
+def first_of_all(packed: PackedTask, planner: ClassicalPlanner, costs: dict[int, int]) -> list[int] | None:
+    """The smallest operators along which brute-force costs add up."""
+    state, plan = packed.init, []
+    if costs[state] == NO_PLAN:
+        return None
+    while costs[state]:
+        for number in planner.allowed(state):
+            op = packed.own[number]
+            after = state & op.keep | op.put
+            if costs[after] + planner.amount([number]) == costs[state]:
+                break
+        plan.append(number)
+        state = after
+    return plan
+
+
+@given(tasks(), st.integers(0, 2**32))
+def test_the_canonical_plan_is_the_first(task: Task, seed: int) -> None:
+    packed = packed_of(task)
+    planner, costs, random = planner_of(packed), amounts(packed), Random(seed)
+    expected = first_of_all(packed, planner, costs)
+    assert canonical_plan(planner, packed.init, Deadline()) == expected
+    for _ in range(5):  # whatever else has been asked
+        planner.cheapest(random.choice([*costs]), Deadline(), random.choice([NO_PLAN, 1 << 25, 1 << 26]))
+    assert canonical_plan(planner, packed.init, Deadline()) == expected
+
+
+@given(tasks())
+def test_plans_are_known_from_states_whose_cost_was_found(task: Task) -> None:
+    packed = packed_of(task)
+    planner, costs = planner_of(packed), amounts(packed)
+    for state, cost in costs.items():
+        found = planner.cheapest(state, Deadline())
+        plan = planner.known_plan(state)
+        assert (plan is None) == (found == NO_PLAN)
+        if plan is not None:
+            assert assert_leads_to_goal(packed, state, plan) == cost
+
+
+@given(tasks())
+def test_what_was_come_across_is_a_plan(task: Task) -> None:
+    packed = packed_of(task)
+    for state, cost in amounts(packed).items():
+        planner = planner_of(packed)
+        assert planner.best_so_far(state) is None
+        planner.cheapest(state, Deadline(), limit=cost)  # none is below
+        found = planner.best_so_far(state)
+        assert found is None or assert_leads_to_goal(packed, state, found) == 0  # a goal
+
+
+class Ends(Deadline):
+    """Runs out at a look."""
+
+    def __init__(self, looks: int) -> None:
+        super().__init__()
+        self.looks = looks
+
+    def check(self) -> None:
+        """See :class:`Deadline`."""
+        self.looks -= 1
+        if self.looks < 0:
+            raise LimitReachedError("time-limit")
+
+
+def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("search.classical.planner._SLICE", 0)
+    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
+    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    kept = []
+    for looks in range(1000):
+        planner = planner_of(packed)
+        try:
+            planner.cheapest(packed.init, Ends(looks))
+        except LimitReachedError:
+            kept.append(planner.best_so_far(packed.init))
+        else:
+            break
+    plans = [plan for plan in kept if plan is not None]
+    assert kept
+    for plan in plans:
+        assert assert_leads_to_goal(packed, packed.init, plan) >= cost
+
+
+def test_operators_that_have_nothing_to_do_with_each_other_are_sorted() -> None:
+    def op(asks: int, sets: int, forbids: int = 0) -> Operator:
+        return Operator(asks, 0, ~sets, sets, ((forbids, forbids),) if forbids else (), 0, 1, 0)
+
+    free = [op(0b0001, 0b0001), op(0b0010, 0b0010), op(0b0100, 0b0100)]
+    assert in_order(free, [2, 1, 0]) == [0, 1, 2]
+    assert in_order([op(0b0010, 0b0001), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # 0 asks for what 1 sets
+    assert in_order([op(0, 0b0010), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # both set it
+    assert in_order([op(0, 0b0001, 0b0010), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # 0 must not find it
