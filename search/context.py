@@ -1,6 +1,6 @@
 """What every search of one call shares: packed task, key weights, bounds, the human alone."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -141,10 +141,15 @@ class SearchContext:
         own = self.tables.private_distances
         return PrivateDistances(own, self.interactions, self.bound, self.steps, self.weights, self.deadline)
 
-    def successors(self, *, idle: bool = False) -> Successors:
-        """Action sets under the interference rule; with ``idle`` robots do nothing."""
+    def successors(self, *, idle: bool = False, barred: Collection[int] = ()) -> Successors:
+        """Action sets under the interference rule; with ``idle`` robots do nothing, else nothing barred."""
         return Successors(
-            self.packed, self.weights.team, self.deadline, strict=self.options.strict, idle=idle
+            self.packed,
+            self.weights.team,
+            self.deadline,
+            strict=self.options.strict,
+            idle=idle,
+            barred=barred,
         )
 
     def walks(self, plan: HumanPlan) -> Decoupled | None:

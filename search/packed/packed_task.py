@@ -203,6 +203,19 @@ class PackedTask:
             op = self._ops[action_id] = self._pack_action(action_id)
         return op
 
+    def effect(self, action_id: int) -> tuple[int, int]:
+        """``s & keep | put``: what an action does to what is packed, whatever it asks for."""
+        action = self.task.actions[action_id]
+        clear = put = 0
+        for fact in action.delete:
+            clear |= self._cleared[fact]
+        for fact in action.add:
+            bits = self.fact_bits[fact]
+            if bits is not None:
+                clear |= bits[0]
+                put |= bits[1]
+        return self.all_ones & ~clear, put
+
     def is_useful(self, action_id: int) -> bool:
         """Whether an action is packed: it can contribute to something."""
         place = bisect_left(self.useful, action_id)
@@ -262,19 +275,12 @@ class PackedTask:
     def _pack_action(self, action_id: int) -> Operator:
         action = self.task.actions[action_id]
         need_mask, need, forbidden = self._literals(action.pre, action.neg)
-        clear = put = 0
-        for fact in action.delete:
-            clear |= self._cleared[fact]
-        for fact in action.add:
-            bits = self.fact_bits[fact]
-            if bits is not None:
-                clear |= bits[0]
-                put |= bits[1]
+        keep, put = self.effect(action_id)
         agents = self._agents.get(action.participants)
         if agents is None:
             agents = self._agents[action.participants] = sum(1 << agent for agent in action.participants)
         cost = self._cost_index[action.cost.as_integer_ratio()]
-        return Operator(need_mask, need, self.all_ones & ~clear, put, forbidden, action_id, agents, cost)
+        return Operator(need_mask, need, keep, put, forbidden, action_id, agents, cost)
 
 
 def _distinct_costs(task: Task) -> tuple[Fraction, ...]:

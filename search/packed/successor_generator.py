@@ -4,7 +4,7 @@ Ops are looked up under their leader by the value of one field, the one that mos
 of the leader's actions ask for (a position, as a rule).
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from itertools import chain
 from typing import Final, NamedTuple
 
@@ -47,10 +47,16 @@ _MANY = 1023
 class Lookup:
     """Weighted ops of one leader; what a value of the index allows is put together once."""
 
-    def __init__(self, index: OperatorIndex[Operator], weight: Callable[[Operator], int]) -> None:
+    def __init__(
+        self,
+        index: OperatorIndex[Operator],
+        weight: Callable[[Operator], int],
+        barred: Collection[int] = (),
+    ) -> None:
         self._index = index
         self._field = index.field
         self._weight = weight
+        self._barred = barred
         self._weighted: dict[int, list[tuple[Operator, JointAction]]] = {}
 
     def options(self, state: int) -> list[JointAction]:
@@ -65,7 +71,8 @@ class Lookup:
         ]
 
     def _prepare(self, state: int) -> list[tuple[Operator, JointAction]]:
-        found = [(op, as_option(op, self._weight(op))) for op in self._index.candidates(state)]
+        allowed = (op for op in self._index.candidates(state) if op.action not in self._barred)
+        found = [(op, as_option(op, self._weight(op))) for op in allowed]
         found.sort(key=lambda pair: (pair[1].weight, pair[0].action))
         self._weighted[state & self._field] = found
         return found
@@ -85,6 +92,7 @@ class Successors:
         deadline: polled while sets of several robots' actions are put together, which can be many.
         strict: strict interference (semantics 2).
         idle: robots do nothing.
+        barred: ids of actions of robots, alone or with the human, that nobody may do.
     """
 
     def __init__(
@@ -95,13 +103,14 @@ class Successors:
         *,
         strict: bool,
         idle: bool = False,
+        barred: Collection[int] = (),
     ) -> None:
         self._packed = packed
         self._deadline = deadline
         self._strict = strict
         self._own = Lookup(packed.own_index, weight)
-        self._joint = Lookup(packed.joint_index, weight) if packed.joint and not idle else None
-        self._led = [] if idle else [Lookup(index, weight) for index in packed.robot_indices]
+        self._joint = Lookup(packed.joint_index, weight, barred) if packed.joint and not idle else None
+        self._led = [] if idle else [Lookup(index, weight, barred) for index in packed.robot_indices]
         self._busy: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
         self._changing: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
 

@@ -9,7 +9,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.planner import canonical_human_plan
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
-from search.simulation.space import Reactive
+from search.simulation.space import Reactive, Start
 from search.spaces.fixed_human_plan import FixedHumanPlan
 from serendipity.model.answers.answer import Answer, saved
 from serendipity.model.errors import LIMITS, limit_reason
@@ -153,11 +153,12 @@ class _Call:
             pass
 
     def _space(self, *, idle: bool) -> Reactive:
+        init = self.human.packed.init
         return Reactive(
             self.human,
             self.human.context.successors(idle=idle),
+            start=Start(init, init, self.human.intentions.of(self.plan)),
             horizon=self.epochs,
-            human_plan=self.plan,
             no_block=self.options.no_block is not False,
             most_cost=None if idle else self._most_cost(),
             sees_all=self.options.human_model == "observant",

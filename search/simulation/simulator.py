@@ -8,6 +8,7 @@ from search.packed.operators import Operator, applicable
 from search.prepared_task import PreparedTask
 from search.simulation.human import Glance, Human
 from search.simulation.intention import Intention
+from search.simulation.space import Start
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -118,13 +119,47 @@ def simulate(
         LimitReachedError: the deadline ran out in the first epoch, or before it.
     """
     task, deadline = prepared.task, deadline or Deadline()
+    planned = _by_epoch(task, steps)
+    asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
+    human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
+    init = human.packed.init
+    start = Start(init, init, human.intentions.of(human_plan))
+    return _Run(task, options, human, planned, start, deadline).play(horizon)
+
+
+def simulate_from(
+    start: Start,
+    human: Human,
+    options: Options,
+    steps: Iterable[Step],
+    *,
+    horizon: int | None,
+    deadline: Deadline,
+) -> Simulated:
+    """The same from any moment, with a human who is there already.
+
+    Args:
+        start: where it begins.
+        human: the human; every action of ``steps`` is packed.
+        options: discount and interference.
+        steps: the composite plan, its epochs counted from the start.
+        horizon: ``T``, or None for any.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline ran out in the first epoch, or before it.
+    """
+    task = human.packed.task
+    return _Run(task, options, human, _by_epoch(task, steps), start, deadline).play(horizon)
+
+
+def _by_epoch(task: Task, steps: Iterable[Step]) -> dict[int, list[int]]:
+    """What robots take part in, epoch by epoch."""
     planned: dict[int, list[int]] = {}
     for step in steps:
         if task.actions[step.action].participants != (task.human,):
             planned.setdefault(step.epoch, []).append(step.action)
-    asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
-    human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
-    return _Run(task, options, human, planned, deadline).play(human_plan, horizon)
+    return planned
 
 
 def variants(task: Task, action: int) -> tuple[int, ...]:
@@ -143,6 +178,7 @@ class _Run:
         options: Options,
         human: Human,
         planned: dict[int, list[int]],
+        start: Start,
         deadline: Deadline,
     ) -> None:
         self.task = task
@@ -152,10 +188,11 @@ class _Run:
         self.packed = human.packed
         self.planned = planned
         self.settled = False
-        self.state = self.expected = self.packed.init
+        self.state, self.expected = start.state, start.belief
+        self.intention = start.intention
 
-    def play(self, human_plan: HumanPlan, horizon: int | None) -> Simulated:
-        intention = self.human.intentions.of(human_plan)
+    def play(self, horizon: int | None) -> Simulated:
+        intention = self.intention
         last = max(self.planned, default=0)
         epochs: list[Epoch] = []
         limit = None

@@ -6,7 +6,7 @@ earlier epoch is no worse: robots can do the same, only sooner, and they answer 
 same.  So labels dominate as elsewhere, on state and mind.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from search.engine.best_first import Incumbent, Node
@@ -31,17 +31,34 @@ class Mind(NamedTuple):
     guarded: bool
 
 
+class Start(NamedTuple):
+    """Where robots and the human begin.
+
+    Attributes:
+        state: packed, as it truly is.
+        belief: packed, what the human expects to see.
+        intention: what they mean to do.
+    """
+
+    state: int
+    belief: int
+    intention: Intention
+
+
 class Reactive:
     """The search space of robots' action sequences.
 
     Args:
         human: their state machine.
         successors: what agents can do in an epoch.
+        start: where it begins.
         horizon: number of epochs ``T``.
-        human_plan: ``pi_H``.
         no_block: robots must not leave them without a plan.
         most_cost: largest scaled cost of an acceptable plan, or None.
         sees_all: they are observant, so that beliefs need no telling apart.
+        keeps: robots must not make a plan impossible that the human would go on with: one that is being
+            followed works after every epoch, unless an observant human drops it for a cheaper one.
+        begins: whether a set of actions may be what happens in the first epoch; None: any.
     """
 
     def __init__(
@@ -49,12 +66,17 @@ class Reactive:
         human: Human,
         successors: Successors,
         *,
+        start: Start,
         horizon: int,
-        human_plan: tuple[int, ...],
         no_block: bool,
         most_cost: int | None,
         sees_all: bool,
+        keeps: bool = False,
+        begins: Callable[[tuple[int, ...]], bool] | None = None,
     ) -> None:
+        self._start = start
+        self._keeps = keeps
+        self._begins = begins
         self._human = human
         self._successors = successors
         self._horizon = horizon
@@ -68,12 +90,11 @@ class Reactive:
         self._labels = ParetoFront()
         self._minds: list[Mind] = []
         self._numbers: dict[tuple[int, int, bool], int] = {}
-        self._intention = human.intentions.of(human_plan)
 
     def roots(self) -> Iterator[tuple[int, Node]]:
-        """The initial state, the human with ``pi_H`` in mind."""
-        init = self._human.packed.init
-        mind = self._number(Mind(self._belief(init), self._intention, False))
+        """The initial state, and what the human has in mind."""
+        init = self._start.state
+        mind = self._number(Mind(self._belief(self._start.belief), self._start.intention, False))
         node = Node(0, 0, init, mind << 1, 0, None, ())
         self._labels.add(self._place(node), 0, 0)
         yield self._human.bound(init), node
@@ -144,7 +165,11 @@ class Reactive:
             bound = key + rest
             if bound >= best.key or self._human.keys.exceeds(bound, self._most_cost):
                 break
+            if epoch == 1 and self._begins is not None and not self._begins(option.actions):
+                continue
             after = state & option.keep | option.put
+            if settled and self._keeps and self._spoils(alone, after, mind.intention):
+                continue
             as_expected = settled and not (self._sees_all and (after ^ alone) & human.concern)
             child = Node(key, epoch, after, number | as_expected, 0, node, option.actions)
             if self._labels.add(self._place(child), epoch, key) and not self._offer(child, best):
@@ -172,6 +197,22 @@ class Reactive:
         if self._sees_all:
             return look.best is None
         return self._no_block and self._human.stuck(state)
+
+    def _spoils(self, alone: int, after: int, rest: Intention) -> bool:
+        """Whether robots make impossible what the human would go on with.
+
+        Args:
+            alone: the state that the human's part of an epoch leads to.
+            after: the one that the whole epoch leads to.
+            rest: what the human means to do from then on.
+        """
+        goal, human = self._goals[0], self._human
+        if not (alone ^ after) & human.concern or goal.holds(after):
+            return False
+        if not self._sees_all:
+            return rest.works(alone, goal) and not rest.works(after, goal)
+        look = human.decide(after, rest)
+        return look.kept is None and (look.best is None or look.best >= rest.cost)
 
     def _belief(self, belief: int) -> int:
         return 0 if self._sees_all else belief

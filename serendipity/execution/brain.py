@@ -1,18 +1,17 @@
 """The robots' side: what they know of the person, and what they decide in each epoch."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
-from serendipity.execution.adviser import Adviser
+from serendipity.execution.advice import Allows, Question
 from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import Decided
 from serendipity.execution.outlook import Outlook
 from serendipity.execution.promises import Promises
 from serendipity.execution.prospects import Prospect, best_for_all
 from serendipity.execution.words import Words
-from serendipity.execution.world import World
-from serendipity.model.answers.result import Result
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options
@@ -26,6 +25,26 @@ if TYPE_CHECKING:
 
 _TIME_TO_TELL: Final = 0.5
 """The share of the time that has to be left for finding out why nothing is done."""
+
+_TIME_TO_WEIGH: Final = 0.4
+"""The share of the time that is kept for what comes after planning."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What all goals have in common in an epoch.
+
+    Attributes:
+        state: ids of the facts that are true.
+        barred: ids of actions that nobody may do.
+        allows: what may happen in the epoch.
+        weights: how probable each goal is.
+    """
+
+    state: frozenset[int]
+    barred: frozenset[int]
+    allows: Allows
+    weights: dict[int, Fraction]
 
 
 class Brain:
@@ -47,8 +66,7 @@ class Brain:
         self._beliefs = None if goals is None else Beliefs.about(task, goals, beta)
         conditions = [task.goal] if self._beliefs is None else [c.goal for c in self._beliefs.candidates]
         tasks = [task if goal == task.goal else task.with_goal(goal) for goal in conditions]
-        self._promises = Promises(tasks, strict=options.strict, told=told)
-        self._advisers = [Adviser(one, options) for one in tasks]
+        self._promises = Promises(tasks, options, told=told)
         self._words = Words(task, self._beliefs)
         self._human = task.agents[task.human]
         self._agents = {name: i for i, name in enumerate(task.agents)}
@@ -60,14 +78,15 @@ class Brain:
 
     # -- what robots learn
 
-    def saw(self, own: int | None, executed: Sequence[int]) -> None:
-        """Take in an epoch: what the person did alone, and everything that took place."""
-        self._promises.acted(own)
+    def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
+        """See :class:`serendipity.execution.Robots`."""
+        self._promises.acted(own, executed, tried)
         if self._beliefs is not None:
             self._beliefs.saw(own, executed)
 
     def surprised(self) -> None:
         """The world is other than what actions have made it."""
+        self._promises.surprised()
         if self._beliefs is not None:
             self._beliefs.disturbed()
 
@@ -85,70 +104,80 @@ class Brain:
         """
         world = outlook.world
         weights = self._weights(world.state, deadline)
-        off = self._promises.look(world.state, weights, deadline)
-        if not off:
+        goals = self._promises.look(world.state, weights, deadline)
+        if not goals:
             return self._idle(outlook, "aside", self._words.hopeless())
-        weights = {goal: weights[goal] for goal in off}
-        untouched = frozenset[int]().union(*off.values())
-        running = [step for step in outlook.running if world.of(step) not in untouched]
-        if self._promises.broken_by(running, (), world, weights, deadline) is not None:
-            running = []
+        running = self._going_on(outlook, goals)
         busy = [self._agents[name] for step in outlook.running for name in step.agents]
-        unable = self._out | self._promises.hands.of(busy)
-        removed = untouched | unable
-        while not self._promises.hands.all <= removed:
-            prospect = self._planned(world, removed, weights, deadline)
-            if prospect is None:
-                torn = self._torn(world, {goal: unable | own for goal, own in off.items()}, deadline)
-                return self._idle(outlook, *(self._words.unsure() if torn else self._words.nothing()))
-            own, offers = self._now(outlook, prospect)
-            broken = self._promises.broken_by([*running, *own], offers, world, weights, deadline)
-            if broken is None:
-                return self._decided(outlook, prospect, [*running, *own], offers)
-            if broken in running:
-                running.remove(broken)
-            else:
-                removed |= {world.of(broken)}
-        return self._idle(outlook, "aside", self._words.helpless(), running)
+        barred = self._out | self._promises.hands.of(busy)
+        if self._promises.hands.all <= barred:
+            return self._idle(outlook, "aside", self._words.helpless(), running)
+        allows = self._promises.allows(goals, [world.of(step) for step in running])
+        asked = _Asked(world.state, barred, allows, {goal: weights[goal] for goal in goals})
+        prospects = self._planned(asked, deadline.sooner(_TIME_TO_WEIGH))
+        certain = len(prospects) == 1
+        if certain and prospects[0].advice is None:
+            return self._idle(outlook, "aside", self._words.helpless(), running)
+        prospect = prospects[0] if certain else best_for_all(prospects, deadline)
+        if prospect is None:
+            torn = self._torn(asked, prospects, deadline)
+            return self._idle(outlook, *(self._words.unsure() if torn else self._words.nothing()), running)
+        own, offers = self._now(outlook, prospect)
+        return self._decided(outlook, prospect, [*running, *own], offers)
 
     def _weights(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:
-        """The goals that the person may have, with their probabilities."""
+        """The goals that the person may have, with their probabilities, the most probable first."""
         if self._beliefs is None:
             return {0: Fraction(1)}
         self._beliefs.update(state, deadline)
-        return {goal: self._beliefs.weights[goal] for goal in self._beliefs.possible()}
+        weights = self._beliefs.weights
+        return {goal: weights[goal] for goal in sorted(self._beliefs.possible(), key=lambda g: -weights[g])}
 
-    def _planned(
-        self, world: World, removed: frozenset[int], weights: dict[int, Fraction], deadline: Deadline
-    ) -> Prospect | None:
-        """The plan that costs least in the mean over the goals, or None where idling costs no more."""
-        total = sum(weights.values())
+    def _going_on(self, outlook: Outlook, goals: Sequence[int]) -> list[PlanStep]:
+        """What was begun and may still be finished."""
+        running: list[PlanStep] = []
+        allows = self._promises.allows(goals)
+        for step in outlook.running:
+            if allows([outlook.world.of(other) for other in (*running, step)]):
+                running.append(step)
+        return running
+
+    def _planned(self, asked: "_Asked", deadline: Deadline) -> list[Prospect]:
+        """A prospect for each goal; goals that hardly matter get what time is left."""
+        total = sum(asked.weights.values())
         prospects = []
-        for goal, weight in weights.items():
-            following = self._promises.to(goal)
-            result = self._advised(goal, world, removed, deadline)
-            if result is not None:
-                promise = following.promise()
-                prospects.append(Prospect(goal, result, following.prepared, promise, weight / total))
-        certain = len(weights) == 1 and prospects
-        return prospects[0] if certain else best_for_all(prospects, self._options, deadline)
+        for number, (goal, weight) in enumerate(asked.weights.items()):
+            imagined = self._promises.to(goal)
+            question = Question(asked.state, imagined.following, asked.barred, asked.allows)
+            try:
+                share = deadline.part(1 / (len(asked.weights) - number))
+                advice = imagined.adviser.advise(question, share)
+            except LIMITS:
+                if len(asked.weights) == 1:
+                    raise
+                advice = None
+            imagined.companion.under(deadline)
+            prospects.append(Prospect(goal, imagined, advice, weight / total))
+        return prospects
 
-    def _advised(self, goal: int, world: World, removed: frozenset[int], deadline: Deadline) -> Result | None:
-        """The best plan for a goal; None where the person has nothing left to do for it."""
-        following = self._promises.to(goal)
-        names = [following.task.actions[i].name for i in following.promise()]
-        return self._advisers[goal].advise(world.state, names, removed, deadline) if names else None
-
-    def _torn(self, world: World, removed: dict[int, frozenset[int]], deadline: Deadline) -> bool:
+    def _torn(self, asked: "_Asked", prospects: Sequence[Prospect], deadline: Deadline) -> bool:
         """Whether help would pay if it were known which goal it is; taken for no if time does not tell."""
+        if len(prospects) < 2 or any(prospect.pays for prospect in prospects):
+            return len(prospects) > 1
         left = deadline.left()
-        if len(removed) < 2 or (left is not None and left < _TIME_TO_TELL * (left + deadline.elapsed())):
+        if left is not None and left < _TIME_TO_TELL * (left + deadline.elapsed()):
             return False
         try:
-            advised = (self._advised(goal, world, off, deadline) for goal, off in removed.items())
-            return any(result is not None and result.opportunity for result in advised)
+            return any(self._pays_alone(asked, prospect, deadline) for prospect in prospects)
         except LIMITS:
             return False
+
+    def _pays_alone(self, asked: "_Asked", prospect: Prospect, deadline: Deadline) -> bool:
+        """Whether help would pay if a goal were the only one."""
+        imagined, allows = prospect.imagined, self._promises.allows([prospect.goal])
+        question = Question(asked.state, imagined.following, asked.barred, allows)
+        advice = imagined.adviser.advise(question, deadline)
+        return advice is not None and advice.pays
 
     def _now(self, outlook: Outlook, prospect: Prospect) -> tuple[list[PlanStep], tuple[PlanStep, ...]]:
         """What robots do by themselves in the first epoch of a plan, and what they offer."""
@@ -174,9 +203,10 @@ class Brain:
             offers=offers,
             expected=next(his, None),
             plan=prospect.plan,
-            window=prospect.result.window,
+            window=None if prospect.advice is None else prospect.advice.window,
             cost=sum(step.cost for step in prospect.plan),
             alone=float(prospect.alone),
+            proved=prospect.advice is not None and prospect.advice.proved,
             goals=self.goals,
         )
 

@@ -50,6 +50,7 @@ class Decided:
         window: where the person is met in that plan, as far as it says so.
         cost: what the rest costs the team by that plan.
         alone: what it costs the person without help.
+        proved: whether the plan, or doing nothing, is known to be the best; not where time was up first.
         goals: the posterior of each candidate goal; empty where there is only one.
         seconds: that the decision took.
     """
@@ -64,6 +65,7 @@ class Decided:
     window: Window | None = None
     cost: float | None = None
     alone: float | None = None
+    proved: bool = False
     goals: Mapping[str, float] = field(default_factory=dict)
     seconds: float = 0.0
 
@@ -83,6 +85,7 @@ class Decided:
             "window": None if self.window is None else self.window.to_dict(),
             "cost": self.cost,
             "alone": self.alone,
+            "proved": self.proved,
             "goals": dict(self.goals),
             "seconds": self.seconds,
         }

@@ -21,8 +21,8 @@ from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
 
-_PREPARATION: Final = 10.0
-"""Seconds before the first epoch in which tables may be made, where epochs have a deadline."""
+SETUP: Final = 2.0
+"""Seconds before the first epoch for tables and a first plan, where epochs have a deadline."""
 
 
 class Execution(Tabular):
@@ -44,6 +44,7 @@ class Execution(Tabular):
             know which; None: robots know the task's goal.
         beta: of the posterior.
         deadline: seconds for each decision, or None; robots do nothing in an epoch that has none in time.
+        setup: where there is a deadline, seconds before the first epoch for tables and a first plan.
         interference: which actions may share an epoch.
         told: the person knows the robots' plan and keeps to it, so that only its part of theirs has to
             stay possible.
@@ -71,6 +72,7 @@ class Execution(Tabular):
         goals: "GoalsGiven | None" = None,
         beta: Number = 1,
         deadline: float | None = None,
+        setup: float = SETUP,
         interference: str = "paper",
         told: bool = False,
         mode: str = "serendipity",
@@ -95,7 +97,7 @@ class Execution(Tabular):
         self._passed: list[Passed] = []
         self._paid = self._team = Fraction(0)
         if self._deadline is not None:
-            self._prepare()
+            self._prepare(limit_of("setup", setup, "seconds"))
 
     # -- where things stand
 
@@ -171,14 +173,14 @@ class Execution(Tabular):
         offer = None if action is None else self._offer(decided, action)
         his = None if action is None or offer is not None else self._world.his(action)
         in_vain = his is not None and not self._world.applicable(his)
-        his = None if in_vain else his
+        tried, his = (his, None) if in_vain else (None, his)
         before = self._world.state
         robots = [*([] if offer is None else [offer]), *decided.actions]
         happened = self._world.play(his, robots, lambda steps: self._carry_out(his, steps))
         self._running = [u.step for u in happened.unfinished if u.why == "running" and u.step is not offer]
         paid, team = self._world.cost(happened.executed)
         self._paid, self._team = self._paid + paid, self._team + team
-        self._brain.saw(his, happened.executed)
+        self._brain.saw(his, happened.executed, tried)
         passed = Passed(
             epoch=decided.epoch,
             decided=decided,
@@ -226,11 +228,11 @@ class Execution(Tabular):
 
     # -- within an epoch
 
-    def _prepare(self) -> None:
-        """What the first decision needs and later ones keep."""
+    def _prepare(self, seconds: float) -> None:
+        """What the first decision needs and later ones keep; a plan for it, if there is one by then."""
         try:
             with no_collection():
-                self._brain.decide(self._outlook(), Deadline(_PREPARATION))
+                self._brain.decide(self._outlook(), Deadline(seconds))
         except LIMITS:
             pass
 

@@ -1,24 +1,23 @@
 """What robots must leave alone: the plan that the person is following, and what any other would cost.
 
 Nobody knows which plan a person is following.  Robots take it to be one that was the canonical choice
-at some epoch and that they have kept to since.  Nothing that such a plan asks for may be spoilt,
-neither what it needs now nor what it will need (the preconditions of its steps, and the goal): it works
-after every epoch.  Somebody may be following another plan that is just as cheap.  So whatever they do
-next that begins a cheapest plan, the rest must not get dearer by what robots do meanwhile.  Hence a person
-who replans when that is cheaper, or has to, never pays more than they would have alone.
+at some epoch and that they have kept to since.  Such a plan works after every epoch, unless the person
+drops it anyway, because what robots have done has made another one cheaper, and they see that.  Somebody
+may be following another plan that is just as cheap.  So whatever they do next that begins a cheapest
+plan, the rest must not get dearer by what robots do meanwhile.  Hence a person who replans when that is
+cheaper, or has to, never pays more than they would have alone.
 """
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from search import PreparedTask
-from search.context import SearchContext
+from search.human.individual_planner import canonical
 from search.packed.cost_vector import INFINITE_KEY
-from search.planner import canonical_human_plan
-from serendipity.model.errors import PlanError
-from serendipity.model.options import Options
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import apply, conflicting
+from search.packed.operators import Operator, applicable
+from search.simulation.human import Human
+from search.simulation.intention import Intention
+from search.simulation.space import Start
 from serendipity.model.task.task import HumanPlan, Task
 
 
@@ -34,133 +33,177 @@ class Needed:
     true: frozenset[int] = frozenset()
     false: frozenset[int] = frozenset()
 
-    def __or__(self, other: "Needed") -> "Needed":
-        return Needed(self.true | other.true, self.false | other.false)
-
 
 class Following:
     """The plans that the person may be following towards one goal.
 
     Args:
-        prepared: the task with that goal.
+        human: the person, as robots imagine them.
+        state: ids of the facts that are true in the beginning, as the person knows.
+        sees_all: whether they see at once what robots do.
         strict: whether interference is strict.
 
     Attributes:
         plans: their steps that are left: those that were predicted, the oldest first.
-        prepared: the task with that goal, in the state that was looked at last.
     """
 
-    def __init__(self, prepared: PreparedTask, *, strict: bool) -> None:
-        self.plans: list[HumanPlan] = []
-        self.prepared = prepared
+    def __init__(self, human: Human, state: frozenset[int], *, sees_all: bool, strict: bool) -> None:
+        self.plans: list[Intention] = []
+        self._human = human
+        self._sees_all = sees_all
         self._strict = strict
-        his = (prepared.task.actions[i] for i in prepared.task.human_actions)
-        facts = {f for a in his for f in (*a.pre, *a.neg, *a.add, *a.delete)}
-        self._concern = facts.union(prepared.task.goal.positive, prepared.task.goal.negative)
-
-    @property
-    def task(self) -> Task:
-        """The task with that goal, in the state that was looked at last."""
-        return self.prepared.task
+        self._task = human.packed.task
+        self._state = self._belief = human.packed.pack(state)
 
     @property
     def hopeless(self) -> bool:
         """Whether they have no plan alone."""
         return not self.plans
 
-    def look(self, state: frozenset[int], deadline: Deadline) -> Needed:
-        """What is to be left alone in a state.
+    @property
+    def start(self) -> Start:
+        """Where they are, what they believe, and what they go on with."""
+        return Start(self._state, self._belief, self._oldest())
+
+    def look(self, state: frozenset[int]) -> None:
+        """The person looks up.
+
+        Args:
+            state: ids of the facts that are true.
 
         Raises:
             LimitReachedError: the deadline came first.
         """
-        self.prepared = self.prepared.at(state, deadline)
-        self.plans = [kept for plan in self.plans if (kept := self._working(plan)) is not None]
-        canonical = canonical_human_plan(self.prepared, deadline)
-        if canonical is not None and canonical not in self.plans:
-            self.plans.append(canonical)
-        return self._needed()
+        human = self._human
+        self._state = human.packed.pack(state)
+        self._belief = human.eyes.look(self._belief, self._state)
+        goal = human.packed.goal
+        self.plans = [plan for plan in self.plans if plan.works(self._belief, goal)]
+        if human.alone.key(self._belief) >= INFINITE_KEY:
+            return
+        best = human.intentions.of(canonical(human.alone, self._belief))
+        if best not in self.plans:
+            self.plans.append(best)
 
     def promise(self) -> HumanPlan:
         """The plan that they go on with if nothing better turns up: the oldest one as cheap as any."""
-        costs = [self.task.cost_of(plan) for plan in self.plans]
-        return self.plans[costs.index(min(costs))]
+        return self._oldest().actions
 
-    def acted(self, action: int | None) -> None:
-        """Say what the person did by themselves: plans that begin otherwise are not theirs."""
-        if action is not None:
-            name = self.task.actions[action].name
-            begun = (plan for plan in self.plans if plan and self.task.actions[plan[0]].name == name)
-            self.plans = list(dict.fromkeys(plan[1:] for plan in begun))
+    def _oldest(self) -> Intention:
+        return min(self.plans, key=lambda plan: plan.cost)
 
-    def spoilt(self, robots: Sequence[int], offers: Sequence[int], deadline: Deadline) -> bool:
-        """Whether what robots do in an epoch could make it dearer for the person, whichever way they go.
+    def acted(self, own: int | None, executed: Iterable[int], tried: int | None = None) -> None:
+        """Say what the person did: plans that begin otherwise are not theirs.
+
+        Args:
+            own: what they did by themselves.
+            executed: everything that took place.
+            tried: what they found to be impossible.
+        """
+        human, task = self._human, self._task
+        his = [i for i in executed if task.human in task.actions[i].participants]
+        self._belief = _after(self._belief, map(human.packed.effect, his))
+        if tried is not None and human.packed.is_useful(tried):
+            self._belief = human.learn(self._belief, self._state, human.packed.op(tried))
+        if own is not None:
+            name = task.actions[own].name
+            begun = (p for p in self.plans if p.op is not None and task.actions[p.op.action].name == name)
+            self.plans = list(dict.fromkeys(plan.rest for plan in begun))
+
+    def needed(self) -> Needed:
+        """What the plans ask for: the preconditions of all their steps, and the goal."""
+        true, false = set(self._task.goal.positive), set(self._task.goal.negative)
+        for plan in self.plans:
+            for i in plan.actions:
+                true.update(self._task.actions[i].pre)
+                false.update(self._task.actions[i].neg)
+        return Needed(frozenset(true), frozenset(false))
+
+    def spoilt(self, robots: Sequence[int], offers: Sequence[int]) -> bool:
+        """Whether what robots do in an epoch could spoil the plan of the person, whichever it is.
 
         Args:
             robots: ids of what robots do by themselves.
             offers: ids of joint actions that the person may take part in.
-            deadline: polled.
 
         Raises:
             LimitReachedError: the deadline came first.
         """
-        actions = [self.task.actions[i] for i in robots]
-        if all(self._concern.isdisjoint((*a.add, *a.delete)) for a in actions):
+        packed, concern = self._human.packed, self._human.concern
+        others = [_Other(i, *packed.effect(i)) for i in robots]
+        if not any(packed.all_ones & ~other.keep & concern for other in others):
             return False
-        state, alone = self.task.init, _Alone(self.prepared, deadline)
-        least = alone.cost(state)
-        for i in (*self.task.human_actions, *offers):
-            deadline.tick()
-            step = self.task.actions[i]
-            if not step.applicable(state):
-                continue
-            rest = alone.cost(apply(state, step))
-            if rest is None or (i not in offers and least != alone.price(i) + rest):
-                continue  # not the way to go
-            if any(conflicting(step, action, strict=self._strict) for action in actions):
-                return True
-            then = alone.cost(apply(state, step, *actions))
-            if then is None or then > rest:
-                return True
-        return False
+        return any(self._loses(op, others) for op in packed.own) or any(
+            self._worse(i, others) for i in offers
+        )
 
-    def _needed(self) -> Needed:
-        true, false = set[int](), set[int]()
-        for plan in self.plans:
-            true.update(self.task.goal.positive)
-            false.update(self.task.goal.negative)
-            for i in plan:
-                true.update(self.task.actions[i].pre)
-                false.update(self.task.actions[i].neg)
-        return Needed(frozenset(true), frozenset(false))
+    def _loses(self, op: Operator, others: Sequence["_Other"]) -> bool:
+        """Whether a plan that goes on with a step of the person's is spoilt, or what is left gets dearer."""
+        human, state = self._human, self._state
+        rests = [plan.rest for plan in self.plans if plan.op is not None and plan.op.action == op.action]
+        if not applicable(op, state):
+            return False  # tried in vain, whatever robots do
+        alone = _after(state, [_does(op)])
+        begins = self._begins(op, alone)
+        if not (rests or begins):
+            return False  # not the way to go
+        if self._conflict(op, others):
+            return True
+        then = _after(state, [_does(op), *map(_does, others)])
+        left, goal = human.alone.key(then), human.packed.goal
+        if begins and left >= human.key_of(human.keys.scaled_cost(human.alone.key(alone)) + 1):
+            return True
+        return any(
+            rest.works(alone, goal)
+            and not rest.works(then, goal)
+            and not (self._sees_all and left < human.key_of(rest.cost))
+            for rest in rests
+        )
 
-    def _working(self, plan: HumanPlan) -> HumanPlan | None:
-        try:
-            return self.task.variants_of(plan)
-        except PlanError:
-            return None
+    def _begins(self, op: Operator, after: int) -> bool:
+        """Whether a cheapest plan begins with a step of the person's, after which a state is reached."""
+        human = self._human
+        least = human.alone.key(self._state)
+        if least >= INFINITE_KEY:
+            return False
+        rest = human.keys.scaled_cost(least) - human.keys.scaled_cost(human.weights.human[op.cost])
+        return rest >= 0 and human.alone.key(after, limit := human.key_of(rest + 1)) < limit
+
+    def _worse(self, offer: int, others: Sequence["_Other"]) -> bool:
+        """Whether what is left is dearer by what robots do, if the person takes part in an action."""
+        op = self._human.packed.op(offer)
+        if not applicable(op, self._state):
+            return False
+        if self._conflict(op, others):
+            return True
+        least = self._human.alone.key(_after(self._state, [_does(op)]))
+        then = _after(self._state, [_does(op), *map(_does, others)])
+        return self._human.alone.key(then, least + 1) > least
+
+    def _conflict(self, op: Operator, others: Sequence["_Other"]) -> bool:
+        packed = self._human.packed
+        return not all(packed.compatible(op.action, other.action, self._strict) for other in others)
 
 
-class _Alone:
-    """What the person pays alone, scaled to integers.
+class _Other(NamedTuple):
+    """What somebody else does in an epoch: its id, and what it does to what is packed."""
 
-    Args:
-        prepared: the task.
-        deadline: polled.
-    """
+    action: int
+    keep: int
+    put: int
 
-    def __init__(self, prepared: PreparedTask, deadline: Deadline) -> None:
-        self._context = SearchContext(prepared, Options(), deadline)
 
-    def cost(self, state: Iterable[int]) -> int | None:
-        """The least cost from a state; None where there is no plan."""
-        key = self._context.alone.key(self._context.packed.pack(state))
-        return None if key >= INFINITE_KEY else self._context.keys.scaled_cost(key)
+def _does(action: Operator | _Other) -> tuple[int, int]:
+    return action.keep, action.put
 
-    def price(self, action: int) -> int:
-        """What one of their actions costs."""
-        cost = self._context.task.actions[action].cost * self._context.keys.scale
-        return cost.numerator
+
+def _after(state: int, effects: Iterable[tuple[int, int]]) -> int:
+    """The state after some actions in one epoch."""
+    kept, put = -1, 0
+    for keep, adds in effects:
+        kept &= keep
+        put |= adds
+    return state & kept | put
 
 
 class Hands:

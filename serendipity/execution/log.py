@@ -172,6 +172,7 @@ class _Script:
             window=read.window(value["window"]),
             cost=value["cost"],
             alone=value["alone"],
+            proved=value["proved"],
             goals=value["goals"],
             seconds=value["seconds"],
         )
@@ -184,7 +185,7 @@ class _Script:
     def close(self) -> None:
         """There is nothing to give back."""
 
-    def saw(self, own: int | None, executed: Sequence[int]) -> None:
+    def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
         """Nothing is learnt."""
 
     def surprised(self) -> None:

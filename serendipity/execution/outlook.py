@@ -37,8 +37,14 @@ class Robots(Protocol):
             LimitReachedError: the deadline came first; robots had better do nothing.
         """
 
-    def saw(self, own: int | None, executed: Sequence[int]) -> None:
-        """Take in an epoch: what the person did alone, and everything that took place, by action ids."""
+    def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
+        """Take in an epoch, by action ids.
+
+        Args:
+            own: what the person did alone, or None.
+            executed: everything that took place.
+            tried: what the person tried alone in vain, or None.
+        """
 
     def surprised(self) -> None:
         """The world is other than what actions have made it."""

@@ -4,46 +4,46 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search import PreparedTask
-from search.simulation import simulate
-from serendipity.model.answers.result import Result
-from serendipity.model.options import Options
+from serendipity.execution.advice import Advice
+from serendipity.execution.imagined import Imagined
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.plans import PlanStep, Step
-from serendipity.model.task.task import HumanPlan
 
 
 @dataclass(frozen=True, slots=True)
 class Prospect:
-    """The best plan for one of the goals that the person may have.
+    """One of the goals that the person may have, and the best plan for it.
 
     Attributes:
         goal: index of the goal.
-        result: the plan, from the present state.
-        prepared: the task with that goal, in the present state.
-        promise: what the person is going to do for that goal, without help.
+        imagined: the person with that goal.
+        advice: the plan, from the present state; None where there was none in time.
         weight: how probable the goal is.
     """
 
     goal: int
-    result: Result
-    prepared: PreparedTask
-    promise: HumanPlan
+    imagined: Imagined
+    advice: Advice | None
     weight: Fraction
 
     @property
     def plan(self) -> tuple[PlanStep, ...]:
         """What everybody does by that plan, its epochs counted from the one that is to come."""
-        return self.result.plan or ()
+        return () if self.advice is None else self.advice.plan
+
+    @property
+    def pays(self) -> bool:
+        """Whether there is a plan in which robots do something that is worth it."""
+        return self.advice is not None and self.advice.pays
 
     @property
     def alone(self) -> Fraction:
         """What the person pays without help."""
-        return self.prepared.task.cost_of(self.promise)
+        return self.imagined.task.cost_of(self.imagined.following.promise())
 
 
-def best_for_all(prospects: Sequence[Prospect], options: Options, deadline: Deadline) -> Prospect | None:
+def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect | None:
     """The prospect whose robots' part costs least in the mean over all goals; None if none beats idling.
 
     Robots' actions are played against the person with each of the goals, by what is known of how they
@@ -52,7 +52,6 @@ def best_for_all(prospects: Sequence[Prospect], options: Options, deadline: Dead
 
     Args:
         prospects: one for each goal.
-        options: in force.
         deadline: polled.
 
     Raises:
@@ -61,33 +60,26 @@ def best_for_all(prospects: Sequence[Prospect], options: Options, deadline: Dead
     best = None
     least = sum((p.weight * p.alone for p in prospects), Fraction(0))
     for prospect in prospects:
-        if not prospect.result.opportunity:
-            continue
-        cost = _mean(prospect, prospects, options, deadline)
-        if cost is not None and cost < least:
-            best, least = prospect, cost
+        if prospect.pays:
+            cost = _mean(prospect, prospects, least, deadline)
+            if cost is not None and cost < least:
+                best, least = prospect, cost
     return best
 
 
 def _mean(
-    chosen: Prospect, prospects: Sequence[Prospect], options: Options, deadline: Deadline
+    chosen: Prospect, prospects: Sequence[Prospect], least: Fraction, deadline: Deadline
 ) -> Fraction | None:
-    """The mean cost of a prospect's robots' part; None where a person would miss the goal."""
-    task = chosen.prepared.task
+    """The mean cost of a prospect's robots' part, as far as it is below ``least``; None: a goal is missed."""
+    task = chosen.imagined.task
     steps = [Step(step.epoch, actions_named(task, step.action, step.agents)[0]) for step in chosen.plan]
     total = Fraction(0)
     for other in prospects:
-        played = simulate(
-            other.prepared,
-            options,
-            other.promise,
-            steps,
-            human_model="local" if options.human_model == "local" else "observant",
-            horizon=None,
-            deadline=deadline,
-        )
+        played = other.imagined.companion.played(other.imagined.following.start, steps, deadline)
         deadline.check()
         if not played.goals_hold:
             return None
         total += other.weight * played.cost
+        if total >= least:
+            break
     return total

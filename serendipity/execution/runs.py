@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from search import PreparedTask
 from search.planner import canonical_human_plan
 from serendipity.execution.crews import Crew, Maker
-from serendipity.execution.decided import event_lines
+from serendipity.execution.decided import Decided, event_lines
 from serendipity.execution.execution import Execution
 from serendipity.execution.faults import Faults
 from serendipity.execution.log import log_lines
@@ -56,6 +56,8 @@ class Run:
         spoilt: the number of epochs in which what robots did made the plan that the person had in
             mind impossible.
         late: the number of epochs without a decision within the deadline.
+        open: the number of epochs whose decision is the best that was found in time, and not proved to
+            be the best.
         slowest: seconds of the longest decision.
         known: the epoch from which on the posterior of the person's goal was at least 0.9; None
             where it never was, or there was nothing to recognise.
@@ -74,6 +76,7 @@ class Run:
     helped: int
     spoilt: int
     late: int
+    open: int
     slowest: float
     known: int | None
     leads: int | None
@@ -207,7 +210,8 @@ def execute(
         epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.
         jobs: processes.
         on_progress: called with the number of runs that are over, and of all.
-        **options: ``discount``, ``deadline``, ``beta``, ``mode`` and ``interference`` of :class:`Execution`.
+        **options: ``discount``, ``deadline``, ``setup``, ``beta``, ``mode`` and ``interference`` of
+            :class:`Execution`.
 
     Raises:
         UsageError: an argument is wrong.
@@ -295,10 +299,15 @@ def _run(assignment: tuple[_Settings, int, int]) -> tuple[Run, tuple[dict[str, A
         helped=sum(any(len(s.agents) > 1 or s.agents[0] != run.human for s in p.steps) for p in run.passed),
         spoilt=spoilt,
         late=sum(passed.decided.verdict == "late" for passed in run.passed),
+        open=sum(_is_open(passed.decided) for passed in run.passed),
         slowest=max((passed.decided.seconds for passed in run.passed), default=0.0),
         **_recognised(run, settings.goal),
     )
     return row, tuple(log_lines(run, run=number, seed=seed, **settings.notes))
+
+
+def _is_open(decided: Decided) -> bool:
+    return decided.verdict != "late" and decided.plan is not None and not decided.proved
 
 
 def _spoils(run: Execution, person: Person) -> bool:

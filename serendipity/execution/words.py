@@ -54,7 +54,7 @@ class Words:
             prospect: the plan.
             now: what robots do and offer in this epoch.
         """
-        if not prospect.result.opportunity:
+        if not prospect.pays:
             return ("works", "sees to goals of its own") if now else self.nothing()
         if now:
             cost = sum(step.cost for step in prospect.plan)

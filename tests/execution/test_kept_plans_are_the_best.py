@@ -3,33 +3,36 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from search import PreparedTask
-from serendipity.execution.adviser import Adviser
-from serendipity.execution.guard import Following
+from serendipity.execution.advice import Question
+from serendipity.execution.guard import Hands
+from serendipity.execution.imagined import Imagined
 from serendipity.execution.world import World
-from serendipity.model import Deadline, Options, PlanStep, Task
+from serendipity.model import Deadline, Options, Task
 from serendipity.testing.strategies import corridor_tasks, usar_tasks
 
 
-def _cost(plan: tuple[PlanStep, ...] | None) -> float:
-    return round(sum(step.cost for step in plan or ()), 9)
-
-
 @settings(max_examples=25)
-@given(st.one_of(usar_tasks(), corridor_tasks()), st.sampled_from(["0.5", "0.9"]))
-def test_epoch_by_epoch(task: Task, discount: str) -> None:
-    options = Options(discount=discount, human_model="observant")  # type: ignore[arg-type]
-    keeping, world = Adviser(task, options), World(task, options.discount, strict=False)
-    following = Following(PreparedTask(task), strict=False)
+@given(
+    st.one_of(usar_tasks(), corridor_tasks()),
+    st.sampled_from(["0.5", "0.9"]),
+    st.sampled_from(["observant", "omniscient"]),
+)
+def test_epoch_by_epoch(task: Task, discount: str, human_model: str) -> None:
+    options = Options(discount=discount, human_model=human_model)  # type: ignore[arg-type]
+    hands, world = Hands(task), World(task, options.discount, strict=False)
+    keeping = Imagined(task, options, hands, task.init, Deadline(), told=True)
     for _ in range(10):
-        following.look(world.state, Deadline())
-        if following.hopeless or not following.promise():
+        keeping.following.look(world.state)
+        if keeping.following.hopeless or not keeping.following.promise():
             break
-        names = [task.actions[i].name for i in following.promise()]
-        kept = keeping.advise(world.state, names, frozenset(), Deadline())
-        fresh = Adviser(task, options).advise(world.state, names, frozenset(), Deadline())
-        assert (_cost(kept.plan), kept.status) == (_cost(fresh.plan), fresh.status)
-        now = [world.of(step) for step in kept.plan or () if step.epoch == 1]
+        question = Question(world.state, keeping.following, frozenset(), lambda _: True)
+        kept = keeping.adviser.advise(question, Deadline())
+        other = Imagined(task, options, hands, task.init, Deadline(), told=True)
+        fresh = other.adviser.advise(question, Deadline())
+        assert kept is not None and fresh is not None
+        assert (kept.cost, kept.proved) == (fresh.cost, fresh.proved)
+        now = [world.of(step) for step in kept.plan if step.epoch == 1]
         world.state = world.after(now)
         his = [i for i in now if task.human in task.actions[i].participants]
-        following.acted(his[0] if his and not task.actions[his[0]].joint else None)
+        own = his[0] if his and not task.actions[his[0]].joint else None
+        keeping.following.acted(own, now)

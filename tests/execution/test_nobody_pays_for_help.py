@@ -23,12 +23,13 @@ def test_who_follows_the_plan_that_robots_expect(task: Task, discount: str) -> N
 @given(tasks(), DISCOUNTS, SEEDS)
 def test_who_follows_any_of_their_optimal_plans(task: Task, discount: str, seed: int) -> None:
     run, person = Execution(task, discount=discount), Replanner(task, dice=Random(seed))
-    live(task, run, person, follows_prediction=False)
+    live(task, run, person, predicted=False)
 
 
 @given(tasks(), DISCOUNTS)
 def test_who_sees_only_what_is_where_they_are(task: Task, discount: str) -> None:
-    live(task, Execution(task, discount=discount, human_model="local"), Replanner(task, "local"))
+    run, person = Execution(task, discount=discount, human_model="local"), Replanner(task, "local")
+    live(task, run, person, sees_all=False)
 
 
 @given(usar_tasks(), DISCOUNTS)

@@ -106,6 +106,22 @@ def test_what_would_be_in_vain_for_one_goal_and_pays_in_the_mean_is_done() -> No
     assert verdicts == {"0.6": ["unsure", "unsure", "aside"], "0.9": ["unsure", "helps", "helps"]}
 
 
+def test_a_plan_may_be_spoilt_where_it_is_dropped_for_a_cheaper_one() -> None:
+    task = build(
+        init="a blocked",
+        goal="c",
+        actions={"go h": "a -> b !a", "clear h": "b blocked -> !blocked", "on h": "b !blocked -> c !b"}
+        | {"clear r": "blocked -> !blocked"},
+    )
+    run = Execution(task, discount="0.5")
+    assert _live(run, Replanner(task))[0] == "helps"
+    assert (run.human_cost, run.cost) == (2, 2.5)
+    unseen = Execution(task, discount="0.5", human_model="local")
+    assert set(_live(unseen, Replanner(task, "local"))) == {"aside"}, (
+        "who may not see it goes on with the plan"
+    )
+
+
 def test_robots_without_a_decision_in_time_do_nothing(room2: Task) -> None:
     run = Execution(room2, discount="0.6", deadline=0)
     assert set(_live(run, Replanner(room2))) == {"late"}

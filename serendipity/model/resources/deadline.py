@@ -96,6 +96,11 @@ class Deadline:
             part._end = self._end - share * (self._end - self.started)
         return part
 
+    def renew(self, other: "Deadline") -> None:
+        """Take over another's time and limits, for whatever polls this one through several calls."""
+        self.started = other.started
+        self._end, self._most, self._cancelled = other._end, other._most, other._cancelled
+
     def tick(self) -> None:
         """:meth:`check`, every so many calls: for loops whose rounds take microseconds."""
         self._ticks += 1

@@ -1,12 +1,15 @@
-"""What robots had best do from here, without what they must leave alone: planning calls through a session."""
+"""Advice through a session: for people who are told or omniscient, and for robots with goals of their own."""
 
 from collections import OrderedDict
-from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any, Final
 
+from serendipity.execution.advice import Advice, Question
+from serendipity.execution.guard import Hands
 from serendipity.facade.session import Session
 from serendipity.model.answers.result import Result
+from serendipity.model.numbers import as_written
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
@@ -18,16 +21,20 @@ _MOST: Final = 3
 """Sessions at once: what is to be left alone changes seldom, and goes back and forth."""
 
 
-class Adviser:
+class SessionAdviser:
     """Plans for one goal of the person's.
 
     Args:
         task: the task with that goal.
         options: of the planning calls.
+        hands: what robots can do.
+        told: the person keeps to the robots' plan: nothing has to be left alone.
     """
 
-    def __init__(self, task: Task, options: Options) -> None:
+    def __init__(self, task: Task, options: Options, hands: Hands, *, told: bool) -> None:
         self._task = task
+        self._hands = hands
+        self._told = told
         self._options: dict[str, Any] = {
             "mode": options.mode,
             "discount": options.discount,
@@ -37,31 +44,37 @@ class Adviser:
         self._sessions: OrderedDict[frozenset[int], Session] = OrderedDict()
         self._kept: dict[frozenset[int], tuple[frozenset[int], Result]] = {}
 
-    def advise(
-        self,
-        state: frozenset[int],
-        expected: Sequence[str],
-        removed: frozenset[int],
-        deadline: Deadline,
-    ) -> Result:
-        """The best plan from a state.
+    def advise(self, question: Question, deadline: Deadline) -> Advice | None:
+        """See :class:`serendipity.execution.advice.Adviser`; what plans need is never touched."""
+        removed = question.barred
+        if not self._told:
+            removed |= self._hands.off(question.following.needed())
+        while True:
+            result = self._best(question, removed, deadline)
+            if result is None or result.plan is None:
+                return None
+            now = [self._ids(step, question.state) for step in result.plan if step.epoch == 1]
+            robots = [i for i in now if self._task.actions[i].participants != (self._task.human,)]
+            if question.allows(robots):
+                cost = sum((as_written(step.cost) for step in result.plan), Fraction(0))
+                proved = result.status == "optimal"
+                return Advice(result.plan, result.window, cost, result.opportunity, proved)
+            removed |= {robots[0]}
 
-        Args:
-            state: ids of the facts that are true.
-            expected: names of what the person is going to do.
-            removed: ids of actions that nobody may do.
-            deadline: of the call; the best answer by then counts.
-        """
+    def _best(self, question: Question, removed: frozenset[int], deadline: Deadline) -> Result | None:
+        promise = question.following.promise()
+        if not promise:
+            return None
         kept = self._kept.get(removed)
-        if kept is None or kept[0] != state:
+        if kept is None or kept[0] != question.state:
             session = self._session(removed)
-            changed = session.task.init ^ state
-            session.change({self._task.facts[fact]: fact in state for fact in sorted(changed)})
-            session.follow(expected)
+            changed = session.task.init ^ question.state
+            session.change({self._task.facts[fact]: fact in question.state for fact in sorted(changed)})
+            session.follow([self._task.actions[i].name for i in promise])
             result = session.plan(deadline=deadline)
         else:
             result = kept[1]
-        self._keep(state, removed, result)
+        self._keep(question.state, removed, result)
         return result
 
     def _keep(self, state: frozenset[int], removed: frozenset[int], result: Result) -> None:
@@ -74,13 +87,16 @@ class Adviser:
             if step.epoch > 1:
                 rest.append(PlanStep(step.epoch - 1, step.agents, step.action, step.cost))
             else:
-                ids = actions_named(self._task, step.action, step.agents)
-                actions = [self._task.actions[i] for i in ids]
-                now.append(next(action for action in actions if action.applicable(state)))
+                now.append(self._task.actions[self._ids(step, state)])
         window = result.window
         if window is not None:
             window = None if window.start == 1 else Window(window.start - 1, window.end - 1)
         self._kept[removed] = apply(state, *now), replace(result, plan=tuple(rest), window=window)
+
+    def _ids(self, step: PlanStep, state: frozenset[int]) -> int:
+        """The action of a step of the first epoch, in the variant that is applicable."""
+        ids = actions_named(self._task, step.action, step.agents)
+        return next(i for i in ids if self._task.actions[i].applicable(state))
 
     def _session(self, removed: frozenset[int]) -> Session:
         session = self._sessions.get(removed)
