@@ -54,12 +54,17 @@ def fraction(text: str, most: int = MOST_DIGITS) -> Fraction:
     return Fraction(text)
 
 
-def as_written(value: float) -> Fraction:
+def as_written(value: float | str) -> Fraction:
     """The rational that a figure in a result stands for: the shortest decimal that is this float.
 
     Figures are rounded when they are written down, so it is the exact one where that has few digits.
     """
     return Fraction(str(value))
+
+
+def unrounded(value: Fraction) -> float | str:
+    """A rational as JSON has it: as the float that stands for it, or as a text where none does."""
+    return float(value) if as_written(float(value)) == value else str(value)
 
 
 def rounded(value: Fraction | None) -> float | None:

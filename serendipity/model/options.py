@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.model.errors import UsageError
-from serendipity.model.numbers import as_written, exact
+from serendipity.model.numbers import exact, unrounded
 
 INFINITE: Final = "inf"
 """Horizon without an end (composite mode only)."""
@@ -161,9 +161,7 @@ class Options:
 
 
 def _plain(value: object) -> object:
-    if not isinstance(value, Fraction):
-        return value
-    return float(value) if as_written(float(value)) == value else str(value)
+    return unrounded(value) if isinstance(value, Fraction) else value
 
 
 def _written(name: str, value: object) -> bool:

@@ -18,6 +18,12 @@ def as_csv(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
+def as_text(cell: str) -> str:
+    """The text that a cell of such a table stands for."""
+    text = cell.removeprefix("'")
+    return text if _harmless(text) == cell else cell
+
+
 def _harmless(cell: object) -> object:
     if isinstance(cell, str) and cell.startswith(_FORMULA) and not _is_number(cell):
         return f"'{cell}"

@@ -13,6 +13,7 @@ from typing import Any, Final
 from serendipity.evaluation.reproduction.rows import Row
 from serendipity.evaluation.reproduction.work import TaskRows
 from serendipity.model import InputError, UsageError
+from serendipity.model.numbers import unrounded
 from serendipity.model.schemas import schema_fault
 
 SCHEMA: Final = "serendipity.journal/1"
@@ -56,7 +57,7 @@ class Journal:
             UsageError: the file can't be written; it is then as it was before.
         """
         before = self.path.stat().st_size if self.path.exists() else None
-        rows = [row.to_dict() for row in record.rows]
+        rows = [row.to_dict() | {"discount": unrounded(row.discount)} for row in record.rows]
         told = {"schema": SCHEMA, "test": record.test, "fingerprint": record.fingerprint, "rows": rows}
         line = json.dumps(told)
         try:

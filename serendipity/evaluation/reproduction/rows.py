@@ -79,7 +79,7 @@ class Row:
         return (
             self.test,
             self.mode,
-            f"{float(self.discount):.10g}",
+            str(float(self.discount)).removesuffix(".0"),
             *costs,
             start,
             end,

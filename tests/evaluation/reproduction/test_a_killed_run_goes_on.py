@@ -54,10 +54,10 @@ def test_an_interrupted_run_goes_on_where_it_was(suite: Path, tmp_path: Path, so
 def test_only_missing_calls_are_made(suite: Path, tmp_path: Path, solved: list[str]) -> None:
     journal = tmp_path / "journal"
     reproduce(suite, modes=["serendipity"], discounts=["0.6"], journal=journal)
-    both = reproduce(suite, modes=["serendipity"], discounts=["0.6", "0.9"], journal=journal)
+    both = reproduce(suite, modes=["serendipity"], discounts=["0.6", "1/3"], journal=journal)
     assert len(both.rows) == 12
     assert len(solved) == 12
-    reproduce(suite, modes=["serendipity"], discounts=["0.90", "0.6"], journal=journal)
+    reproduce(suite, modes=["serendipity"], discounts=["2/6", "0.60"], journal=journal)
     assert len(solved) == 12
 
 

@@ -11,12 +11,13 @@ from serendipity.evaluation.benchmark.coverage.rows import Row
 from serendipity.model.errors import InputError
 from serendipity.model.table import Table, columns_of
 from serendipity.pddl.parsing.files import read_text
+from serendipity.writing.csv_text import as_text
 
 _OWN: Final = tuple(field for field in fields(Row) if field.name != "outcome")
 _FIELDS: Final = (*_OWN, *fields(Outcome))
 
 _READ: Final[dict[Any, Any]] = {
-    str: str,
+    str: as_text,
     int: int,
     float: float,
     bool: "True".__eq__,
