@@ -138,7 +138,7 @@ def read_pddl(
         problem: the problem file; its goal is the human's.
         human: the object that is the human.
         robots: the objects that are robots, at least one; with MA-PDDL none means all the
-            other objects that can be an ``:agent``.
+            other objects that can be an ``:agent``, if there are any.
         name: of the task; default is that of the problem.
         deadline: how long it may take, and in how much memory.
         on_progress: is told what is being done, and how many ground actions there are so far.
@@ -162,10 +162,9 @@ def read_pddl(
 def _other_agents(unit: Unit, human: str) -> list[str]:
     """The other objects that can be an ``:agent``."""
     kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
-    found = sorted({name for kind in kinds for name in unit.objects_of(kind)} - {human})
-    if not found:
+    if not kinds:
         raise UsageError("one PDDL task: expected at least one robot among its objects")
-    return found
+    return sorted({name for kind in kinds for name in unit.objects_of(kind)} - {human})
 
 
 def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task:

@@ -69,6 +69,15 @@ def test_bad_agents(tmp_path: Path, old: str, new: str, message: str) -> None:
     assert f"domain.pddl:8: {message}" in str(caught.value)
 
 
+def test_a_single_agent_has_no_robots(tmp_path: Path) -> None:
+    alone = PROBLEM.replace("(:private v v - van)", "").replace("(:private x x - bike)", "")
+    alone = alone.replace("(is v a)", "").replace("(is x b)", "")
+    task = loaded(tmp_path, problem=alone)
+    assert task.agents == ("w",)
+    assert plan(task, mode="composite", horizon="inf").cost == plan(task, mode="individual").cost == 3
+    assert not plan(task, discount="0.5").opportunity
+
+
 def test_plain_pddl_needs_robots(tmp_path: Path) -> None:
     plain = DOMAIN[: DOMAIN.index("(:action")] + ")"
     with pytest.raises(UsageError, match="expected at least one robot among its objects"):
