@@ -210,7 +210,7 @@ class ClassicalPlanner:
             outcome = self._allowed(lambda room: kernel.planner_run_greedy(planner, _SLICE, room), deadline)
         if outcome != _FOUND:
             return None
-        return [*reversed(self._numbers(lambda *to: kernel.planner_greedy_way(planner, *to)) or ())]
+        return self._numbers(lambda *to: kernel.planner_greedy_way(planner, *to))
 
     def cheapest_plan(
         self,

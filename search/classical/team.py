@@ -49,8 +49,8 @@ class Team:
         first = planner.first_plan(state, deadline)
         if first is None:
             return
-        yield self._sets(first)
         on_bound(planner.bound(state, deadline))
+        yield self._sets(first)
         amount = planner.amount(first)
         try:
             best = planner.cheapest_plan(state, deadline, amount, on_bound)

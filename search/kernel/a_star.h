@@ -22,9 +22,9 @@
 typedef struct {
     const Problem *problem;
     Relaxation *relaxation;
+    Lookahead *lookahead;
     Evaluator evaluator;
     Stubborn stubborn;
-    Lookahead lookahead;
     Table table;
     Heap open;
     Ints applicable, closed, plan, spare; /* plan: the best that was found, if has_plan; it costs what the limit is */
@@ -37,15 +37,14 @@ typedef struct {
     int64_t expanded, generated;
 } AStar;
 
-static int a_star_new(AStar *s, const Problem *p, Relaxation *r) {
-    s->problem = p, s->relaxation = r, s->table.words = p->words;
+static int a_star_new(AStar *s, const Problem *p, Relaxation *r, Lookahead *l) {
+    s->problem = p, s->relaxation = r, s->lookahead = l, s->table.words = p->words;
     s->row = malloc((size_t)p->words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
-    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem) &&
-           stubborn_new(&s->stubborn, p) && lookahead_new(&s->lookahead, p, &r->problem);
+    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem) && stubborn_new(&s->stubborn, p);
 }
 
 static void a_star_free(AStar *s) {
-    evaluator_free(&s->evaluator), table_free(&s->table), lookahead_free(&s->lookahead);
+    evaluator_free(&s->evaluator), table_free(&s->table);
     if (s->problem) stubborn_free(&s->stubborn, s->problem->n_ops);
     free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->plan.at), free(s->spare.at), free(s->row);
 }
@@ -90,22 +89,11 @@ static int32_t known_step(AStar *s, Word *row) {
 
 /* A better plan: by the way to a node, and on from there. */
 static int keep_plan(AStar *s, int32_t id, const Ints *rest) {
-    Ints *way = &s->spare;
-    way->count = 0;
-    Cost total = node_of(&s->table, id)->spent;
-    for (; id != s->start; id = node_of(&s->table, id)->parent)
-        if (!ints_push(way, node_of(&s->table, id)->op)) return 0;
-    for (size_t i = 0, j = way->count; i + 1 < j; i++) {
-        int32_t op = way->at[i];
-        way->at[i] = way->at[--j], way->at[j] = op;
-    }
-    for (size_t i = 0; i < rest->count; i++) {
-        total += s->problem->weight[rest->at[i]];
-        if (!ints_push(way, rest->at[i])) return 0;
-    }
+    if (!way_to(&s->table, id, rest, &s->spare)) return 0;
     Ints before = s->plan;
-    s->plan = *way, s->spare = before;
-    s->has_plan = 1, s->limit = total;
+    s->plan = s->spare, s->spare = before;
+    s->has_plan = 1, s->limit = node_of(&s->table, id)->spent;
+    for (size_t i = 0; i < rest->count; i++) s->limit += s->problem->weight[rest->at[i]];
     return 1;
 }
 
@@ -115,16 +103,16 @@ static void suggest(AStar *s, int32_t id) {
     if (node->rest >= s->nearest) return;
     s->nearest = node->rest;
     Cost left = s->limit - node->spent;
-    if (look_ahead(&s->lookahead, s->relaxation, s->problem, state_of(&s->table, id), left) != INFINITE_COST)
-        keep_plan(s, id, &s->lookahead.plan);
+    if (look_ahead(s->lookahead, s->relaxation, s->problem, state_of(&s->table, id), left) != INFINITE_COST)
+        keep_plan(s, id, &s->lookahead->plan);
 }
 
 /* From a node of which the cost is known: the plan that it is known by. */
 static int go_on(AStar *s, int32_t id) {
-    Ints *rest = &s->lookahead.plan;
+    Ints *rest = &s->lookahead->plan;
     rest->count = 0;
-    memcpy(s->lookahead.state, state_of(&s->table, id), (size_t)s->problem->words * sizeof(Word));
-    for (int32_t op; (op = known_step(s, s->lookahead.state)) != NONE;)
+    memcpy(s->lookahead->state, state_of(&s->table, id), (size_t)s->problem->words * sizeof(Word));
+    for (int32_t op; (op = known_step(s, s->lookahead->state)) != NONE;)
         if (!ints_push(rest, op)) return 0;
     return keep_plan(s, id, rest);
 }

@@ -9,6 +9,7 @@
 #include "a_star.h"
 #include "cost_partitioning.h"
 #include "greedy_search.h"
+#include "lookahead.h"
 #include "problem.h"
 #include "relaxation.h"
 #include "state_table.h"
@@ -23,7 +24,8 @@
 
 typedef struct {
     Problem problem;
-    Relaxation relaxation; /* both searches work with it */
+    Relaxation relaxation; /* both searches work with it, and with this: */
+    Lookahead lookahead;
     AStar a_star;
     Greedy greedy;
 } Planner;
@@ -31,7 +33,7 @@ typedef struct {
 API void planner_free(Planner *s) {
     if (!s) return;
     a_star_free(&s->a_star), greedy_free(&s->greedy);
-    relaxation_free(&s->relaxation), problem_free(&s->problem);
+    lookahead_free(&s->lookahead), relaxation_free(&s->relaxation), problem_free(&s->problem);
     free(s);
 }
 
@@ -40,7 +42,8 @@ API Planner *planner_new(const Spec *spec) {
     if (!s) return NULL;
     Problem *p = &s->problem;
     if (problem_new(p, spec) && plant_all(p) && relaxation_new(&s->relaxation, p) &&
-        a_star_new(&s->a_star, p, &s->relaxation) && greedy_new(&s->greedy, p, &s->relaxation))
+        lookahead_new(&s->lookahead, p, &s->relaxation.problem) &&
+        a_star_new(&s->a_star, p, &s->relaxation, &s->lookahead) && greedy_new(&s->greedy, p, &s->relaxation, &s->lookahead))
         return s;
     planner_free(s);
     return NULL;
@@ -62,23 +65,17 @@ API Cost planner_bound(Planner *s, const Word *state, size_t allowed) { return a
 API int planner_begin_greedy(Planner *s, const Word *state, size_t allowed) { return greedy_begin(&s->greedy, state, allowed); }
 API int planner_run_greedy(Planner *s, double seconds, size_t allowed) { return greedy_run(&s->greedy, seconds, allowed); }
 
-/* The operators of the way that greedy search has found, from its end back to the start; how many. */
-API int32_t planner_greedy_way(const Planner *s, int32_t *ops, int32_t room) {
-    const Table *t = &s->greedy.table;
-    int32_t count = 0;
-    for (int32_t id = s->greedy.goal; node_of(t, id)->parent != NONE; id = node_of(t, id)->parent) {
-        if (count < room) ops[count] = node_of(t, id)->op;
-        count++;
-    }
-    return count;
+static int32_t told(const Ints *plan, int32_t *ops, int32_t room) {
+    for (size_t i = 0; i < plan->count && i < (size_t)room; i++) ops[i] = plan->at[i];
+    return (int32_t)plan->count;
 }
+
+/* The plan that greedy search has found; how many operators. */
+API int32_t planner_greedy_way(const Planner *s, int32_t *ops, int32_t room) { return told(&s->greedy.plan, ops, room); }
 
 /* The best plan that the optimal search has come across so far; how many operators, NONE: no plan. */
 API int32_t planner_best_way(const Planner *s, int32_t *ops, int32_t room) {
-    const Ints *plan = &s->a_star.plan;
-    if (!s->a_star.has_plan) return NONE;
-    for (size_t i = 0; i < plan->count && i < (size_t)room; i++) ops[i] = plan->at[i];
-    return (int32_t)plan->count;
+    return s->a_star.has_plan ? told(&s->a_star.plan, ops, room) : NONE;
 }
 
 /* The operators of a cheapest plan from a state, `row`, which becomes its end; NONE where its cost is not known. */

@@ -1,7 +1,8 @@
 /* Lazy greedy search for a first plan, with preferred operators.
 
    Two open lists take turns, one of them for what preferred operators lead to, which has a thousand turns more whenever a
-   state is nearer to the goal than all before.  Source: Richter and Westphal, The LAMA planner (2010). */
+   state is nearer to the goal than all before; from there it also looks ahead.  Source: Richter and Westphal, The LAMA
+   planner (2010). */
 
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <stdlib.h>
 #include "heap.h"
 #include "lists.h"
+#include "lookahead.h"
 #include "problem.h"
 #include "relaxation.h"
 #include "relaxed_plan.h"
@@ -21,25 +23,26 @@ enum { BOOST = 1000 };
 typedef struct {
     const Problem *problem;
     Relaxation *relaxation;
+    Lookahead *lookahead;
     RelaxedPlan relaxed_plan;
     Table table;
     Heap all, preferred;
-    Ints applicable, first; /* first: operators that the relaxed plan begins with */
+    Ints applicable, first, plan; /* first: operators that the relaxed plan begins with; plan: what was found */
     Word *row;
     Cost best_rest;
     int64_t turn_all, turn_preferred, evaluated;
-    int32_t serial, goal;
+    int32_t serial;
 } Greedy;
 
-static int greedy_new(Greedy *s, const Problem *p, Relaxation *r) {
-    s->problem = p, s->relaxation = r, s->table.words = p->words, s->goal = NONE;
+static int greedy_new(Greedy *s, const Problem *p, Relaxation *r, Lookahead *l) {
+    s->problem = p, s->relaxation = r, s->lookahead = l, s->table.words = p->words;
     s->row = malloc((size_t)p->words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
     return s->row && s->applicable.at && relaxed_plan_new(&s->relaxed_plan, &r->problem);
 }
 
 static void greedy_free(Greedy *s) {
     relaxed_plan_free(&s->relaxed_plan), table_free(&s->table);
-    free(s->all.at), free(s->preferred.at), free(s->applicable.at), free(s->first.at), free(s->row);
+    free(s->all.at), free(s->preferred.at), free(s->applicable.at), free(s->first.at), free(s->plan.at), free(s->row);
 }
 
 static int greedy_begin(Greedy *s, const Word *state, size_t allowed) {
@@ -48,7 +51,7 @@ static int greedy_begin(Greedy *s, const Word *state, size_t allowed) {
     grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !heap_reserve(&s->all, 1, &s->table)) return MEMORY;
     s->serial = 0, s->turn_all = s->turn_preferred = 0;
-    s->best_rest = INFINITE_COST, s->goal = NONE;
+    s->best_rest = INFINITE_COST, s->plan.count = 0;
     int is_new;
     int32_t id = find(&s->table, state, &is_new);
     Node *node = node_of(&s->table, id);
@@ -96,15 +99,16 @@ static int greedy_run(Greedy *s, double seconds, size_t allowed) {
         if (node->closed) continue;
         node->closed = 1;
         const Word *state = state_of(&s->table, entry.item);
-        if (is_goal(s->problem, state)) {
-            s->goal = entry.item;
-            return FOUND;
-        }
+        if (is_goal(s->problem, state)) return way_to(&s->table, entry.item, NULL, &s->plan) ? FOUND : MEMORY;
         s->first.count = 0;
         Cost rest = relaxed_plan(&s->relaxed_plan, s->relaxation, s->problem, state, 0, &s->first);
         s->evaluated++;
         if (rest == INFINITE_COST) continue;
-        if (rest < s->best_rest) s->best_rest = rest, s->turn_preferred -= BOOST;
+        if (rest < s->best_rest) {
+            s->best_rest = rest, s->turn_preferred -= BOOST;
+            if (look_ahead(s->lookahead, s->relaxation, s->problem, state, INFINITE_COST) != INFINITE_COST)
+                return way_to(&s->table, entry.item, &s->lookahead->plan, &s->plan) ? FOUND : MEMORY;
+        }
         expand_greedily(s, entry.item, rest);
     }
     return HOPELESS;

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "heap.h"
+#include "lists.h"
 #include "values.h"
 
 enum { CHUNK_BITS = 12, CHUNK = 1 << CHUNK_BITS };
@@ -137,6 +138,20 @@ static int32_t find(Table *t, const Word *state, int *is_new) {
     memset(node_of(t, id), 0, sizeof(Node));
     *is_new = 1;
     return id;
+}
+
+/* Operators along the parents of a node, and on from there, if `rest` is there; whether there was memory for them. */
+static int way_to(const Table *t, int32_t id, const Ints *rest, Ints *way) {
+    way->count = 0;
+    for (; node_of(t, id)->parent != NONE; id = node_of(t, id)->parent)
+        if (!ints_push(way, node_of(t, id)->op)) return 0;
+    for (size_t i = 0, j = way->count; i + 1 < j; i++) {
+        int32_t op = way->at[i];
+        way->at[i] = way->at[--j], way->at[j] = op;
+    }
+    for (size_t i = 0; rest && i < rest->count; i++)
+        if (!ints_push(way, rest->at[i])) return 0;
+    return 1;
 }
 
 /* Forget all states, and keep the memory. */
