@@ -2,16 +2,19 @@
 
 import inspect
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import ModuleType
 from typing import Any
 
 from typer.main import get_command
 
 import serendipity
+import serendipity.testing
 from serendipity.cli.app import app
 
 COMMANDS = "<!-- every command -->"
 PUBLIC = re.compile(r"^<!-- public: (.*?) -->$", re.MULTILINE)
+KIT = "<!-- every name of the testing kit -->"
 OTHERS = "<!-- public names not listed above -->"
 LONGEST = 90
 
@@ -24,7 +27,10 @@ def on_page_markdown(markdown: str, **_: Any) -> str:
         listed = {"__version__", *PUBLIC.findall(markdown)}
         rest = [name for name in serendipity.__all__ if name not in listed]
         markdown = markdown.replace(OTHERS, "\n".join(f"<!-- public: {name} -->" for name in rest))
-    return PUBLIC.sub(lambda found: description(found[1]), markdown)
+    if KIT in markdown:
+        names = [description(name, serendipity.testing) for name in serendipity.testing.__all__]
+        markdown = markdown.replace(KIT, "\n".join(names))
+    return PUBLIC.sub(lambda found: description(found[1], serendipity), markdown)
 
 
 def every_command() -> Iterator[str]:
@@ -43,11 +49,22 @@ def _commands(group: Any, context: Any, above: str) -> Iterator[str]:
             yield from (f"## {above}{name}", "", "```text", command.get_help(inner), "```", "")
 
 
-def description(name: str) -> str:
+def description(name: str, package: ModuleType) -> str:
     """A public name: its signature and its docstring."""
-    value = getattr(serendipity, name)
-    doc = re.sub(r":(?:func|class|meth):`~?(?:[\w.]+\.)?(\w+)`", r"`\1`", inspect.getdoc(value) or "")
+    value = getattr(package, name)
+    doc = re.sub(r":(?:func|class|meth):`~?(?:[\w.]+\.)?(\w+)`", r"`\1`", text(value))
     return "\n".join([f"### {name}", "", "```text", signature(name, value), "", doc, "```", ""])
+
+
+def text(value: Any) -> str:
+    """A docstring; of functions by name, what each of them is for."""
+    if isinstance(value, Mapping):
+        return "\n".join(
+            f"{name}: {(inspect.getdoc(each) or '').splitlines()[0]}" for name, each in value.items()
+        )
+    if isinstance(value, tuple):
+        return "\n".join(map(str, value))
+    return inspect.getdoc(value) or ""
 
 
 def signature(name: str, value: Any) -> str:

@@ -11,6 +11,8 @@ from benchmarks.problems import PROBLEMS
 from search.kernel.library import library
 from serendipity.cli.streams import progress_lines
 
+pytest_plugins = ["pytester"]
+
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("ci", derandomize=True, max_examples=100, database=None, **_CALM)
 settings.register_profile("dev", max_examples=50, **_CALM)

@@ -14,7 +14,7 @@ def result(
     *,
     human_plan: tuple[str, ...] | None,
     window: tuple[int, int] | None = None,
-    horizon: int | None = None,
+    horizon: int | str | None = None,
     **options: Any,
 ) -> Result:
     """An ``optimal`` result with all its figures worked out from the plan.
@@ -23,7 +23,8 @@ def result(
         plan: names of actions by epoch, several separated by ``;``.
         human_plan: names of ``pi_H``.
         window: ``(start, end)``; a plan with one is an opportunity.
-        horizon: ``T`` where it is asked for; None is the length of ``pi_H``.
+        horizon: ``T`` or ``"inf"`` where it is asked for; None is the length of ``pi_H``.
+        options: of the call, but the horizon.
     """
     chosen = Options(horizon=horizon, **options)
     by_name = {action.name: action for action in task.actions}

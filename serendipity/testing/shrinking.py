@@ -2,8 +2,9 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from fractions import Fraction
 
-from serendipity.model import Condition, Task
+from serendipity.model import Condition, GroundAction, Task
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.generator.tasks import unambiguous
 
@@ -56,7 +57,28 @@ def _smaller_tasks(task: Task) -> Iterator[Task]:
             for f in facts:
                 less = replace(action, **{name: tuple(g for g in facts if g != f)})  # type: ignore[arg-type]
                 if any((less.pre, less.neg, less.add, less.delete)):  # else it would be a noop
-                    yield replace(task, actions=(*task.actions[:i], less, *task.actions[i + 1 :]))
+                    yield _with_action(task, i, less)
+    for i, action in enumerate(task.actions):
+        if action.cost not in (0, 1):
+            yield _with_action(task, i, replace(action, cost=Fraction(1)))
+    yield from _without_idle_robots(task)
+
+
+def _with_action(task: Task, i: int, action: GroundAction) -> Task:
+    return replace(task, actions=(*task.actions[:i], action, *task.actions[i + 1 :]))
+
+
+def _without_idle_robots(task: Task) -> Iterator[Task]:
+    """The task without one of the robots that can do nothing; one robot there has to be."""
+    busy = {agent for action in task.actions for agent in action.participants}
+    for robot in task.robots:
+        if robot not in busy and len(task.robots) > 1:
+            agents = tuple(name for agent, name in enumerate(task.agents) if agent != robot)
+            actions = tuple(
+                replace(action, participants=tuple(who - (who > robot) for who in action.participants))
+                for action in task.actions
+            )
+            yield replace(task, agents=agents, human=task.human - (task.human > robot), actions=actions)
 
 
 def _smaller_conditions(condition: Condition) -> Iterator[Condition]:

@@ -15,13 +15,16 @@ PLAN: Final = "plan.txt"
 """File of the human plan that is given."""
 
 
-def write_case(found: Disagreement, folder: Path, outside: Sequence[str] = ()) -> Path:
+def write_case(
+    found: Disagreement, folder: Path, outside: Sequence[str] = (), *, again: str | None = None
+) -> Path:
     """Write ``folder`` (task, ``plan.txt`` where a plan is given, ``commands.txt``) whole; returns the last.
 
     Args:
         found: the disagreement.
         folder: where to.
         outside: the words that name judges from outside: then what they were given is written, too.
+        again: the command that found it; None is the one of ``crosscheck``, where a seed is known.
 
     Raises:
         OSError: it can't be written.
@@ -40,7 +43,9 @@ def write_case(found: Disagreement, folder: Path, outside: Sequence[str] = ()) -
     lines = [f"# {judge}: {words}" for judge, words in found.said.items()]
     if len(call.task.named) < len(call.task.actions):
         lines.append("# variants of one action are written under names of their own, which may hide it")
-    if call.seed is not None:
+    if again is not None:
+        lines.append(again)
+    elif call.seed is not None:
         lines.append(
             shlex.join(["serendipity", *f"crosscheck --count 1 --seed {call.seed}".split(), *outside])
         )

@@ -58,7 +58,9 @@ def run(block: Block, folder: Path) -> str:
         return _run_here(block.text, folder)
     if block.language == "bash":
         program = shlex.join([sys.executable, "-m", "serendipity"])
-        command = ["bash", "-c", f'set -e\nserendipity() {{ {program} "$@"; }}\n{block.text}']
+        testing = shlex.join([sys.executable, "-m", "pytest", "-p", "serendipity.testing.plugin"])
+        functions = f'serendipity() {{ {program} "$@"; }}\npytest() {{ {testing} "$@"; }}\n'
+        command = ["bash", "-c", f"set -e\nexport PYTEST_DISABLE_PLUGIN_AUTOLOAD=1\n{functions}{block.text}"]
     else:
         command = [sys.executable, "-c", block.text]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)

@@ -8,6 +8,7 @@ from types import ModuleType
 import pytest
 
 import serendipity
+import serendipity.testing
 from serendipity.cli.on_demand import NAMES
 from tests.docs.blocks import PAGES, ROOT
 
@@ -57,6 +58,13 @@ def test_all_public_names_are_in_the_reference(hooks: ModuleType) -> None:
     page = hooks.on_page_markdown((ROOT / "docs/reference/python.md").read_text())
     headings = re.findall(r"^### (\w+)$", page, re.MULTILINE)
     assert sorted(headings) == sorted(set(serendipity.__all__) - {"__version__"})
+    assert "<!--" not in page
+    assert "Raises:" in page
+
+
+def test_all_names_of_the_testing_kit_are_in_the_reference(hooks: ModuleType) -> None:
+    page = hooks.on_page_markdown((ROOT / "docs/reference/testing.md").read_text())
+    assert re.findall(r"^### (\w+)$", page, re.MULTILINE) == serendipity.testing.__all__
     assert "<!--" not in page
     assert "Raises:" in page
 

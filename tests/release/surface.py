@@ -69,6 +69,7 @@ def _annotation(value: Any) -> str:
 def _plain(text: str) -> str:
     for old, new in _MOVED:
         text = text.replace(old, new)
+    text = re.sub(r"Optional\[((?:[^][]|\[[^][]*\])*)\]", r"\1 | None", text)  # as Python 3.14 has it
     return re.sub(r"serendipity(\.\w+)+\.(?=\w)", "", text)
 
 

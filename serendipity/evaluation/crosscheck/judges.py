@@ -13,8 +13,8 @@ from serendipity.facade.planning import plan
 from serendipity.model import Deadline, PlanError, Result, UsageError
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import OutsideJudge, fault
-from serendipity.testing.judges.claims import said as said_by
+from serendipity.testing.judges import OutsideJudge, fault
+from serendipity.testing.judges import said as said_by
 from verify.calls.solve import solve
 
 

@@ -1,7 +1,11 @@
-"""Judges from outside: functions, commands and engines of other people."""
+"""Judges from outside: functions, commands and engines of other people.
 
-from serendipity.testing.judges.claims import Claim, OutsideJudge, fault, said
+``by_function``, ``by_name`` and ``by_command`` make judges; ``fault`` says why a claim can't be so.
+"""
+
+from serendipity.testing.judges.claims import Claim, OutsideJudge, said
+from serendipity.testing.judges.functions import Answer, by_function
+from serendipity.testing.judges.in_mode import fault
 from serendipity.testing.judges.named import by_command, by_name
 
-__all__ = ["Claim", "OutsideJudge", "by_command", "by_name", "fault", "said"]
-"""``by_name`` and ``by_command`` make judges of what a user names."""
+__all__ = ["Answer", "Claim", "OutsideJudge", "by_command", "by_function", "by_name", "fault", "said"]

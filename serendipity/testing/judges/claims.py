@@ -1,21 +1,25 @@
-"""What a planner claims about the joint task without a horizon, and whether it can be so.
+"""What a planner claims, and whether it can be so.
 
-Planners of other people know neither help nor epochs.  What they can be asked is the best joint plan, one
-action after another: ``composite`` with ``horizon="inf"`` and strict interference.
+Most planners of other people know neither help nor epochs.  What they can be asked is the best joint plan,
+one action after another: ``composite`` with ``horizon="inf"`` and strict interference.  Those that know
+help, too, say in which epoch each action is, and which window there is (``in_mode``).
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Final
+from typing import Final, Protocol
 
-from serendipity.model import Deadline, Result, Task
+from serendipity.model import Deadline, Task
 from serendipity.model.numbers import exact, total
 from serendipity.model.task.actions import apply
 from serendipity.testing.generator.calls import PlanCall
 
 _KEPT: Final = ("discount",)
 """Options of a random call that the joint question has, too."""
+
+_UNASKED: Final = ("ties", "human_model", "no_block")
+"""Options of a random call that nobody is asked about: the human's plan is given, and followed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +30,15 @@ class Claim:
         status: ``optimal``, ``feasible`` (a plan, perhaps not the best), ``infeasible``, or ``unknown``.
         plan: ids of actions in their order; None without a plan.
         words: of the planner's own, where there is neither a plan nor a proof.
+        epochs: of each of these actions, where it knows epochs; None: one after another.
+        window: ``(xi1, xi2)``, where it says that there is one.
     """
 
     status: str
     plan: tuple[int, ...] | None = None
     words: str = ""
+    epochs: tuple[int, ...] | None = None
+    window: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +49,19 @@ class OutsideJudge:
         name: as the user gave it.
         answer: its claim about a call; what it raises is a disagreement.
         unit_costs: whether all that it counts is actions.
+        every_mode: whether it knows help and epochs; else it is asked for joint plans.
     """
 
     name: str
     answer: Callable[[PlanCall, Deadline], Claim]
     unit_costs: bool = False
+    every_mode: bool = False
 
     def fitted(self, call: PlanCall) -> PlanCall:
-        """The joint question about the call's task, as this planner can be asked it."""
+        """The call as this planner can be asked it, or the joint question about its task."""
+        if self.every_mode:
+            asked = {name: value for name, value in call.options.items() if name not in _UNASKED}
+            return replace(call, options=asked)
         options = {name: value for name, value in call.options.items() if name in _KEPT}
         options.update(mode="composite", horizon="inf", interference="strict")
         task = call.task
@@ -59,8 +72,28 @@ class OutsideJudge:
         return replace(call, task=task, options=options, human_plan=None)
 
 
-def fault(call: PlanCall, claim: Claim, result: Result | None) -> str | None:
-    """Why a claim can't be so; None if it can.
+class Proved(Protocol):
+    """A proved answer, of brute force or of another judge: ``optimal``, or ``infeasible``."""
+
+    @property
+    def status(self) -> str:
+        """``optimal`` or ``infeasible``."""
+
+    @property
+    def cost(self) -> Fraction | float | None:
+        """What the team pays; None without a plan."""
+
+    @property
+    def objective(self) -> Fraction | float | None:
+        """What was minimised; None without a plan."""
+
+    @property
+    def opportunity(self) -> bool:
+        """Whether help pays."""
+
+
+def fault_of_joint(call: PlanCall, claim: Claim, result: Proved | None) -> str | None:
+    """Why a claim about the joint question can't be so; None if it can.
 
     Args:
         call: what was asked.
@@ -80,6 +113,7 @@ def fault(call: PlanCall, claim: Claim, result: Result | None) -> str | None:
     if result is not None and result.status == "infeasible":
         return "its plan is one, where none was said to be"
     cost = float(cost_of(call, claim.plan))  # as results have it
+    known = None if known is None else float(known)
     if known is not None and (cost < known or (claim.status == "optimal" and cost > known)):
         return f"its plan costs {cost:g}, where {known:g} is the least"
     return None
@@ -90,6 +124,8 @@ def said(call: PlanCall, claim: Claim) -> str:
     words = (
         claim.status if claim.plan is None else f"{claim.status}, cost {float(cost_of(call, claim.plan)):g}"
     )
+    if claim.window is not None:
+        words += f", window [{claim.window[0]}, {claim.window[1]})"
     return f"{words} ({claim.words})" if claim.words else words
 
 
@@ -108,12 +144,21 @@ def plan_of(task: Task, names: list[str]) -> tuple[int, ...]:
     plan: list[int] = []
     state = task.init
     for name in names:
-        ids = task.named.get(" ".join(name.lower().split()), ())
-        if not ids:
-            raise ValueError(f"there is no action '{name}'")
-        plan.append(next((i for i in ids if task.actions[i].applicable(state)), ids[0]))
+        plan.append(action_of(task, name, state))
         state = apply(state, task.actions[plan[-1]])
     return tuple(plan)
+
+
+def action_of(task: Task, name: str, state: frozenset[int]) -> int:
+    """The action that a name means in a state: the first that is applicable, else the first.
+
+    Raises:
+        ValueError: there is none.
+    """
+    ids = task.named.get(" ".join(name.lower().split()), ())
+    if not ids:
+        raise ValueError(f"there is no action '{name}'")
+    return next((i for i in ids if task.actions[i].applicable(state)), ids[0])
 
 
 def _broken(task: Task, plan: tuple[int, ...]) -> str | None:

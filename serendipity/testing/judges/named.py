@@ -10,8 +10,9 @@ from typing import Final
 from serendipity.model import Deadline, UsageError
 from serendipity.model.numbers import exact
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import Claim, OutsideJudge, plan_of
+from serendipity.testing.judges.claims import Claim, OutsideJudge
 from serendipity.testing.judges.commands import Command
+from serendipity.testing.judges.functions import by_function
 
 _ENGINES: Final = "up"
 
@@ -48,14 +49,7 @@ def _function(name: str, module: str, what: str) -> OutsideJudge:
     if not callable(function):
         raise UsageError(f"judge '{name}': expected a function, got {type(function).__name__}")
 
-    def answer(call: PlanCall, _: Deadline) -> Claim:
-        discount = exact(call.options.get("discount", "0"), "discount")
-        names = function(call.task, discount)
-        if names is None:
-            return Claim("infeasible")
-        return Claim("optimal", plan_of(call.task, list(names)))
-
-    return OutsideJudge(name, answer)
+    return by_function(function, name)
 
 
 def _engine(name: str, engine: str) -> OutsideJudge:

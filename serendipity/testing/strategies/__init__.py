@@ -17,7 +17,7 @@ except ImportError as error:
     ) from None
 
 from serendipity.testing.call import Call
-from serendipity.testing.strategies.calls import MODES, calls
+from serendipity.testing.strategies.calls import MODES, calls, options, plans, results
 from serendipity.testing.strategies.tasks import (
     corridor_tasks,
     errand_tasks,
@@ -34,6 +34,9 @@ __all__ = [
     "corridor_tasks",
     "errand_tasks",
     "family_tasks",
+    "options",
+    "plans",
+    "results",
     "strips_tasks",
     "tasks",
     "usar_tasks",

@@ -1,14 +1,15 @@
 """Planning calls: a task, options that are legal for it, and now and then a plan that is given."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from itertools import islice
 from typing import Final
 
 from hypothesis import strategies as st
 
-from serendipity.model import HumanPlan, Options, Task
+from serendipity.facade.planning import plan as plan_of
+from serendipity.model import HumanPlan, Options, Result, Task
 from serendipity.testing.call import Call
-from serendipity.testing.oracle import Alone, human_plans
+from serendipity.testing.oracle import Alone, human_plans, optimal_human_plan
 from serendipity.testing.oracle.epochs import after
 from serendipity.testing.strategies.tasks import tasks
 
@@ -17,6 +18,7 @@ _DISCOUNTS: Final = ("0", "0.25", "0.5", "0.6", "0.9", "1")
 _WEIGHTS: Final = ("1000", "1000", "0", "0", "0.25", "0.75", "1", "2")
 _LONGEST_PLAN: Final = 8
 _MOST_TIES: Final = 6
+_TIES: Final = ("fixed", "fixed", "optimistic", "robust", "expected")
 
 
 @st.composite
@@ -36,18 +38,51 @@ def calls(
     """
     task = draw(tasks() if of is None else of)
     mode = draw(st.sampled_from(modes))
-    plans = list(islice(human_plans(task), _MOST_TIES + 1))
-    plan = plans[0] if plans else None
+    tied = list(islice(human_plans(task), _MOST_TIES + 1))
+    plan = tied[0] if tied else None
     given: HumanPlan | None = None
     if plan is not None and mode != "individual" and draw(st.integers(0, 3)) == 0:
         given = plan = draw(_other_plans(task, plan))
     open_goal = not task.robot_goal.holds(task.init)
-    options = draw(_options(mode, None if plan is None else len(plan), open_goal=open_goal))
-    if ties and given is None and 1 < len(plans) <= _MOST_TIES:
-        options = options.but(
+    chosen = draw(_options(mode, None if plan is None else len(plan), open_goal=open_goal))
+    if ties and given is None and 1 < len(tied) <= _MOST_TIES:
+        chosen = chosen.but(
             ties=draw(st.sampled_from(["fixed", "fixed", "optimistic", "robust", "expected"]))
         )
-    return Call(task, options, given)
+    return Call(task, chosen, given)
+
+
+@st.composite
+def options(draw: st.DrawFn, task: Task, *, modes: tuple[str, ...] = MODES) -> Options:
+    """Options that are legal for a task, its human plan being predicted.
+
+    Args:
+        task: the task.
+        modes: drawn from.
+    """
+    plan = optimal_human_plan(task)
+    open_goal = not task.robot_goal.holds(task.init)
+    mode = draw(st.sampled_from(modes))
+    return draw(_options(mode, None if plan is None else len(plan), open_goal=open_goal))
+
+
+@st.composite
+def plans(draw: st.DrawFn, task: Task) -> HumanPlan | None:
+    """A plan of the human alone, optimal or with a detour; None where there is none."""
+    plan = optimal_human_plan(task)
+    return None if plan is None else draw(_other_plans(task, plan))
+
+
+@st.composite
+def results(draw: st.DrawFn, *, of: st.SearchStrategy[Call] | None = None) -> tuple[Task, Result]:
+    """A task with the planner's answer to a call about it.
+
+    Args:
+        of: calls, or None for any.
+    """
+    call = draw(calls() if of is None else of)
+    given = {field.name: getattr(call.options, field.name) for field in fields(Options)}
+    return call.task, plan_of(call.task, human_plan=call.human_plan_names, **given)
 
 
 @st.composite

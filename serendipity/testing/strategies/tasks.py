@@ -1,5 +1,6 @@
 """Small tasks: random actions, walks, buildings, errands, families."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from random import Random
@@ -13,25 +14,37 @@ from serendipity.testing.builders import usar
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 from serendipity.testing.oracle import Alone
 
-_COSTS: Final = ("1", "1", "1", "2", "3", "4", "0", "0.5", "0.1", "2.5")
+COSTS: Final = ("1", "1", "1", "2", "3", "4", "0", "0.5", "0.1", "2.5")
 _CHEAP: Final = ("1", "1", "0.5", "0.1", "0")
 
 
 @st.composite
-def strips_tasks(draw: st.DrawFn) -> Task:
-    """Random actions over 3-7 facts, negative preconditions included, 1-2 robots, joint actions."""
-    facts = [f"f{i}" for i in range(draw(st.integers(3, 7)))]
-    agents = ["h", "r", "q"][: draw(st.integers(2, 3))]
+def strips_tasks(
+    draw: st.DrawFn,
+    *,
+    facts: tuple[int, int] = (3, 7),
+    robots: tuple[int, int] = (1, 2),
+    costs: Sequence[str] = COSTS,
+) -> Task:
+    """Random actions, negative preconditions included, joint actions, and goals that can mostly be reached.
+
+    Args:
+        facts: how many, from and to; at least 3.
+        robots: how many, from and to; at most 2.
+        costs: what the human's and joint actions may cost.
+    """
+    names = [f"f{i}" for i in range(draw(st.integers(*facts)))]
+    agents = ["h", "r", "q"][: 1 + draw(st.integers(*robots))]
     actions: dict[str, str] = {}
     for k in range(draw(st.integers(2, 6))):
-        actions[f"a{k} h"] = draw(_varied(_action_texts(facts, most_needs=2, costs=_COSTS), facts))
+        actions[f"a{k} h"] = draw(_varied(_action_texts(names, most_needs=2, costs=costs), names))
     for robot in agents[1:]:
         for k in range(draw(st.integers(1, 4))):
-            actions[f"b{k} {robot}"] = draw(_action_texts(facts, most_needs=1, costs=_CHEAP))
+            actions[f"b{k} {robot}"] = draw(_action_texts(names, most_needs=1, costs=_CHEAP))
     for k in range(draw(st.integers(0, 2))):
         team = draw(st.sampled_from(_teams(agents)))
-        actions[f"c{k} {' '.join(team)}"] = draw(_action_texts(facts, most_needs=1, costs=_COSTS))
-    init = draw(st.lists(st.sampled_from(facts), max_size=3, unique=True))
+        actions[f"c{k} {' '.join(team)}"] = draw(_action_texts(names, most_needs=1, costs=costs))
+    init = draw(st.lists(st.sampled_from(names), max_size=3, unique=True))
     built = build(agents=" ".join(agents), init=" ".join(init), actions=actions)
     return draw(_with_goals(built))
 
@@ -54,7 +67,7 @@ def corridor_tasks(draw: st.DrawFn) -> Task:
         a, b = draw(_ordered_pairs(places))
         actions[f"jump{k} h"] = f"{a} open{k} -> {b} !{a} @ {draw(st.sampled_from(_CHEAP))}"
         actions[f"open{k} {draw(st.sampled_from(agents[1:]))}"] = (
-            f"{draw(st.sampled_from(['', 'ready', '!tired']))} -> open{k} @ {draw(st.sampled_from(_COSTS))}"
+            f"{draw(st.sampled_from(['', 'ready', '!tired']))} -> open{k} @ {draw(st.sampled_from(COSTS))}"
         )
     for robot in agents[1:]:
         effect = draw(st.sampled_from(["ready", "blocked", "!blocked", "!ready tired", "open0", "!open0"]))
@@ -63,7 +76,7 @@ def corridor_tasks(draw: st.DrawFn) -> Task:
         a, b = draw(_ordered_pairs(places))
         team = draw(st.sampled_from(_teams(agents)))
         effect = f"{b} !{a}" if "h" in team else "open0"
-        actions[f"carry {' '.join(team)}"] = f"{a} -> {effect} @ {draw(st.sampled_from(_COSTS))}"
+        actions[f"carry {' '.join(team)}"] = f"{a} -> {effect} @ {draw(st.sampled_from(COSTS))}"
     init = [places[0], *draw(st.lists(st.sampled_from(["ready", "blocked", "tired"]), max_size=1))]
     built = build(agents=" ".join(agents), init=" ".join(init), goal=places[-1], actions=actions)
     return draw(_with_robot_goal(built))
@@ -114,7 +127,7 @@ def errand_tasks(draw: st.DrawFn) -> Task:
         for k in range(draw(st.integers(1, 2))):
             needs = draw(st.sampled_from(["", "", "ready", "!tired", "box"]))
             effect = draw(st.sampled_from(["open0", "open0", "open1", "ready", "box !ready", "open1 tired"]))
-            cost = draw(st.sampled_from(_COSTS))
+            cost = draw(st.sampled_from(COSTS))
             actions[f"deed{k} {mover}"] = (
                 f"{thing}{draw(st.sampled_from(rooms))} {needs} -> {effect} @ {cost}"
             )
@@ -127,10 +140,21 @@ def errand_tasks(draw: st.DrawFn) -> Task:
 
 
 @st.composite
-def family_tasks(draw: st.DrawFn) -> Task:
-    """Blocks, logistics or switches: goals on what robots change, too.  A seed decides all but the size."""
-    family = draw(st.sampled_from(sorted(FAMILIES)))
-    size, agents = draw(st.sampled_from(SMALL[family]))
+def family_tasks(
+    draw: st.DrawFn,
+    *,
+    families: Sequence[str] = tuple(sorted(FAMILIES)),
+    sizes: Sequence[tuple[int, int]] | None = None,
+) -> Task:
+    """Goals on what robots change, too.  A seed decides all but the size.
+
+    Args:
+        families: some of ``blocks``, ``logistics`` and ``switches``.
+        sizes: numbers of blocks, parcels or switches, each with a number of agents (2 or 3); None takes
+            sizes that brute force answers.
+    """
+    family = draw(st.sampled_from(families))
+    size, agents = draw(st.sampled_from(SMALL[family] if sizes is None else sizes))
     return FAMILIES[family](Random(draw(st.integers(0, 10**9))), size, AGENTS[:agents])
 
 
@@ -155,7 +179,7 @@ def _ordered_pairs(draw: st.DrawFn, things: list[str]) -> tuple[str, str]:
 
 
 @st.composite
-def _action_texts(draw: st.DrawFn, facts: list[str], *, most_needs: int, costs: tuple[str, ...]) -> str:
+def _action_texts(draw: st.DrawFn, facts: list[str], *, most_needs: int, costs: Sequence[str]) -> str:
     fact = st.sampled_from(facts)
     needs = draw(st.lists(fact, max_size=most_needs, unique=True))
     pre = [("!" if draw(st.integers(0, 3)) == 0 else "") + name for name in needs]

@@ -1,0 +1,54 @@
+"""Calls as values with ids, and calls with nothing left open."""
+
+from dataclasses import fields, replace
+from typing import Final
+
+from serendipity.facade.call import options_from
+from serendipity.model import INFINITE, Options, UsageError
+from serendipity.testing.call import Call
+from serendipity.testing.generator.calls import PlanCall
+from serendipity.testing.oracle import optimal_human_plan
+
+_DEFAULT: Final = Options()
+
+
+def call_of(call: PlanCall) -> Call:
+    """A call that was written as text.
+
+    Raises:
+        UsageError: an option has no legal value.
+        PlanError: the plan that is given is none.
+    """
+    plan = None if call.human_plan is None else call.task.plan_from_names(call.human_plan)
+    return Call(call.task, options_from(call.keywords()), plan)
+
+
+def written(call: Call) -> PlanCall:
+    """A call as text: the options that are not the default."""
+    options = {"mode": call.options.mode}
+    for field in fields(Options):
+        value = getattr(call.options, field.name)
+        if value != getattr(_DEFAULT, field.name):
+            options[field.name] = str(value).lower() if isinstance(value, bool) else str(value)
+    names = call.human_plan_names
+    return PlanCall(call.task, options, None if names is None else tuple(names))
+
+
+def settled(call: Call) -> Call:
+    """The call with ``pi_H`` (the canonical one, by brute force, where none is given) and ``T``.
+
+    Where the human has no plan alone there is none; in mode ``individual``, and where no window could
+    open, there is no horizon.
+
+    Raises:
+        UsageError: the horizon is missing.
+    """
+    options = call.options
+    plan = optimal_human_plan(call.task) if call.human_plan is None else call.human_plan
+    if options.mode == "individual" or (plan is None and options.windowed):
+        return replace(call, options=options.but(horizon=None), human_plan=plan)
+    if options.horizon is None:
+        if plan is None and options.mode != "composite":
+            raise UsageError("horizon: must be given, the human has no plan alone")
+        options = options.but(horizon=INFINITE if plan is None else len(plan))
+    return replace(call, options=options, human_plan=plan)

@@ -1,0 +1,40 @@
+"""A small task as the text of a program."""
+
+from fractions import Fraction
+
+from serendipity.model import Condition, GroundAction, Task
+
+
+def in_python(task: Task) -> str:
+    """The call of :func:`serendipity.testing.task` that builds a task anew; blanks in facts are ``_``."""
+    facts = [fact.replace(" ", "_") for fact in task.facts]
+    init = " ".join(facts[f] for f in sorted(task.init) if _matters(task, f))
+    lines = [f"    agents={' '.join(task.agents)!r},", f"    human={task.agents[task.human]!r},"]
+    lines += [f"    init={init!r},"] if init else []
+    lines.append(f"    goal={_literals(task.goal, facts)!r},")
+    lines += [f"    robot_goal={_literals(task.robot_goal, facts)!r},"] if task.robot_goal else []
+    lines.append("    actions={")
+    for name, ids in sorted(task.named.items()):
+        variants = " | ".join(_action(task.actions[i], facts) for i in ids)
+        lines.append(f"        {name!r}: {variants!r},")
+    return "\n".join(["task(", *lines, "    },", ")"])
+
+
+def _matters(task: Task, fact: int) -> bool:
+    """Whether anything asks for a fact or changes it."""
+    goals = (*task.goal.positive, *task.goal.negative, *task.robot_goal.positive, *task.robot_goal.negative)
+    return fact in goals or any(fact in (*a.pre, *a.neg, *a.add, *a.delete) for a in task.actions)
+
+
+def _action(action: GroundAction, facts: list[str]) -> str:
+    cost = "" if action.cost == 1 else f" @ {_number(action.cost)}"
+    before = _literals(Condition(action.pre, action.neg), facts)
+    return f"{before} -> {_literals(Condition(action.add, action.delete), facts)}{cost}".strip()
+
+
+def _literals(condition: Condition, facts: list[str]) -> str:
+    return " ".join([*(facts[f] for f in condition.positive), *(f"!{facts[f]}" for f in condition.negative)])
+
+
+def _number(cost: Fraction) -> str:
+    return f"{float(cost):g}" if Fraction(f"{float(cost):g}") == cost else str(cost)

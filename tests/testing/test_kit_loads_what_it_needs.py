@@ -1,0 +1,68 @@
+"""What loads with the kit, with its plugin, and without hypothesis."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import serendipity.testing
+from serendipity.testing import plugin
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def printed(program: str) -> str:
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+def loaded_after(program: str) -> set[str]:
+    return set(printed(f"{program}\nimport sys\nprint(' '.join(sys.modules))").split())
+
+
+def test_hypothesis_loads_for_strategies_only() -> None:
+    program = "import serendipity.testing as kit\nkit.task, kit.best, kit.check_planner, kit.random_call"
+    assert "hypothesis" not in loaded_after(program)
+    assert "hypothesis" in loaded_after(f"{program}\nkit.tasks")
+
+
+def test_the_plugin_alone_loads_next_to_nothing() -> None:
+    ours = {
+        name for name in loaded_after("import serendipity.testing.plugin") if name.startswith("serendipity.")
+    }
+    assert ours == {"serendipity.testing", "serendipity.testing.plugin"}
+
+
+def test_without_hypothesis_there_is_one_line_that_names_the_extra() -> None:
+    program = """
+import sys
+sys.modules["hypothesis"] = None
+from serendipity.testing import best, task
+try:
+    from serendipity.testing import tasks
+except ImportError as error:
+    print(error.name, error, sep="; ")
+"""
+    assert printed(program) == (
+        "hypothesis; serendipity.testing.strategies needs hypothesis: install the extra,"
+        " serendipity-planner[testing]\n"
+    )
+
+
+@pytest.mark.parametrize("name", serendipity.testing.__all__)
+def test_every_public_name_loads(name: str) -> None:
+    assert getattr(serendipity.testing, name) is not None
+    assert name in dir(serendipity.testing)
+
+
+def test_other_names_are_attribute_errors() -> None:
+    with pytest.raises(AttributeError, match="'planets'"):
+        serendipity.testing.planets  # noqa: B018
+
+
+def test_pytest_finds_the_plugin_where_the_package_is_installed() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert project["entry-points"]["pytest11"] == {"serendipity": plugin.__name__}
+    assert "testing" in project["optional-dependencies"]["all"][0]
