@@ -42,6 +42,8 @@ class IndividualOptimum:
         self._known: dict[int, tuple[Fraction, int] | None] = {}
         self._above: dict[int, int] = {}
         """States from which every plan weighs more than this."""
+        self._enough: dict[int, int] = {}
+        """What a plan from a state is known to weigh: only lighter ones are looked for."""
         self._long = False
 
     @cached_property
@@ -64,10 +66,23 @@ class IndividualOptimum:
             return Fraction(0), 0
         start = self.own.bits.of(state)
         if start not in self._known:
+            enough = self._enough.get(start)
             with during("searching for what the human can do alone"):
-                weight = self._least(start, state, None)
+                weight = self._least(start, state, enough)
+            weight = enough if weight is None else weight
             self._known[start] = None if weight is None else self.own.split(weight)
         return self._known[start]
+
+    def suppose(self, plan: HumanPlan) -> None:
+        """Take a plan for optimal until a cheaper one is found: all that is dearer is not looked at.
+
+        Args:
+            plan: by ids of own actions; it can be executed from the initial state on, and reaches the goal.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        self._enough[self.own.bits.of(self._task.init)] = sum(self.own.weight(i) for i in plan)
 
     def within(self, state: State, cost: Fraction, length: int) -> bool:
         """Whether the optimum from a state is this cost and length, or less; often easier to say.

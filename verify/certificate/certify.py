@@ -136,6 +136,8 @@ class _Certifier:
         return first, *others
 
     def _claims(self) -> Iterator[Claim]:
+        with suppress(PlanError, *UNDECIDED):  # the rules say what is wrong with it
+            self._suppose_pi_h()
         report = self.checker.check(self.result)
         yield from self._rule_claims(report)
         wanted = [name for name in needed(self.result) if name not in (*BY_RULES, "realised")]
@@ -160,6 +162,11 @@ class _Certifier:
         claim = realised_claim(self.task, self.result, self.plans)
         if claim is not None:
             yield claim
+
+    def _suppose_pi_h(self) -> None:
+        names = self.result.human_plan
+        if names is not None:
+            self.alone.suppose(replay_human(self.task, names, self.effort.deadline))
 
     def _learn_pi_h(self) -> None:
         names = self.result.human_plan

@@ -5,12 +5,14 @@ from typing import Final
 
 import numpy as np
 
-from serendipity.model import Deadline
+from serendipity.model import Deadline, LimitReachedError
 from verify.packed.bounds import LITTLE, MUCH, Bounds, Care
 from verify.packed.cheapest_path import PathSearch, TooManyStatesError
+from verify.packed.landmark_cuts import LandmarkCuts
 from verify.packed.layout import Effects, Layout, Words
 from verify.packed.mutexes import MOST_ACTIONS, MOST_FACTS, Pairs, exclusive_groups
 from verify.packed.operators import Ints, Operator, OperatorTable
+from verify.packed.stubborn import MOST_COMPARED, StubbornSets
 
 MOST_WEIGHT: Final = 2**60
 """Of all operators together: sums of weights have to stay below ``FAR``."""
@@ -19,6 +21,12 @@ _FEW: Final = 20_000
 """States after which better bounds are worth their time."""
 
 _MOST: Final = 50_000_000
+
+_SHARE: Final = 0.4
+"""What of the time that is left goes into a search with landmarks."""
+
+_MOST_CUT: Final = 500_000
+"""States of such a search at most."""
 
 
 class TooLargeError(Exception):
@@ -134,8 +142,27 @@ class Problem:
             try:
                 return self._run(starts, paid, below, _FEW)
             except TooManyStatesError:
+                found = self._with_cuts(starts, paid, below)
+                if found is not None:
+                    return found
                 self._bounds, self._careful = self._made(starts, MUCH), True
         return self._run(starts, paid, below, _MOST)
+
+    def _with_cuts(
+        self, starts: Words, paid: Ints, below: int | None
+    ) -> tuple[PathSearch, int | None] | None:
+        """The search with landmarks of each state: few states, much work for each; None: too much work."""
+        asked = self.table.operators, self._facts, self._wanted
+        cuts = [LandmarkCuts(*asked, rarest=rarest) for rarest in (True, False)]
+        sets = StubbornSets(*asked) if len(self.table.operators) <= MOST_COMPARED else None
+        part = self._deadline.part(_SHARE)
+        search = PathSearch(self.table, self.goal, self.bounds, part, below, _MOST_CUT, cuts, sets)
+        try:
+            search.add(starts, paid)
+            return search, search.run()
+        except (LimitReachedError, TooManyStatesError):
+            self._deadline.check()
+            return None
 
     def least(self, start: Words, below: int | None = None) -> int | None:
         """The least weight from one state to the goal; None if there is no way for less than ``below``."""
