@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from search.apart.mutexes import Pairs
 from search.apart.rows import Rows, column
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
@@ -23,10 +24,31 @@ def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
     """
     if packed.joint or any(op.agents & op.agents - 1 for op in packed.others):
         return False
-    return strict or not any(
-        packed.compatible(own.action, other.action, strict=False)
-        for own, other in _in_the_way(packed, deadline)
-    )
+    if strict:
+        return True
+    pairs = None
+    for own, other in _in_the_way(packed, deadline):
+        if packed.compatible(own.action, other.action, strict=False):
+            pairs = pairs or Pairs(packed, deadline)
+            if pairs.may_share_a_state(own, other):
+                return False
+    return True
+
+
+def lost_values(packed: PackedTask) -> dict[int, set[int]]:
+    """By field of the human's goal the values from which they alone never get to what it asks for."""
+    lost = {}
+    for field in packed.fields:
+        if packed.goal.need_mask & field:
+            moves = [op for op in packed.own if field & ~op.keep]
+            good, known = {packed.goal.need & field}, 0
+            while len(good) > known:
+                known = len(good)
+                for op in moves:
+                    if op.put & field in good:
+                        good.update([op.need & field] if op.need_mask & field else packed.values(field))
+            lost[field] = set(packed.values(field)) - good
+    return lost
 
 
 def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operator, Operator]]:

@@ -5,13 +5,13 @@ field, one of them was the last: so each may do without what another could have 
 in one field.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from search.apart.rows import Amounts, Rows, cheapest, column
+from search.apart.rows import Amounts, Rows, agree, cheapest, column
 from search.apart.timeline import Layer, TooManyStatesError
 from serendipity.model.resources.deadline import Deadline
 
@@ -38,7 +38,9 @@ class Outcomes(NamedTuple):
     amounts: Amounts
 
 
-def outcomes(layer: Layer, base: int, fields: Sequence[int], shared: int) -> Outcomes:
+def outcomes(
+    layer: Layer, base: int, fields: Sequence[int], shared: int, lost: Mapping[int, Collection[int]]
+) -> Outcomes:
     """What a robot can leave behind.
 
     Args:
@@ -46,6 +48,7 @@ def outcomes(layer: Layer, base: int, fields: Sequence[int], shared: int) -> Out
         base: the packed state without any robot.
         fields: those that the robot sets and that matter to the human.
         shared: those that others set, too.
+        lost: by field the values from which the human can't get to their goal.
     """
     words = layer.rows.shape[0]
     rows = (layer.rows ^ column(base, words)) & column(sum(fields), words)
@@ -56,7 +59,12 @@ def outcomes(layer: Layer, base: int, fields: Sequence[int], shared: int) -> Out
             without = (found.rows & bits).any(axis=0)
             rows = np.concatenate([found.rows, found.rows[:, without] & ~bits], axis=1)
             found = _least(rows, np.concatenate([found.amounts, found.amounts[without]]))
-    return found
+    hopeful = np.ones(len(found.amounts), dtype=np.bool_)
+    for field in fields:
+        for value in lost.get(field, ()):
+            if value != base & field:
+                hopeful &= ~agree(found.rows, field, (base ^ value) & field)
+    return Outcomes(found.rows[:, hopeful], found.amounts[hopeful])
 
 
 class Together:

@@ -6,10 +6,10 @@ together in every way, and what the human pays from there on their own, exactly.
 another, each may help itself to what others can have provided by then, for nothing: then it is a lower bound.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Final
 
-from search.apart.conditions import are_apart
+from search.apart.conditions import are_apart, lost_values
 from search.apart.outcomes import Outcomes, Together, outcomes
 from search.apart.provision import by_others, provisions
 from search.apart.rows import states
@@ -61,12 +61,12 @@ class ShortWindows:
         """
         context, packed = self._context, self._context.packed
         base, spent, least = packed.init, context.keys.epoch_weight, INFINITE_KEY
-        timelines = self._timelines()
+        lost, timelines = lost_values(packed), self._timelines()
         for epoch, step in enumerate(self._steps, 1):
             self.bound = min(least, spent)
             if spent >= self._best.key:
                 return
-            found = _Epoch(context, timelines, base, self._best.key - spent)
+            found = _Epoch(context, timelines, lost, base, self._best.key - spent)
             start = context.keys.of_start(epoch, self._horizon)
             cheap = found.cheapest(self._best.key - spent - start)
             least = min(least, spent + start + cheap[-1][0] if cheap else INFINITE_KEY)
@@ -118,11 +118,19 @@ class _Epoch:
     Args:
         context: of the call.
         timelines: robots, up to the window.
+        lost: by field the values from which the human can't get to their goal.
         base: the packed state before it without them.
         limit: key from which on what they pay is too much.
     """
 
-    def __init__(self, context: SearchContext, timelines: Sequence[Timeline], base: int, limit: int) -> None:
+    def __init__(
+        self,
+        context: SearchContext,
+        timelines: Sequence[Timeline],
+        lost: Mapping[int, Collection[int]],
+        base: int,
+        limit: int,
+    ) -> None:
         self._context = context
         self._timelines = timelines
         self._base = base
@@ -136,7 +144,7 @@ class _Epoch:
                 others |= 0 if other is timeline else other.changes
             own = [field for field in fields if field & timeline.changes & relevant]
             self._shared.append(others & sum(own))
-            self._apart.append(outcomes(timeline.ends(), base, own, others))
+            self._apart.append(outcomes(timeline.ends(), base, own, others, lost))
         most = _amount_of(context, limit)
         self._together = Together(self._apart, fields, most, deadline)
 

@@ -1,0 +1,92 @@
+"""Pairs of values that are never reached together, and where robots are in nobody's way."""
+
+from random import Random
+
+import pytest
+
+from search.apart.conditions import are_apart, lost_values
+from search.apart.mutexes import Pairs
+from search.context import SearchContext
+from search.packed.operators import applicable
+from search.packed.packed_task import PackedTask
+from search.prepared_task import PreparedTask
+from serendipity.model import Options, Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.testing.builders import task as build
+from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+
+_MOST = 3_000
+
+
+def _packed(task: Task) -> PackedTask:
+    return SearchContext(PreparedTask(task), Options(), Deadline()).packed
+
+
+def _reached(packed: PackedTask) -> list[int]:
+    """Packed states that agents reach one action after another, in breadth-first order."""
+    found = [packed.init]
+    seen = {packed.init}
+    for state in found:
+        for op in (*packed.own, *packed.joint, *packed.others):
+            if applicable(op, state) and (after := state & op.keep | op.put) not in seen:
+                seen.add(after)
+                found.append(after)
+        if len(found) > _MOST:
+            break
+    return found
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_what_can_happen_in_a_state_is_not_excluded(seed: int) -> None:
+    dice = Random(seed)
+    family = dice.choice(sorted(FAMILIES))
+    size, agents = dice.choice(SMALL[family])
+    packed = _packed(FAMILIES[family](dice, size, AGENTS[:agents]))
+    pairs = Pairs(packed, Deadline())
+    for state in dice.sample(reached := _reached(packed), min(60, len(reached))):
+        able = [op for op in (*packed.own, *packed.others) if applicable(op, state)]
+        assert all(pairs.may_share_a_state(a, b) for a in able for b in able)
+
+
+def test_who_drives_is_not_told_by_one_variable() -> None:
+    """A robot drives the van away only if it is in it; then the human does not get in."""
+    actions = {}
+    for agent in ("h", "r"):
+        actions[f"in_{agent} {agent}"] = f"empty -> drives_{agent} !empty"
+        actions[f"out_{agent} {agent}"] = f"drives_{agent} -> empty !drives_{agent}"
+        for here, there in (("a", "b"), ("b", "a")):
+            actions[f"go_{agent}_{there} {agent}"] = f"drives_{agent} van_{here} -> van_{there} !van_{here}"
+        actions[f"load_{agent} {agent}"] = f"drives_{agent} van_b -> loaded"
+    packed = _packed(build(agents="h r", init="empty van_a", goal="loaded van_a", actions=actions))
+    assert are_apart(packed, Deadline(), strict=False)
+
+
+@pytest.mark.parametrize(("strict", "apart"), [(False, False), (True, True)])
+def test_a_robot_that_takes_away_what_is_in_use(strict: bool, apart: bool) -> None:
+    """The human goes through while the robot shuts the door: after that epoch they could not have."""
+    actions = {
+        "through h": "door -> end @ 1",
+        "around h": "-> end @ 5",
+        "shut r": "door -> !door warm @ 1",
+        "heat h": "end -> warm @ 3",
+    }
+    packed = _packed(build(agents="h r", init="door", goal="end warm", actions=actions))
+    assert are_apart(packed, Deadline(), strict=strict) == apart
+
+
+def test_values_from_which_there_is_no_way_back() -> None:
+    """The human does not unload what a robot has loaded."""
+    task = build(
+        agents="h r",
+        init="at_a",
+        goal="at_c",
+        actions={
+            "carry_b h": "at_a -> at_b !at_a",
+            "carry_c h": "at_b -> at_c !at_b",
+            "load r": "at_a -> in_r !at_a",
+            "unload r": "in_r -> at_c !in_r",
+        },
+    )
+    packed = _packed(task)
+    (lost,) = lost_values(packed).values()
+    assert lost == {packed.fact_bits[task.facts.index("in_r")][1]}  # type: ignore[index]
