@@ -21,8 +21,11 @@ from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
 
-SETUP: Final = 2.0
-"""Seconds before the first epoch for tables and a first plan, where epochs have a deadline."""
+SETUP: Final = 10.0
+"""Seconds before the first epoch that tables and a first plan may take, where epochs have a deadline."""
+
+_FIRST_TRY: Final = 2.0
+"""Seconds of them in which a plan is looked for at first; twice as many each time that this does not do."""
 
 
 class Execution(Tabular):
@@ -230,11 +233,14 @@ class Execution(Tabular):
 
     def _prepare(self, seconds: float) -> None:
         """What the first decision needs and later ones keep; a plan for it, if there is one by then."""
-        try:
-            with no_collection():
-                self._brain.decide(self._outlook(), Deadline(seconds))
-        except LIMITS:
-            pass
+        share = _FIRST_TRY
+        while seconds > 0:
+            try:
+                with no_collection():
+                    self._brain.decide(self._outlook(), Deadline(min(share, seconds)))
+                return
+            except LIMITS:
+                seconds, share = seconds - share, 2 * share
 
     def _decide(self) -> Decided:
         clock = Deadline(self._deadline)
