@@ -15,7 +15,8 @@ from serendipity.testing.strategies import tasks, usar_tasks
 def test_action_by_action(task: Task, seed: int) -> None:
     dice = Random(seed)
     goals = [task.goal, *(Condition((fact,)) for fact in dice.choices(range(len(task.facts)), k=2))]
-    asked, observed, state = Explainer(task, goals), [], task.init
+    asked, quick = Explainer(task, goals), Explainer(task, goals)
+    observed, state = list[str](), task.init
     for epoch in range(5):
         possible = [i for i in task.human_actions if task.actions[i].applicable(state)]
         if not possible:
@@ -24,4 +25,9 @@ def test_action_by_action(task: Task, seed: int) -> None:
         observed.append(action.name)
         state = apply(state, action)
         if epoch != 2:
-            assert asked.explain(observed) == explanations(task, goals, observed)
+            fresh = explanations(task, goals, observed)
+            assert asked.explain(observed) == fresh
+            told = [
+                (one.with_observed, one.without_observed) for one in quick.explain(observed, canonical=False)
+            ]
+            assert told == [(one.with_observed, one.without_observed) for one in fresh]
