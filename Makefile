@@ -6,7 +6,7 @@ READY := .venv/.ready
 PROBLEMS := $(or $(SERENDIPITY_PROBLEMS),../shared)
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test test-browser pictures browser check docs bench bench-domains bench-extra fuzz wheels release-check requirements clean
+.PHONY: help .venv demo test test-browser test-robot robot pictures browser check docs bench bench-domains bench-extra fuzz wheels release-check requirements clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z.-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -54,8 +54,20 @@ test: $(READY)  ## run the tests
 test-browser: browser  ## play the pages of `show` and `play` in a headless Chromium, which it installs where it may
 	@$(BIN)/python -m pytest -m browser -rs tests/show tests/live
 
-pictures: browser  ## photograph that page again for the documentation
+test-robot: robot  ## let figures walk in physics; it installs pybullet where there is a wheel of it
+	@$(BIN)/python -m pytest -rs tests/robot
+
+pictures: browser robot  ## photograph that page, and film figures, again for the documentation
 	@$(BIN)/python -m docs.pictures
+	@$(BIN)/python -m docs.robots
+
+robot: $(READY)
+	@$(BIN)/python -c 'import pybullet' 2>/dev/null \
+	  || { if command -v uv >/dev/null 2>&1; then \
+	         uv pip install --quiet --only-binary pybullet --python $(BIN)/python --require-hashes -r requirements-robot.txt; \
+	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --only-binary pybullet --require-hashes \
+	         -r requirements-robot.txt; fi; } \
+	  || echo "No pybullet, and it can't be installed here without compiling it."
 
 browser: $(READY)
 	@command -v chromium >/dev/null 2>&1 \
@@ -129,6 +141,8 @@ requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	  --no-emit-index-url --extra dev -c requirements.txt pyproject.toml -o requirements-dev.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	  --no-emit-index-url --extra browser -c requirements-dev.txt pyproject.toml -o requirements-browser.txt
+	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
+	  --no-emit-index-url --extra robot -c requirements-dev.txt pyproject.toml -o requirements-robot.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	  --no-emit-index-url --extra docs -c requirements-dev.txt pyproject.toml -o requirements-docs.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \

@@ -29,9 +29,6 @@ _TIME_TO_TELL: Final = 0.5
 _TIME_TO_WEIGH: Final = 0.4
 """The share of the time that is kept for what comes after planning."""
 
-_TIME_TO_RECOGNISE: Final = 0.4
-"""The share of the time that recognition may take; the posterior of an earlier epoch has to do otherwise."""
-
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
@@ -97,6 +94,10 @@ class Brain:
         """Robots are out of order: nothing that they take part in is possible any more."""
         self._out |= self._promises.hands.of(tuple(robots))
 
+    def unable(self, actions: Iterable[int]) -> None:
+        """See :class:`serendipity.execution.Robots`."""
+        self._out |= frozenset(actions)
+
     # -- what they decide
 
     def decide(self, outlook: Outlook, deadline: Deadline) -> Decided:
@@ -132,10 +133,7 @@ class Brain:
         """The goals that the person may have, with their probabilities, the most probable first."""
         if self._beliefs is None:
             return {0: Fraction(1)}
-        try:
-            self._beliefs.update(state, deadline.part(_TIME_TO_RECOGNISE))
-        except LIMITS:
-            deadline.check()  # what was known before still tells something
+        self._beliefs.update(state, deadline)
         weights = self._beliefs.weights
         return {goal: weights[goal] for goal in sorted(self._beliefs.possible(), key=lambda g: -weights[g])}
 

@@ -11,7 +11,7 @@ from serendipity.model.numbers import exact
 from serendipity.model.task.task import Task
 from serendipity.robot import Adapter, Durations, Simulated
 
-ADAPTERS: Final = ("simulated",)
+ADAPTERS: Final = ("simulated", "pybullet")
 """How they are named."""
 
 Maker = Callable[[Task, Random], Adapter]
@@ -56,6 +56,10 @@ class Crew:
         """The adapter of a run; None: whatever is possible is done within the epoch."""
         if callable(self.maker):
             return self.maker(task, dice)
+        if self.maker == "pybullet":
+            from serendipity.robot.physics import Stage
+
+            return Stage(task, epoch=self.epoch_seconds)
         fail, slow = self.faults.fail, self.faults.slow
         if self.maker is None and not (fail or slow or self.durations or self.epoch_seconds):
             return None

@@ -1,5 +1,6 @@
 """The loop, an epoch at a time: robots decide, somebody says what the person does, the world moves on."""
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
@@ -7,13 +8,14 @@ from typing import TYPE_CHECKING, Any, Final
 from serendipity.execution.brain import Brain
 from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
 from serendipity.execution.outlook import Outlook, Robots
-from serendipity.execution.world import World
+from serendipity.execution.world import Unfinished, World
 from serendipity.model.errors import LIMITS, UsageError
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options, limit_of
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Table, Tabular
+from serendipity.model.task.execution import actions_named
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task, canonical_name
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
@@ -21,11 +23,11 @@ from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
 
-SETUP: Final = 10.0
-"""Seconds before the first epoch that tables and a first plan may take, where epochs have a deadline."""
+_TRIES: Final = 3
+"""How often an action of robots may fail before they give it up for good."""
 
-_FIRST_TRY: Final = 2.0
-"""Seconds of them in which a plan is looked for at first; twice as many each time that this does not do."""
+SETUP: Final = 2.0
+"""Seconds before the first epoch for tables and a first plan, where epochs have a deadline."""
 
 
 class Execution(Tabular):
@@ -94,6 +96,7 @@ class Execution(Tabular):
         self._world = World(task, options.discount, strict=options.strict)
         self._brain: Robots = robots or Brain(task, options, goals, beta, told=told)
         self._adapter = adapter
+        self._failures: Counter[Order] = Counter()
         self._reports: tuple[Reported, ...] = ()
         self._running: list[PlanStep] = []
         self._decided: Decided | None = None
@@ -181,6 +184,7 @@ class Execution(Tabular):
         robots = [*([] if offer is None else [offer]), *decided.actions]
         happened = self._world.play(his, robots, lambda steps: self._carry_out(his, steps))
         self._running = [u.step for u in happened.unfinished if u.why == "running" and u.step is not offer]
+        self._learn_from(happened.unfinished)
         paid, team = self._world.cost(happened.executed)
         self._paid, self._team = self._paid + paid, self._team + team
         self._brain.saw(his, happened.executed, tried)
@@ -233,14 +237,11 @@ class Execution(Tabular):
 
     def _prepare(self, seconds: float) -> None:
         """What the first decision needs and later ones keep; a plan for it, if there is one by then."""
-        share = _FIRST_TRY
-        while seconds > 0:
-            try:
-                with no_collection():
-                    self._brain.decide(self._outlook(), Deadline(min(share, seconds)))
-                return
-            except LIMITS:
-                seconds, share = seconds - share, 2 * share
+        try:
+            with no_collection():
+                self._brain.decide(self._outlook(), Deadline(seconds))
+        except LIMITS:
+            pass
 
     def _decide(self) -> Decided:
         clock = Deadline(self._deadline)
@@ -267,6 +268,15 @@ class Execution(Tabular):
     def _offer(self, decided: Decided, action: str) -> PlanStep | None:
         name = canonical_name(action)
         return next((step for step in decided.offers if step.action == name), None)
+
+    def _learn_from(self, unfinished: Sequence[Unfinished]) -> None:
+        """What fails again and again is not counted on any more."""
+        for missed in unfinished:
+            if missed.why == "failed":
+                order = Order(missed.step.agents, missed.step.action)
+                self._failures[order] += 1
+                if self._failures[order] == _TRIES:
+                    self._brain.unable(actions_named(self.task, order.action, order.agents))
 
     def _carry_out(self, his: int | None, steps: Sequence[PlanStep]) -> Sequence[Outcome]:
         if self._adapter is None:

@@ -51,3 +51,6 @@ class Robots(Protocol):
 
     def drop(self, robots: Iterable[int]) -> None:
         """Robots, by agent ids, are out of order: nothing that they take part in is possible any more."""
+
+    def unable(self, actions: Iterable[int]) -> None:
+        """Actions, by id, have turned out to be more than robots can do."""

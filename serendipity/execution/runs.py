@@ -199,12 +199,12 @@ def execute(
         seed: of the first run's dice; the others count on from it.
         ties: ``fixed``: the person follows the canonical one of their optimal plans; ``drawn``: any.
         faults: how unreliable robots are, ``"fail=0.1,slow=0.1,drop=0.01"`` for example.
-        adapter: what carries out what robots do: ``simulated``, or what makes a
+        adapter: what carries out what robots do: ``simulated``, ``pybullet`` (in physics), or what makes a
             :class:`serendipity.robot.Adapter` for a run from the task and its dice; None: simulated where
             there are faults or durations, else whatever is possible is done within the epoch.
         durations: of what simulated robots do, ``"move=2..4,*=1"`` for example: seconds by the first word of
             an action.
-        epoch_seconds: how long an epoch is for robots; None: 1.
+        epoch_seconds: how long an epoch is for robots; None: 1, and 5 for figures in physics.
         human_model: what robots take the person to be; None: what they are, ``observant`` if in doubt.
         goals: goals that the person may have; robots do not know which.
         epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.

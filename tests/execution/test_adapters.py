@@ -69,6 +69,16 @@ def test_a_failed_action_is_tried_again_while_it_pays(room2: Task) -> None:
     assert run.passed[0].decided.actions[0].action == run.passed[1].decided.actions[0].action
 
 
+def test_what_always_fails_is_given_up(room2: Task) -> None:
+    robot = Scripted(*[Report("done")] * 4, *[Report("failed")] * 30)  # all but the hand-over
+    run = Execution(room2, discount="0.6", human_model="omniscient", told=True, adapter=robot)
+    person = Omniscient(room2)
+    while not run.done and run.epoch < 40:
+        run.step(person.choose(moment_of(run)))
+    tried = [passed.epoch for passed in run.passed if "hand_over" in (passed.human or "")]
+    assert run.done and tried == [6, 7, 8], "a person who is told waits for no hand-over for ever"
+
+
 def test_logs_replay_without_the_robot(room2: Task) -> None:
     run = live(room2, Scripted(Report("running", 1, "slow"), Report("failed", 2.5, "slipped")))
     again = replay(room2, as_lines(run))

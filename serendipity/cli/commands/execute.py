@@ -1,5 +1,6 @@
 """``serendipity execute``: a person, robots and the world go on epoch by epoch."""
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,6 +19,7 @@ from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from serendipity.execution import Runs
+    from serendipity.robot.physics import Film, Stage
 
 
 def execute(
@@ -76,8 +78,8 @@ def execute(
         str | None,
         typer.Option(
             help="What carries out what robots do; by default simulated where there are durations or faults, "
-            "else all that is possible is done within its epoch.",
-            **choices("simulated"),
+            "else all that is possible is done within its epoch. pybullet: figures in physics.",
+            **choices("simulated", "pybullet"),
         ),
     ] = None,
     durations: Annotated[
@@ -89,7 +91,12 @@ def execute(
         ),
     ] = None,
     epoch_seconds: Annotated[
-        str | None, typer.Option(metavar="SECONDS", help="How long an epoch is for robots; 1.")
+        str | None,
+        typer.Option(metavar="SECONDS", help="How long an epoch is for robots; 1, in physics 5."),
+    ] = None,
+    clip: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Film figures in physics, as .gif, .webp or animated .png."),
     ] = None,
     deadline: Annotated[
         str | None,
@@ -111,6 +118,8 @@ def execute(
     """Let a person do as they like while robots watch, decide in each epoch, and help where it pays."""
     form = output.prepare(format, output_file, verbose, output.DATA)
     output.check_output(log, "--log")
+    output.check_output(clip, "--clip")
+    film = None if clip is None else _film(clip, adapter, runs)
     named, policy = _recorded(files, human)
     task = naming.load(named, person, robot, agent, team, example, quiet=quiet)
     if replay is not None:
@@ -124,7 +133,7 @@ def execute(
             seed=seed,
             ties=ties,
             faults=faults,
-            adapter=adapter,
+            adapter=adapter if film is None else partial(_filmed, film, epoch_seconds),
             durations=durations,
             epoch_seconds=_seconds("epoch_seconds", epoch_seconds),
             human_model=human_model,
@@ -140,8 +149,30 @@ def execute(
         from serendipity.execution import as_text
 
         answers.append(output.Answer("".join(map(as_text, found.logs)), log, "--log"))
+    if clip is not None and film is not None:
+        answers.append(output.Answer(film.clip(clip.suffix, found.logs[0]), clip, "--clip"))
     output.write_answers(answers)
     return ExitCode.ANSWERED
+
+
+def _film(clip: Path, adapter: str | None, runs: int) -> "Film":
+    """What a run is filmed with.
+
+    Raises:
+        UsageError: there is nothing to be seen, or it can't be written like that.
+    """
+    if adapter != "pybullet" or runs != 1:
+        raise UsageError("--clip: expected --adapter pybullet, and a single run")
+    from serendipity.robot.physics import Film, check_format
+
+    check_format(clip)
+    return Film()
+
+
+def _filmed(film: "Film", epoch_seconds: str | None, task: serendipity.Task, _dice: object) -> "Stage":
+    from serendipity.robot.physics import Stage
+
+    return Stage(task, epoch=_seconds("epoch_seconds", epoch_seconds), film=film)
 
 
 def _seconds(name: str, text: str | None) -> float | None:

@@ -1,7 +1,6 @@
 """Where rounds are played: every page shows the same one, and each event is recorded."""
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from serendipity.live.play.game import Game
@@ -17,12 +16,11 @@ class Table:
 
     Args:
         setting: what is played.
-        file: where every event is written down when it happens; None: nowhere.
     """
 
-    def __init__(self, setting: Setting, file: Path | None = None) -> None:
+    def __init__(self, setting: Setting) -> None:
         self._setting = setting
-        self._records = Records("player", file)
+        self._records = Records("player")
         self._round = 0
         self._begin()
 

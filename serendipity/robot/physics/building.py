@@ -1,0 +1,211 @@
+"""The miniature building: cells of a floor plan as rooms with walls, and doors that are pushed open."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from serendipity.robot.physics.engine import Colour, Engine
+from serendipity.show.map.layout import Box, Layout
+
+CELL: Final = 0.8
+"""Least side of a room, in metres."""
+GAP: Final = 0.42
+"""How wide a doorway is, in metres."""
+
+_NEAR: Final = 0.24  # from a doorway to where it is approached
+_WALL: Final = 0.16, 0.04  # height and thickness
+_DOOR: Final = 0.15, 0.02
+_CLEAR: Final = 0.035  # between the leaf and the ends of walls
+_DOOR_MASS: Final = 0.08
+_SPRING: Final = 0.012  # the torque that closes a door again, in newton metres
+_HALL: Final[Colour] = (0.87, 0.85, 0.79, 1)
+_ROOM: Final[Colour] = (0.94, 0.94, 0.93, 1)
+_BRICK: Final[Colour] = (0.62, 0.66, 0.72, 1)
+_WOOD: Final[Colour] = (0.72, 0.53, 0.33, 1)
+
+Point = tuple[float, float]
+
+
+class Building:
+    """Rooms on a floor.
+
+    Args:
+        engine: where it stands.
+        layout: of the map; ``y`` of pictures grows downwards, that of the building away from who looks.
+
+    Attributes:
+        middles: the middle of each place, in metres.
+        corners: its corner at the left, nearest to who looks.
+        doors: their leaves, by the middle of the doorway.
+        width, depth: of the whole, in metres.
+    """
+
+    def __init__(self, engine: Engine, layout: Layout) -> None:
+        self._engine = engine
+        self._layout = layout
+        self._scale = CELL / min(side for box in layout.boxes.values() for side in (box.width, box.height))
+        self.width, self.depth = layout.width * self._scale, layout.height * self._scale
+        boxes = layout.boxes.items()
+        self.corners = {p: self._at(b.x - b.width / 2, b.y + b.height / 2) for p, b in boxes}
+        self.middles = {place: self._at(box.x, box.y) for place, box in layout.boxes.items()}
+        self.doors: dict[Point, list[int]] = {}
+        ground = (self.width + 4, self.depth + 4, 0.1)
+        engine.box(ground, (self.width / 2, self.depth / 2, -0.06), (1, 1, 1, 1))
+        for box in layout.boxes.values():
+            self._floor(box)
+        for wall in self._walls():
+            self._brick(*wall)
+
+    def way(self, source: str, target: str) -> tuple[Point, ...]:
+        """The points on the way between two places that share a doorway: before it, in it, behind it."""
+        boxes = self._layout.boxes
+        if not self._shared(source, target) or (boxes[source].corridor and boxes[target].corridor):
+            return ()
+        middle, upright = _between(boxes[source], boxes[target])
+        x, y = self._at(*middle)
+        ahead = self.middles[target]
+        dx = _NEAR * (1 if ahead[0] > x else -1) if upright else 0.0
+        dy = 0.0 if upright else _NEAR * (1 if ahead[1] > y else -1)
+        return (x - dx, y - dy), (x, y), (x + dx, y + dy)
+
+    def place_at(self, point: Point) -> str:
+        """The place whose middle is nearest, counted in its own sides."""
+        boxes = self._layout.boxes
+
+        def off(place: str) -> float:
+            x, y = self.middles[place]
+            width, height = boxes[place].width * self._scale, boxes[place].height * self._scale
+            return max(abs(point[0] - x) / width, abs(point[1] - y) / height)
+
+        return min(self.middles, key=off)
+
+    def _shared(self, a: str, b: str) -> bool:
+        return not self._layout.doors.isdisjoint(((a, b), (b, a)))
+
+    def _at(self, x: float, y: float) -> Point:
+        return x * self._scale, self.depth - y * self._scale
+
+    def _floor(self, box: Box) -> None:
+        size = (box.width * self._scale, box.height * self._scale, 0.01)
+        colour = _HALL if box.corridor else _ROOM
+        self._engine.box(size, (*self._at(box.x, box.y), -0.005), colour, solid=False)
+
+    def _walls(self) -> Iterator[tuple[Point, Point]]:
+        """Pieces of wall from point to point, in metres; a doorway is between two of them."""
+        boxes = self._layout.boxes
+        openings: dict[tuple[float, float, bool], bool] = {}
+        for a, b in self._layout.doors:
+            (x, y), upright = _between(boxes[a], boxes[b])
+            openings[round(x, 3), round(y, 3), upright] = boxes[a].corridor and boxes[b].corridor
+        drawn: set[tuple[float, ...]] = set()
+        for box in boxes.values():
+            for start, end in _sides(box):
+                piece = tuple(round(value, 3) for value in (*start, *end))
+                if piece in drawn:
+                    continue
+                drawn.add(piece)
+                yield from self._pieces(start, end, openings)
+
+    def _pieces(
+        self, start: Point, end: Point, openings: dict[tuple[float, float, bool], bool]
+    ) -> Iterator[tuple[Point, Point]]:
+        upright = start[0] == end[0]
+        on = [
+            (x, y, wide)
+            for (x, y, up), wide in openings.items()
+            if up is upright
+            and (start[0] - 0.01 <= x <= end[0] + 0.01)
+            and (start[1] - 0.01 <= y <= end[1] + 0.01)
+        ]
+        a, b = self._at(*start), self._at(*end)
+        if any(wide for _, _, wide in on):
+            return
+        axis = 1 if upright else 0
+        direction = 1 if b[axis] > a[axis] else -1
+        for x, y, _ in sorted(on, key=lambda opening: direction * self._at(*opening[:2])[axis]):
+            middle = self._at(x, y)
+            near, far = list(middle), list(middle)
+            near[axis] -= direction * GAP / 2
+            far[axis] += direction * GAP / 2
+            yield a, (near[0], near[1])
+            if middle not in self.doors:
+                ends = (near[0], near[1]), (far[0], far[1])
+                self.doors[middle] = [self._leaf(hinge, middle) for hinge in ends]
+            a = far[0], far[1]
+        yield a, b
+
+    def _brick(self, start: Point, end: Point) -> None:
+        height, thick = _WALL
+        size = (abs(end[0] - start[0]) + thick, abs(end[1] - start[1]) + thick, height)
+        middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2, height / 2)
+        self._engine.box(size, middle, _BRICK)
+
+    def _leaf(self, hinge: Point, end: Point) -> int:
+        """Half of a door: it swings both ways about its hinge, and falls shut again."""
+        bullet, (height, thick) = self._engine.bullet, _DOOR
+        along = (end[0] - hinge[0], end[1] - hinge[1])
+        whole = abs(along[0] + along[1])
+        unit, length = (along[0] / whole, along[1] / whole), whole - 1.2 * _CLEAR
+        half = [max(abs(part) * length, thick) / 2 for part in unit] + [height / 2]
+        offset = [unit[0] * (length / 2 + _CLEAR), unit[1] * (length / 2 + _CLEAR), height / 2 + 0.01]
+        call = self._engine.call
+        shape = call("createCollisionShape", bullet.GEOM_BOX, halfExtents=half, collisionFramePosition=offset)
+        look = call(
+            "createVisualShape",
+            bullet.GEOM_BOX,
+            halfExtents=half,
+            visualFramePosition=offset,
+            rgbaColor=_WOOD,
+        )
+        door = call(
+            "createMultiBody",
+            0,
+            -1,
+            -1,
+            (*hinge, 0),
+            linkMasses=[_DOOR_MASS],
+            linkCollisionShapeIndices=[shape],
+            linkVisualShapeIndices=[look],
+            linkPositions=[(0, 0, 0)],
+            linkOrientations=[(0, 0, 0, 1)],
+            linkInertialFramePositions=[offset],
+            linkInertialFrameOrientations=[(0, 0, 0, 1)],
+            linkParentIndices=[0],
+            linkJointTypes=[bullet.JOINT_REVOLUTE],
+            linkJointAxis=[(0, 0, 1)],
+        )
+        call("changeDynamics", door, 0, jointLowerLimit=-2.6, jointUpperLimit=2.6, jointDamping=0.01)
+        call("setJointMotorControl2", door, 0, bullet.POSITION_CONTROL, targetPosition=0, force=_SPRING)
+        return int(door)
+
+
+def _sides(box: Box) -> Iterator[tuple[Point, Point]]:
+    left, right = box.x - box.width / 2, box.x + box.width / 2
+    top, bottom = box.y - box.height / 2, box.y + box.height / 2
+    yield (left, top), (right, top)
+    yield (left, bottom), (right, bottom)
+    yield (left, top), (left, bottom)
+    yield (right, top), (right, bottom)
+
+
+def _beside(a: Box, b: Box) -> bool:
+    """Whether two boxes that touch are side by side, so that the wall between them is upright."""
+    return abs(abs(a.x - b.x) - (a.width + b.width) / 2) < abs(abs(a.y - b.y) - (a.height + b.height) / 2)
+
+
+def _between(a: Box, b: Box) -> tuple[Point, bool]:
+    """The middle of the wall that two boxes share, and whether it is upright."""
+    upright = _beside(a, b)
+    low = max(_low(a, upright), _low(b, upright))
+    high = min(_high(a, upright), _high(b, upright))
+    middle = (low + high) / 2
+    if upright:
+        return (a.x + (a.width if b.x > a.x else -a.width) / 2, middle), True
+    return (middle, a.y + (a.height if b.y > a.y else -a.height) / 2), False
+
+
+def _low(box: Box, along_y: bool) -> float:
+    return box.y - box.height / 2 if along_y else box.x - box.width / 2
+
+
+def _high(box: Box, along_y: bool) -> float:
+    return box.y + box.height / 2 if along_y else box.x + box.width / 2

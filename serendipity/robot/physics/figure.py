@@ -1,0 +1,277 @@
+"""A stick figure: a trunk that is held upright and led, and limbs whose joints motors move.
+
+Of the size of a Nao.  It has the shapes of no particular robot.
+"""
+
+from math import atan2, cos, hypot, pi, sin
+from typing import Final, NamedTuple
+
+from serendipity.robot.physics.building import Point
+from serendipity.robot.physics.engine import RATE, Colour, Engine, Vector
+
+THIGH: Final = 0.14
+SHIN: Final = 0.15
+_TRUNK: Final = 0.17
+_ARM: Final = 0.11
+_HIP: Final = 0.05
+_SHOULDER: Final = 0.085
+_HEAD: Final = 0.062
+_LIMB: Final = 0.02
+RADIUS: Final = 0.11
+"""Of the room that a figure takes, in metres."""
+_HEIGHT: Final = THIGH + SHIN + 0.02
+"""Of the hips above the floor."""
+
+_MASS: Final = 4.0
+_LIMB_MASS: Final = 0.1
+_PULL: Final = 60.0
+"""The most force that leads the trunk, in newtons: what weighs more than that stays where it is."""
+_TORQUE: Final = 4.0
+_STRIDE: Final = 0.2  # metres of a whole step, left and right
+_LEASH: Final = 0.08  # how far ahead of the trunk the point may be that leads it, in metres
+_TURN: Final = 5.0  # radians in a second
+_CLOSE: Final = 0.02  # metres
+
+PARTS: Final = ("head", *(f"{side} {part}" for side in "lr" for part in ("arm", "hand", "thigh", "shin")))
+"""The links, in the order of their numbers."""
+
+
+class Pose(NamedTuple):
+    """Angles of joints in radians, forwards; how low the hips are, in metres."""
+
+    arms: tuple[float, float] = (0.0, 0.0)
+    elbows: tuple[float, float] = (-0.3, -0.3)
+    hips: tuple[float, float] = (0.0, 0.0)
+    knees: tuple[float, float] = (0.0, 0.0)
+    low: float = 0.0
+
+
+STAND: Final = Pose()
+REACH: Final = Pose(arms=(-1.2, -1.2), elbows=(-0.2, -0.2))
+KNEEL: Final = Pose(arms=(-0.9, -0.9), elbows=(-0.1, -0.1), hips=(-1.5, -1.5), knees=(2.2, 2.2), low=0.15)
+CARRY: Final = (-0.75, -0.75), (-0.9, -0.9)
+"""Arms and elbows of who carries something."""
+
+
+class Figure:
+    """A body that walks.
+
+    Args:
+        engine: its world.
+        at: where it stands.
+        colour: of trunk and limbs.
+        cap: of its head.
+        size: 1 is the size of a Nao.
+
+    Attributes:
+        body: its number in the engine.
+        walked: metres so far.
+    """
+
+    def __init__(self, engine: Engine, at: Point, colour: Colour, cap: Colour, size: float = 1.0) -> None:
+        self._engine = engine
+        self._size = size
+        self.body = _built(engine, at, colour, cap, size)
+        bullet = engine.bullet
+        for link in range(len(PARTS)):
+            engine.call("setJointMotorControl2", self.body, link, bullet.VELOCITY_CONTROL, force=0)
+        self._lead = at
+        self._heading = -pi / 2
+        self._pose = STAND
+        self.walked = 0.0
+        self.carries = False
+        self._last = at
+        self._leash = engine.call(
+            "createConstraint",
+            self.body,
+            -1,
+            -1,
+            -1,
+            bullet.JOINT_FIXED,
+            (0, 0, 0),
+            (0, 0, 0),
+            (*at, self._hips),
+        )
+
+    @property
+    def at(self) -> Point:
+        """Where it is on the floor."""
+        x, y, _ = self._engine.place_of(self.body)
+        return x, y
+
+    @property
+    def hand(self) -> Vector:
+        """Where it holds things: between its hands."""
+        ends = [self._tip(PARTS.index(f"{side} hand")) for side in "lr"]
+        x, y, z = ((a + b) / 2 for a, b in zip(*ends, strict=True))
+        return x, y, z
+
+    @property
+    def top(self) -> Vector:
+        """Above its head."""
+        x, y, z = self._engine.place_of(self.body)
+        return x, y, z + self._size * (_TRUNK + 2.6 * _HEAD)
+
+    @property
+    def _hips(self) -> float:
+        return self._size * _HEIGHT
+
+    def away(self, target: Point) -> float:
+        """Metres to a point on the floor."""
+        x, y = self.at
+        return hypot(target[0] - x, target[1] - y)
+
+    def walk(self, target: Point, speed: float) -> bool:
+        """Lead it towards a point for a moment; whether it is there.
+
+        Args:
+            target: the point.
+            speed: in metres a second.
+        """
+        left = self.away(target)
+        if left < _CLOSE:
+            self.rest()
+            return True
+        x, y = self.at
+        ahead = min(left, _LEASH, speed / RATE + hypot(self._lead[0] - x, self._lead[1] - y))
+        self._lead = x + (target[0] - x) / left * ahead, y + (target[1] - y) / left * ahead
+        self._face(atan2(target[1] - y, target[0] - x))
+        self._stride()
+        return False
+
+    def rest(self, pose: Pose = STAND, facing: Point | None = None) -> None:
+        """Stay where it is for a moment, in a pose."""
+        if facing is not None:
+            x, y = self.at
+            self._face(atan2(facing[1] - y, facing[0] - x))
+        self._take(pose)
+
+    def _stride(self) -> None:
+        """The pose of a walk: legs swing with the way that is really gone."""
+        x, y = self.at
+        self.walked += hypot(x - self._last[0], y - self._last[1])
+        self._last = x, y
+        phase = 2 * pi * self.walked / (_STRIDE * self._size)
+        swing = 0.55 * sin(phase)
+        bent = [0.15 + 0.7 * max(0.0, cos(phase + turn)) for turn in (0.0, pi)]
+        self._take(
+            Pose(
+                arms=(0.5 * sin(phase), -0.5 * sin(phase)),
+                hips=(-swing - 0.5 * bent[0] + 0.1, swing - 0.5 * bent[1] + 0.1),
+                knees=(bent[0], bent[1]),
+                low=0.008 * (1 + sin(2 * phase)),
+            )
+        )
+
+    def _face(self, heading: float) -> None:
+        turn = (heading - self._heading + pi) % (2 * pi) - pi
+        most = _TURN / RATE
+        self._heading += max(-most, min(most, turn))
+
+    def _take(self, pose: Pose) -> None:
+        low = self._pose.low + max(-0.4 / RATE, min(0.4 / RATE, pose.low - self._pose.low))
+        if self.carries and pose.low < 0.1 and pose is not REACH:
+            pose = pose._replace(arms=CARRY[0], elbows=CARRY[1])
+        self._pose = pose._replace(low=low)
+        engine = self._engine
+        height = self._hips - low * self._size
+        turned = engine.call("getQuaternionFromEuler", (0, 0, self._heading))
+        engine.call("changeConstraint", self._leash, (*self._lead, height), turned, maxForce=_PULL)
+        angles = {"arm": pose.arms, "hand": pose.elbows, "thigh": pose.hips, "shin": pose.knees}
+        for side, letter in enumerate("lr"):
+            for part, both in angles.items():
+                engine.call(
+                    "setJointMotorControl2",
+                    self.body,
+                    PARTS.index(f"{letter} {part}"),
+                    engine.bullet.POSITION_CONTROL,
+                    targetPosition=both[side],
+                    force=_TORQUE,
+                    maxVelocity=8.0,
+                )
+
+    def _tip(self, link: int) -> Vector:
+        """The far end of a limb."""
+        state = self._engine.call("getLinkState", self.body, link, computeForwardKinematics=1)
+        tip, _ = self._engine.call(
+            "multiplyTransforms", state[4], state[5], (0, 0, -_ARM * self._size), (0, 0, 0, 1)
+        )
+        return tip[0], tip[1], tip[2]
+
+
+class _Link(NamedTuple):
+    """A part of the body: its shape hangs from its joint.
+
+    Attributes:
+        parent: number of the part that it hangs on, the trunk being 0.
+        joint: where, from the parent's own joint.
+        length: of the limb; 0 for the head.
+        colour: of its shape.
+    """
+
+    parent: int
+    joint: Vector
+    length: float
+    colour: Colour
+
+
+def _built(engine: Engine, at: Point, colour: Colour, cap: Colour, size: float) -> int:
+    links = [_Link(0, (0, 0, _TRUNK + _HEAD * 1.1), 0, cap)]
+    dark: Colour = (colour[0] * 0.7, colour[1] * 0.7, colour[2] * 0.7, 1)
+    for side in (1, -1):
+        arm = len(links) + 1
+        links.append(_Link(0, (0, side * _SHOULDER, _TRUNK - 0.01), _ARM, colour))
+        links.append(_Link(arm, (0, 0, -_ARM), _ARM, dark))
+        links.append(_Link(0, (0, side * _HIP, -0.01), THIGH, colour))
+        links.append(_Link(arm + 2, (0, 0, -THIGH), SHIN, dark))
+    bullet, call = engine.bullet, engine.call
+    looks = [_look(engine, link, size) for link in links]
+    trunk = [0.045 * size, 0.07 * size, _TRUNK / 2 * size]
+    low, high = -_HEIGHT + 0.03, _TRUNK
+    return int(
+        call(
+            "createMultiBody",
+            _MASS,
+            call(
+                "createCollisionShape",
+                bullet.GEOM_CYLINDER,
+                radius=RADIUS,
+                height=(high - low) * size,
+                collisionFramePosition=(0, 0, (low + high) / 2 * size),
+            ),
+            call(
+                "createVisualShape",
+                bullet.GEOM_BOX,
+                halfExtents=trunk,
+                visualFramePosition=(0, 0, _TRUNK / 2 * size),
+                rgbaColor=colour,
+            ),
+            (*at, _HEIGHT * size),
+            linkMasses=[_LIMB_MASS] * len(links),
+            linkCollisionShapeIndices=[-1] * len(links),
+            linkVisualShapeIndices=looks,
+            linkPositions=[[value * size for value in link.joint] for link in links],
+            linkOrientations=[(0, 0, 0, 1)] * len(links),
+            linkInertialFramePositions=[(0, 0, -link.length / 2 * size) for link in links],
+            linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),
+            linkParentIndices=[link.parent for link in links],
+            linkJointTypes=[bullet.JOINT_FIXED, *[bullet.JOINT_REVOLUTE] * (len(links) - 1)],
+            linkJointAxis=[(0, 1, 0)] * len(links),
+        )
+    )
+
+
+def _look(engine: Engine, link: _Link, size: float) -> int:
+    call, bullet = engine.call, engine.bullet
+    if not link.length:
+        return int(call("createVisualShape", bullet.GEOM_SPHERE, radius=_HEAD * size, rgbaColor=link.colour))
+    return int(
+        call(
+            "createVisualShape",
+            bullet.GEOM_CAPSULE,
+            radius=_LIMB * size,
+            length=link.length * size,
+            visualFramePosition=(0, 0, -link.length / 2 * size),
+            rgbaColor=link.colour,
+        )
+    )

@@ -1,0 +1,213 @@
+"""Films of a stage: frames by the engine's own renderer, words by Pillow."""
+
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from serendipity.model.errors import UsageError
+from serendipity.model.numbers import plain
+from serendipity.robot.physics.building import Building
+from serendipity.robot.physics.camera import Camera, Pixel
+from serendipity.robot.physics.engine import Engine
+from serendipity.robot.physics.figure import Figure
+from serendipity.robot.physics.kit import Kit
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+FORMATS: Final = (".gif", ".png", ".webp")
+"""Of clips, by suffix; ``.png`` is an animated one."""
+
+_RATE: Final = 4.0  # frames for each second of the stage
+_SHOWN: Final = 90  # milliseconds of a frame in a clip
+_LAST: Final = 2500  # of the last one
+_COLOURS: Final = 96
+_INSET: Final = 0.05, 0.16  # of the names of places, from their corners; in metres
+_HEAD: Final = 62  # pixels above the picture, for words
+_INK: Final = (35, 38, 45)
+_PALE: Final = (96, 100, 110)
+_RED: Final = (190, 25, 25)
+_PAPER: Final = (255, 255, 255)
+
+
+@dataclass(frozen=True, slots=True)
+class _Frame:
+    """A moment: its epoch, what was to be seen, and where whose name belongs."""
+
+    epoch: int
+    image: "Image.Image"
+    agents: tuple[tuple[str, Pixel], ...]
+    things: tuple[tuple[str, Pixel], ...]
+
+
+class Film:
+    """Records a stage.
+
+    Args:
+        width: of pictures, in pixels.
+        rate: frames for each second of the stage.
+
+    Raises:
+        UsageError: Pillow is not installed.
+    """
+
+    def __init__(self, width: int = 960, rate: float = _RATE) -> None:
+        if find_spec("PIL") is None:
+            raise UsageError("clips need Pillow: pip install serendipity-planner[robot]")
+        self._width = width
+        self._rate = rate
+        self._frames: list[_Frame] = []
+
+    # -- recording
+
+    def begin(
+        self, engine: Engine, building: Building, figures: Mapping[str, Figure], things: Mapping[str, Kit]
+    ) -> None:
+        """Set up the camera.
+
+        Args:
+            engine: the world.
+            building: what is to be seen.
+            figures: by name.
+            things: by name.
+        """
+        self._engine = engine
+        self._camera = Camera(engine, building, self._width)
+        self._figures, self._things = figures, things
+        self._next = 0.0
+        self._places = [
+            (place, self._camera.pixel((x + _INSET[0], y + _INSET[1], 0.0)))
+            for place, (x, y) in building.corners.items()
+        ]
+
+    def watch(self, epoch: int) -> None:
+        """Take a picture, if it is time for one."""
+        if self._engine.seconds < self._next:
+            return
+        self._next = self._engine.seconds + 1 / self._rate
+        pixel = self._camera.pixel
+        self._frames.append(
+            _Frame(
+                epoch,
+                self._camera.picture(),
+                tuple((name, pixel(figure.top)) for name, figure in self._figures.items()),
+                tuple((name, pixel(thing.place)) for name, thing in self._things.items()),
+            )
+        )
+
+    # -- showing
+
+    def clip(self, suffix: str, log: Sequence[Mapping[str, Any]]) -> bytes:
+        """All frames as a moving picture.
+
+        Args:
+            suffix: one of ``FORMATS``.
+            log: of the run: what stands above the pictures.
+
+        Raises:
+            UsageError: nothing was recorded.
+        """
+        from PIL import Image
+
+        pages = [self._page(frame, log) for frame in self._filmed()]
+        times = [_SHOWN] * (len(pages) - 1) + [_LAST]
+        first, rest = pages[0], pages[1:]
+        form = suffix.lower().removeprefix(".")
+        if form != "webp":
+            first = first.quantize(_COLOURS, dither=Image.Dither.NONE)
+            rest = [page.quantize(palette=first, dither=Image.Dither.NONE) for page in rest]
+        buffer = io.BytesIO()
+        first.save(
+            buffer, form, save_all=True, append_images=rest, duration=times, loop=0, optimize=True, quality=60
+        )
+        return buffer.getvalue()
+
+    def strip(self, log: Sequence[Mapping[str, Any]], epochs: Sequence[int]) -> bytes:
+        """Moments in the middle of some epochs as one picture, below each other, as PNG.
+
+        Args:
+            log: of the run.
+            epochs: which.
+
+        Raises:
+            UsageError: nothing was recorded.
+        """
+        from PIL import Image
+
+        shown = []
+        for epoch in epochs:
+            frames = [frame for frame in self._filmed() if frame.epoch == epoch]
+            shown += frames[len(frames) // 2 :][:1]
+        pages = [self._page(frame, log) for frame in shown]
+        height = sum(page.height for page in pages) + 6 * (len(pages) - 1)
+        strip = Image.new("RGB", (pages[0].width, height), _PALE)
+        for number, page in enumerate(pages):
+            strip.paste(page, (0, number * (page.height + 6)))
+        buffer = io.BytesIO()
+        strip.quantize(_COLOURS, dither=Image.Dither.NONE).save(buffer, "png", optimize=True)
+        return buffer.getvalue()
+
+    def _filmed(self) -> list[_Frame]:
+        if not self._frames:
+            raise UsageError("clip: nothing was recorded")
+        return self._frames
+
+    def _page(self, frame: _Frame, log: Sequence[Mapping[str, Any]]) -> "Image.Image":
+        from PIL import Image, ImageDraw, ImageFont
+
+        page = Image.new("RGB", (self._width, self._camera.height + _HEAD), _PAPER)
+        page.paste(frame.image, (0, _HEAD))
+        draw = ImageDraw.Draw(page)
+        fonts = {size: ImageFont.load_default(size) for size in (12, 14, 16, 20)}
+        event = next((line for line in log if line.get("epoch") == frame.epoch), None)
+        if event is not None:
+            draw.text((14, 9), f"epoch {frame.epoch}", _INK, fonts[20])
+            did = " · ".join(_deeds(event))
+            draw.text((126, 12), did, _INK, fonts[16])
+            draw.text((126, 36), f"robots: {event['decision']['reason']}", _PALE, fonts[14])
+            costs = f"{log[0]['human']} {plain(event['human_cost'])} · team {plain(event['cost'])}"
+            draw.text((self._width - 14, 11), costs, _INK, fonts[16], anchor="ra")
+            draw.text((self._width - 14, 36), "paid so far", _PALE, fonts[14], anchor="ra")
+        for name, (x, y) in self._places:
+            draw.text((x, y + _HEAD), name, _PALE, fonts[12], anchor="ls")
+        for name, (x, y) in frame.things:
+            draw.text(
+                (x + 9, y + _HEAD + 17),
+                name,
+                _RED,
+                fonts[14],
+                anchor="ls",
+                stroke_width=2,
+                stroke_fill=_PAPER,
+            )
+        for name, (x, y) in frame.agents:
+            draw.text(
+                (x, y + _HEAD - 3), name, _INK, fonts[14], anchor="ms", stroke_width=2, stroke_fill=_PAPER
+            )
+        return page
+
+
+def check_format(path: Path) -> None:
+    """Refuse what no clip can be written as.
+
+    Raises:
+        UsageError: there is no such format.
+    """
+    if path.suffix.lower() not in FORMATS:
+        raise UsageError(f"clip: expected a name that ends in one of {', '.join(FORMATS)}, got '{path.name}'")
+
+
+def _deeds(event: Mapping[str, Any]) -> list[str]:
+    """What takes place in an epoch, and what does not."""
+    done = [f"{' and '.join(step['agents'])}: {_short(step)}" for step in event["steps"]]
+    missed = [f"{' and '.join(one['agents'])}: {_short(one)} ({one['why']})" for one in event["unfinished"]]
+    return done + missed
+
+
+def _short(step: Mapping[str, Any]) -> str:
+    """An action without those who take part."""
+    words = [word for word in step["action"].split() if word not in step["agents"]]
+    return " ".join(words).replace("_", " ")

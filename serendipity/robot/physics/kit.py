@@ -1,0 +1,115 @@
+"""Things that lie somewhere, are picked up and handed over."""
+
+from math import dist
+from typing import Final
+
+from serendipity.robot.physics.building import Point
+from serendipity.robot.physics.engine import Colour, Engine, Vector
+from serendipity.robot.physics.figure import PARTS, Figure
+
+_SIZE: Final[Vector] = (0.15, 0.11, 0.09)
+_MASS: Final = 0.2
+_RED: Final[Colour] = (0.88, 0.08, 0.1, 1)
+_WHITE: Final[Colour] = (0.97, 0.97, 0.97, 1)
+_REACH: Final = 0.3
+"""Metres from hands that are stretched out to what they can take hold of."""
+_GRIP: Final = 30.0
+
+
+class Kit:
+    """A box with a cross on it.
+
+    Args:
+        engine: its world.
+        at: where it lies.
+
+    Attributes:
+        body: its number in the engine.
+        holder: who holds it; None where it lies.
+    """
+
+    def __init__(self, engine: Engine, at: Point) -> None:
+        self._engine = engine
+        self.body = _built(engine, (*at, _SIZE[2] / 2))
+        self.holder: Figure | None = None
+        self._grip = -1
+
+    @property
+    def place(self) -> Vector:
+        """Where its middle is."""
+        return self._engine.place_of(self.body)
+
+    def within_reach(self, figure: Figure) -> bool:
+        """Whether somebody's hands can take hold of it as they are."""
+        return dist(figure.hand, self.place) < _REACH
+
+    def take(self, figure: Figure) -> None:
+        """Fix it between somebody's hands; whoever has held it lets go."""
+        self.let_go()
+        engine, bullet = self._engine, self._engine.bullet
+        hand = PARTS.index("l hand")
+        self._grip = engine.call(
+            "createConstraint",
+            figure.body,
+            hand,
+            self.body,
+            -1,
+            bullet.JOINT_POINT2POINT,
+            (0, 0, 0),
+            (0.02, -0.08, -0.07),
+            (0, 0, 0),
+        )
+        engine.call("changeConstraint", self._grip, maxForce=_GRIP)
+        engine.call("setCollisionFilterGroupMask", self.body, -1, 0, 0)
+        self.holder, figure.carries = figure, True
+
+    def let_go(self) -> None:
+        """Drop it, if anybody holds it."""
+        if self.holder is None:
+            return
+        self._engine.call("removeConstraint", self._grip)
+        self._engine.call("setCollisionFilterGroupMask", self.body, -1, 1, 1)
+        self.holder.carries = False
+        self.holder = None
+
+    def put(self, at: Point) -> None:
+        """Lay it somewhere, whoever has held it."""
+        self.let_go()
+        upright = (0, 0, 0, 1)
+        self._engine.call("resetBasePositionAndOrientation", self.body, (*at, _SIZE[2] / 2), upright)
+
+
+def _built(engine: Engine, at: Vector) -> int:
+    call, bullet = engine.call, engine.bullet
+    length, width, height = _SIZE
+    halves = [(length / 2, width / 2, height / 2), (0.05, 0.014, 0.006), (0.014, 0.042, 0.006)]
+    colours = [_RED, _WHITE, _WHITE]
+    looks = [
+        call("createVisualShape", bullet.GEOM_BOX, halfExtents=half, rgbaColor=colour)
+        for half, colour in zip(halves, colours, strict=True)
+    ]
+    band = call(
+        "createVisualShape", bullet.GEOM_BOX, halfExtents=(length / 2 + 0.003, 0.018, 0.02), rgbaColor=_WHITE
+    )
+    shape = call("createCollisionShape", bullet.GEOM_BOX, halfExtents=halves[0])
+    links = [*looks[1:], band]
+    none = [-1] * len(links)
+    body = call(
+        "createMultiBody",
+        _MASS,
+        shape,
+        looks[0],
+        at,
+        linkMasses=[0.001] * len(links),
+        linkCollisionShapeIndices=none,
+        linkVisualShapeIndices=links,
+        linkPositions=[(0, 0, height / 2 + 0.004), (0, 0, height / 2 + 0.004), (0, 0, 0)],
+        linkOrientations=[(0, 0, 0, 1)] * len(links),
+        linkInertialFramePositions=[(0, 0, 0)] * len(links),
+        linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),
+        linkParentIndices=[0] * len(links),
+        linkJointTypes=[bullet.JOINT_FIXED] * len(links),
+        linkJointAxis=[(0, 0, 1)] * len(links),
+    )
+    call("changeDynamics", body, -1, angularDamping=0.9)
+    return int(body)
