@@ -52,21 +52,32 @@ class Explainer:
     def __init__(self, task: Task, goals: Sequence[Condition]) -> None:
         nothing = Condition()
         self._prepared = [PreparedTask(task.with_goal(goal, nothing)) for goal in goals]
+        self._last: list[tuple[tuple[str, ...], Likelihood] | None] = [None] * len(goals)
 
-    def explain(self, observed: Sequence[str], deadline: Deadline | None = None) -> list[Likelihood]:
-        """One explanation for each goal.
+    def explain(
+        self, observed: Sequence[str], deadline: Deadline | None = None, *, canonical: bool = True
+    ) -> list[Likelihood]:
+        """One explanation for each goal; those that were found before a limit came are not lost.
 
         Args:
             observed: names of actions, in the order in which the human did them.
             deadline: deadline and cancellation.
+            canonical: whether plans have to be the canonical ones; any others take less time.
         """
-        deadline = deadline or Deadline()
-        return [_Search(one, tuple(observed), deadline).explanation() for one in self._prepared]
+        deadline, names = deadline or Deadline(), tuple(observed)
+        found = []
+        for i, (prepared, last) in enumerate(zip(self._prepared, self._last, strict=True)):
+            earlier = None if last is None or names[: len(last[0])] != last[0] else last[1]
+            likelihood = _explanation(prepared, names, earlier, deadline, canonical=canonical)
+            self._last[i] = names, likelihood
+            found.append(likelihood)
+        return found
 
     def at(self, state: frozenset[int]) -> "Explainer":
         """The same from another state."""
         moved = copy(self)
         moved._prepared = [one.at(state) for one in self._prepared]
+        moved._last = [None] * len(moved._prepared)
         return moved
 
 
@@ -75,6 +86,43 @@ def explanations(
 ) -> list[Likelihood]:
     """One explanation for each goal; see :class:`Explainer`."""
     return Explainer(task, goals).explain(observed, deadline)
+
+
+def _explanation(
+    prepared: PreparedTask,
+    observed: tuple[str, ...],
+    earlier: Likelihood | None,
+    deadline: Deadline,
+    *,
+    canonical: bool,
+) -> Likelihood:
+    """What explains observations, by what explained them before the last ones were made.
+
+    Plans that embed all of them embed those before, so they cost no less, and as much where the canonical
+    one goes on as observed.  Plans that don't embed all of them cost no more than those that don't embed
+    those before, and as much where these are as cheap as any.
+    """
+    if earlier is None:
+        search = _Search(prepared, observed, deadline)
+        known, plan = search.embedding(canonical=canonical)
+        return Likelihood(known, search.other(), plan)
+    known, other = earlier.with_observed, earlier.without_observed
+    goes_on = known is None or _embeds(prepared.task, earlier.plan or (), observed)
+    as_cheap = other is not None and (known is None or other <= known)
+    if goes_on and as_cheap:
+        return earlier
+    search = _Search(prepared, observed, deadline)
+    if not goes_on:
+        known, plan = search.embedding(canonical=canonical)
+    else:
+        plan = earlier.plan
+    return Likelihood(known, other if as_cheap else search.other(other), plan)
+
+
+def _embeds(task: Task, plan: HumanPlan, observed: Sequence[str]) -> bool:
+    """Whether a plan has the observations as a subsequence."""
+    names = iter(task.actions[i].name for i in plan)
+    return all(name in names for name in observed)
 
 
 class _Search:
@@ -100,36 +148,56 @@ class _Search:
         self._deadline = deadline
         self._start: _At = (packed.init, 0)
 
-    def explanation(self) -> Likelihood:
-        """Both costs, and the canonical plan that embeds the observations."""
-        embedding, plan = self._best(embed=True)
-        other, _ = self._best(embed=False)
-        return Likelihood(
-            None if plan is None else self._keys.cost(embedding),
-            None if other == INFINITE_KEY else self._keys.cost(other),
-            plan,
-        )
+    def embedding(self, *, canonical: bool) -> tuple[Fraction | None, HumanPlan | None]:
+        """``cost(G, O)``, and a plan that embeds the observations, the canonical one if that is asked for."""
+        key, plan = self._best_of_all() if canonical else self._first(embed=True, limit=INFINITE_KEY)
+        return None if plan is None else self._keys.cost(key), plan
 
-    def _best(self, *, embed: bool) -> tuple[int, HumanPlan | None]:
-        """The least key of a plan that embeds the observations (or does not), and the canonical one.
+    def other(self, most: Fraction | None = None) -> Fraction | None:
+        """``cost(G, not O)``, known to be at most so much; None: it may be anything."""
+        limit = INFINITE_KEY if most is None else self._keys.of_cost(most)
+        key, plan = self._first(embed=False, limit=limit)
+        return most if plan is None else self._keys.cost(key)
+
+    def _first(self, *, embed: bool, limit: int) -> tuple[int, HumanPlan | None]:
+        """The least key, below ``limit``, of a plan that embeds the observations (or not), and the plan."""
+        all_seen = len(self._observed)
+        if not embed and not all_seen:
+            return INFINITE_KEY, None
+        search = AStar(self._start, self._missing, self._deadline, limit=limit, deep_first=True)
+        into: dict[_At, tuple[int, _At]] = {}
+        for at, key in search:
+            if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
+                return key, self._way(at, into)
+            for option in self._lookup.options(at[0]):
+                after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
+                if (embed or after[1] < all_seen) and search.reach(after, key + option.weight):
+                    into[after] = option.actions[0], at
+        return INFINITE_KEY, None
+
+    def _way(self, at: _At, into: dict[_At, tuple[int, _At]]) -> HumanPlan:
+        plan: list[int] = []
+        while at != self._start:
+            action, at = into[at]
+            plan.append(action)
+        return tuple(reversed(plan))
+
+    def _best_of_all(self) -> tuple[int, HumanPlan | None]:
+        """The least key of a plan that embeds the observations, and the canonical one.
 
         Every place whose bound does not exceed the optimum is expanded, so that all optimal
         plans are among the steps recorded.
         """
         all_seen = len(self._observed)
-        if not embed and not all_seen:
-            return INFINITE_KEY, None
         search = AStar(self._start, self._missing, self._deadline, limit=INFINITE_KEY)
         into: dict[_At, list[tuple[int, _At, int]]] = {}
         ends = []
         for at, key in search:
-            if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
+            if at[1] == all_seen and self._goal.holds(at[0]):
                 search.limit = min(search.limit, key + 1)
                 ends.append(at)
             for option in self._lookup.options(at[0]):
                 after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
-                if not embed and after[1] == all_seen:
-                    continue
                 reached = key + option.weight
                 into.setdefault(after, []).append((option.actions[0], at, reached))
                 search.reach(after, reached)

@@ -83,7 +83,7 @@ class Beliefs:
             self._disturbed = False
 
     def _weigh(self, deadline: Deadline) -> None:
-        found = self._explainer.explain(self._observed, deadline)
+        found = self._explainer.explain(self._observed, deadline, canonical=False)
         weighed = [replace(c, prior=prior) for c, prior in zip(self.candidates, self._priors, strict=True)]
         recognition = posterior(self._task, weighed, tuple(self._observed), found, self._beta)
         self.weights = [goal.weight for goal in recognition.goals]

@@ -29,6 +29,9 @@ _TIME_TO_TELL: Final = 0.5
 _TIME_TO_WEIGH: Final = 0.4
 """The share of the time that is kept for what comes after planning."""
 
+_TIME_TO_RECOGNISE: Final = 0.4
+"""The share of the time that recognition may take; the posterior of an earlier epoch has to do otherwise."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
@@ -133,7 +136,10 @@ class Brain:
         """The goals that the person may have, with their probabilities, the most probable first."""
         if self._beliefs is None:
             return {0: Fraction(1)}
-        self._beliefs.update(state, deadline)
+        try:
+            self._beliefs.update(state, deadline.part(_TIME_TO_RECOGNISE))
+        except LIMITS:
+            deadline.check()  # what was known before still tells something
         weights = self._beliefs.weights
         return {goal: weights[goal] for goal in sorted(self._beliefs.possible(), key=lambda g: -weights[g])}
 

@@ -26,8 +26,11 @@ if TYPE_CHECKING:
 _TRIES: Final = 3
 """How often an action of robots may fail before they give it up for good."""
 
-SETUP: Final = 2.0
-"""Seconds before the first epoch for tables and a first plan, where epochs have a deadline."""
+SETUP: Final = 10.0
+"""Seconds before the first epoch that tables and a first plan may take, where epochs have a deadline."""
+
+_FIRST_TRY: Final = 2.0
+"""Seconds of them in which a plan is looked for at first; twice as many each time that this does not do."""
 
 
 class Execution(Tabular):
@@ -237,11 +240,14 @@ class Execution(Tabular):
 
     def _prepare(self, seconds: float) -> None:
         """What the first decision needs and later ones keep; a plan for it, if there is one by then."""
-        try:
-            with no_collection():
-                self._brain.decide(self._outlook(), Deadline(seconds))
-        except LIMITS:
-            pass
+        share = _FIRST_TRY
+        while seconds > 0:
+            try:
+                with no_collection():
+                    self._brain.decide(self._outlook(), Deadline(min(share, seconds)))
+                return
+            except LIMITS:
+                seconds, share = seconds - share, 2 * share
 
     def _decide(self) -> Decided:
         clock = Deadline(self._deadline)

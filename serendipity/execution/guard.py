@@ -1,11 +1,11 @@
 """What robots must leave alone: the plan that the person is following, and what any other would cost.
 
 Nobody knows which plan a person is following.  Robots take it to be one that was the canonical choice
-at some epoch and that they have kept to since.  Such a plan works after every epoch, unless the person
-drops it anyway, because what robots have done has made another one cheaper, and they see that.  Somebody
-may be following another plan that is just as cheap.  So whatever they do next that begins a cheapest
-plan, the rest must not get dearer by what robots do meanwhile.  Hence a person who replans when that is
-cheaper, or has to, never pays more than they would have alone.
+when there was none as cheap, and that they have kept to since.  Such a plan works after every epoch,
+unless the person drops it anyway, because what robots have done has made another one cheaper, and they
+see that.  Somebody may be following another plan that is just as cheap.  So whatever they do next that
+begins a cheapest plan, the rest must not get dearer by what robots do meanwhile.  Hence a person who
+replans when that is cheaper, or has to, never pays more than they would have alone.
 """
 
 from collections.abc import Iterable, Sequence
@@ -79,11 +79,9 @@ class Following:
         self._belief = human.eyes.look(self._belief, self._state)
         goal = human.packed.goal
         self.plans = [plan for plan in self.plans if plan.works(self._belief, goal)]
-        if human.alone.key(self._belief) >= INFINITE_KEY:
-            return
-        best = human.intentions.of(canonical(human.alone, self._belief))
-        if best not in self.plans:
-            self.plans.append(best)
+        limit = min((human.key_of(plan.cost) for plan in self.plans), default=INFINITE_KEY)
+        if human.alone.key(self._belief, limit) < limit:  # nobody leaves a plan for one that is no cheaper
+            self.plans.append(human.intentions.of(canonical(human.alone, self._belief)))
 
     def promise(self) -> HumanPlan:
         """The plan that they go on with if nothing better turns up: the oldest one as cheap as any."""

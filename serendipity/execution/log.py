@@ -18,6 +18,9 @@ from serendipity.robot import Epoch, Report
 
 SCHEMA: Final = "serendipity.execution/1"
 
+_LATER: Final = {"proved": False}
+"""Fields of a decision that logs of the first versions do not have, and what they stand for."""
+
 
 class LogLine(NamedTuple):
     """A line of a log: its number from 1, and the object that it holds."""
@@ -139,14 +142,14 @@ def _play(run: Execution, value: dict[str, Any]) -> None:
 def _compare(event: dict[str, Any], line: LogLine, file: object) -> None:
     for key, value in event.items():
         told = line.value.get(key)
-        if _timeless(told) != _timeless(value):
+        if _comparable(told) != _comparable(value):
             message = f"log: {key}: comes out as {value!r:.100}, but the log says {told!r:.100}"
             raise InputError(message, file, line.number)
 
 
-def _timeless(value: Any) -> Any:
-    """A value without the time that a decision took: that is another one each time."""
-    return {**value, "seconds": None} if isinstance(value, dict) and "seconds" in value else value
+def _comparable(value: Any) -> Any:
+    """A value; a decision without the time that it took, which is another one each time."""
+    return {**_LATER, **value, "seconds": None} if isinstance(value, dict) and "seconds" in value else value
 
 
 class _Script:
@@ -172,7 +175,7 @@ class _Script:
             window=read.window(value["window"]),
             cost=value["cost"],
             alone=value["alone"],
-            proved=value["proved"],
+            proved=value.get("proved", _LATER["proved"]),
             goals=value["goals"],
             seconds=value["seconds"],
         )

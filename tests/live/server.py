@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import httpx
 
@@ -21,6 +22,7 @@ class Server:
     url: str
     process: subprocess.Popen[str]
     client: httpx.Client
+    folder: Path
 
     @property
     def port(self) -> int:
@@ -51,13 +53,19 @@ def workers_of(pid: int) -> list[int]:
 
 @contextmanager
 def serving(*arguments: str, command: str = "serve", env: dict[str, str] | None = None) -> Iterator[Server]:
-    """A server on a free port."""
+    """A server on a free port, in a folder of its own."""
+    with TemporaryDirectory() as folder:
+        yield from _serving(folder, *arguments, command=command, env=env)
+
+
+def _serving(folder: str, *arguments: str, command: str, env: dict[str, str] | None) -> Iterator[Server]:
     process = subprocess.Popen(
         [sys.executable, "-m", "serendipity", command, "--port", "0", *arguments],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        cwd=folder,
         env={**os.environ, **(env or {})},
     )
     watchdog = threading.Timer(120, process.kill)
@@ -68,7 +76,7 @@ def serving(*arguments: str, command: str = "serve", env: dict[str, str] | None 
         found = re.search(r"http://\S+?:\d+", line)
         assert found is not None, (line, process.stderr and process.stderr.read())
         with httpx.Client(base_url=found[0], timeout=30) as client:
-            yield Server(found[0], process, client)
+            yield Server(found[0], process, client, Path(folder))
     finally:
         watchdog.cancel()
         process.kill()

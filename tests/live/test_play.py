@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from websockets.sync.client import connect
 
 import serendipity
 from serendipity.cli.app import main
@@ -243,12 +244,16 @@ def test_the_condition_is_not_told(tmp_path: Path) -> None:
         (["--study", "here", "--example", "room2"], "--study: has scenarios of its own"),
         (["--study", "here", "--goals", "x"], "--goals: goes with a task"),
         (["--study", "{file}/x"], "--study: "),
+        (["--records", "{file}/x"], "--records: "),
         (["--goals", "none.txt"], "none.txt: "),
         (["--example", "nowhere"], "example: expected one of"),
         (["--port", "-1"], "--port: expected a number"),
     ],
 )
-def test_wrong_words_are_one_line(words: list[str], start: str, tmp_path: Path, capsys) -> None:
+def test_wrong_words_are_one_line(
+    words: list[str], start: str, tmp_path: Path, capsys, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "file").write_text("")
     given = [word.replace("{file}", str(tmp_path / "file")) for word in words]
     assert main(["play", "--quiet", *given]) == 2
@@ -257,7 +262,36 @@ def test_wrong_words_are_one_line(words: list[str], start: str, tmp_path: Path, 
     assert said.count("\n") == 1
 
 
-def test_a_port_in_use_is_one_line(capsys) -> None:
+def test_what_was_played_outlives_a_server_that_is_killed() -> None:
+    with serving(command="play") as server:
+        with connect(server.url.replace("http", "ws") + "/live") as page:
+            view = json.loads(page.recv())
+            for action in ("move commx room13 hall8", "move_reverse commx hall8 hall7"):
+                sent = {"do": "act", "round": view["round"], "epoch": view["epoch"], "action": action}
+                page.send(json.dumps(sent))
+                view = json.loads(page.recv())
+        shown = server.client.get("/export.json").json()
+        server.process.kill()
+        (file,) = server.folder.glob("serendipity-play/*.jsonl")
+        assert read(file) == shown
+        assert [event["event"] for event in shown] == ["begun", "epoch", "epoch"]
+
+
+def test_a_map_has_room_for_all_that_comes_together_and_never_shrinks() -> None:
+    table = Table(setting(name="taxis", task=serendipity.example("taxis"), discount=1))
+    widths = [table.view()["map"]["width"]]
+    while (view := table.view())["end"] is None:
+        able = [choice for choice in view["can"] if choice["kind"] in ("offer", "go")] or view["can"]
+        sent = {"do": "act", "round": 1, "epoch": view["epoch"], "action": able[0]["action"]}
+        table.do(sent)
+        widths.append(table.view()["map"]["width"])
+        if len(widths) > 15:
+            break
+    assert widths == sorted(widths)
+
+
+def test_a_port_in_use_is_one_line(capsys, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     with serving(command="play") as server:
         assert main(["play", "--quiet", "--port", str(server.port)]) == 2
         assert capsys.readouterr().err.startswith(f"Error: --port: {server.port} is in use on 127.0.0.1")

@@ -19,9 +19,9 @@ from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import FREE, WINDOW, Subproblem, prices
 from verify.calls.solve import solve
 from verify.exhaustive.circles import circles
-from verify.programs.automata import product
+from verify.programs.agents import product
+from verify.programs.agents.product import automata
 from verify.programs.automata.encoding import AutomataEncoding
-from verify.programs.automata.product import automata
 from verify.programs.paper import PaperEncoding
 from verify.solvers.mip import optimise
 
@@ -77,6 +77,7 @@ def test_an_automaton_that_would_be_too_large_leaves_facts_out(monkeypatch: pyte
     groups = [frozenset(variable.facts) for variable in task.variables]
     whole = automata(task, part, groups, Deadline())[task.human]
     monkeypatch.setattr(product, "MOST_STATES", 10)
+    monkeypatch.setattr(product, "STATES_A_VALUE", 0)
     small = automata(task, part, groups, Deadline())[task.human]
     assert len(small.states) <= 10 < len(whole.states)
     assert small.facts < whole.facts
@@ -89,6 +90,7 @@ def test_smaller_automata_give_the_same_answers(most: int, monkeypatch: pytest.M
         for mode in ("serendipity", "communication")
     ]
     monkeypatch.setattr(product, "MOST_STATES", most)
+    monkeypatch.setattr(product, "STATES_A_VALUE", 0)
     again = [
         solve(case_4(), Options(mode=mode, discount=Fraction(9, 10))).cost
         for mode in ("serendipity", "communication")

@@ -5,8 +5,8 @@ no plan, and an action that changes no relevant fact can be left out of any plan
 making a precondition, a goal or another action's applicability false.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence, Set
+from dataclasses import dataclass, replace
 
 from serendipity.model import Deadline, GroundAction, Task
 from verify.base.subproblem import Subproblem
@@ -27,6 +27,10 @@ class Relevant:
     facts: frozenset[int]
     pre: dict[int, tuple[int, ...]]
     neg: dict[int, tuple[int, ...]]
+
+    def only(self, actions: Set[int]) -> "Relevant":
+        """The same with some of the actions."""
+        return replace(self, actions=tuple(i for i in self.actions if i in actions))
 
 
 def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant | None:
@@ -76,20 +80,31 @@ def _reachable(task: Task, allowed: Sequence[int], deadline: Deadline) -> tuple[
     """Facts that may become true, facts that may become false, actions that may become applicable."""
     true, false = set(task.init), set(range(len(task.facts))) - task.init
     usable: set[int] = set()
-    waiting = list(allowed)
-    while True:
-        ready = [i for i in deadline.each(waiting) if _may(task.actions[i], true, false)]
-        if not ready:
-            return true, false, usable
-        usable.update(ready)
-        waiting = [i for i in deadline.each(waiting) if i not in usable]
-        for i in deadline.each(ready):
-            true.update(task.actions[i].add)
-            false.update(task.actions[i].delete)
-
-
-def _may(action: GroundAction, true: set[int], false: set[int]) -> bool:
-    return true.issuperset(action.pre) and false.issuperset(action.neg)
+    missing: dict[int, int] = {}
+    for_true: dict[int, list[int]] = {}
+    for_false: dict[int, list[int]] = {}
+    ready: list[int] = []
+    for i in deadline.each(allowed):
+        lacking = [(for_true, f) for f in task.actions[i].pre if f not in true]
+        lacking += [(for_false, f) for f in task.actions[i].neg if f not in false]
+        for waiting, f in lacking:
+            waiting.setdefault(f, []).append(i)
+        missing[i] = len(lacking)
+        if not lacking:
+            ready.append(i)
+    while ready:
+        deadline.tick()
+        i = ready.pop()
+        usable.add(i)
+        new = [j for f in task.actions[i].add if f not in true for j in for_true.get(f, ())]
+        new += [j for f in task.actions[i].delete if f not in false for j in for_false.get(f, ())]
+        true.update(task.actions[i].add)
+        false.update(task.actions[i].delete)
+        for j in new:
+            missing[j] -= 1
+            if not missing[j]:
+                ready.append(j)
+    return true, false, usable
 
 
 def _closure(

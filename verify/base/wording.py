@@ -174,6 +174,11 @@ def solved(solver: str, calls: int, columns: int, rows: int) -> str:
     return f"; {solver} solved {programs} of {columns:,} columns and {rows:,} rows: "
 
 
+def walked(states: int) -> str:
+    """What a search through pruned networks looked at."""
+    return f"; {states:,} joint states of what reachability and shortest paths leave searched"
+
+
 def searched(states: int) -> str:
     """What an exhaustive search looked at."""
     return f"; {states:,} states searched exhaustively"

@@ -5,14 +5,15 @@ from itertools import count
 from math import log2
 from typing import Final
 
+from serendipity.model import Window
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import Subproblem
+from verify.base.subproblem import FREE, WINDOW, Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
 from verify.exhaustive.team import MOST_ACTIONS
 from verify.exhaustive.uniform_cost import cheapest
 from verify.packed.mutexes import MOST_FACTS
-from verify.programs.effort import Effort, Minimum
+from verify.programs.effort import Attempt, Effort, Minimum
 from verify.programs.minimise import minimise
 
 _TURNS: Final = (0.4, 4.0, 4.0, 40.0, 40.0)
@@ -41,6 +42,9 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
         effort: method, deadline and solver; what is spent is noted there.
         plans: the human's optimal plans.
     """
+    if _is_free(question):
+        found = decide(question.but(rule=FREE), effort, plans)
+        return found if found.found is None else replace(found, found=_throughout(question, found.found))
     if effort.method == "exhaustive" and question.horizon > 0:
         return _exhaustively(question, effort, plans)
     if effort.method != "auto" or effort.encoding != "automata" or not _searchable(question):
@@ -51,6 +55,27 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
 def decide_without_horizon(question: Subproblem, effort: Effort) -> Minimum:
     """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does."""
     return cheapest(question, bounded=effort.method != "exhaustive")
+
+
+def _is_free(question: Subproblem) -> bool:
+    """Whether the window of all epochs is as good as any: no epoch of it costs, and none is too many.
+
+    There is neither prefix nor suffix then, so that every plan fits it.
+    """
+    options, longest = question.options, question.options.max_window
+    return (
+        question.rule == WINDOW
+        and not question.prices.epoch
+        and (longest is None or longest >= question.horizon)
+        and bool(question.human_plan)
+        and options.preservation == "kernel"
+        and not options.keep_prefix
+    )
+
+
+def _throughout(question: Subproblem, found: Solution) -> Solution:
+    """A plan whose window is all epochs."""
+    return replace(found, window=Window(1, question.horizon + 1))
 
 
 def _searchable(question: Subproblem) -> bool:
@@ -74,7 +99,6 @@ def _in_turns(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Mini
         method = asked[turn % len(asked)]
         given = replace(effort, deadline=deadline)
         found = method(question.but(deadline=deadline), given, plans)
-        effort.programs = given.programs
         if found.bound is not None:
             bounds.append(found.bound)
         if found.status != "undecided" or effort.deadline.reached() is not None:
@@ -105,5 +129,5 @@ def _exhaustively(question: Subproblem, effort: Effort, plans: OptimalPlans) -> 
     except UNDECIDED as error:
         bound = error.bound if isinstance(error, UndecidedError) else None
         return Minimum("undecided", bound=bound, reason=why(error))
-    effort.searched.append(states)
+    effort.attempts.append(Attempt("exhaustive", found.status != "undecided", states))
     return found

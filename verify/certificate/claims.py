@@ -14,7 +14,7 @@ from verify.calls.call import Call, Score
 from verify.calls.methods import decide, decide_without_horizon
 from verify.calls.results import found_result, plan_steps
 from verify.programs.alone import least_alone
-from verify.programs.effort import Minimum, SolverCall
+from verify.programs.effort import Attempt, Minimum, SolverCall
 from verify.rules import Checker
 from verify.solvers.mip import solver_version
 
@@ -45,7 +45,7 @@ class Examiner:
         """Run an examination; running out of time or memory leaves the claim undecided."""
         started = perf_counter()
         effort, bound, example = self.call.effort, None, None
-        programs, calls, searched = effort.programs, len(effort.calls), len(effort.searched)
+        attempts, calls = len(effort.attempts), len(effort.calls)
         try:
             verdict, reason, found = examine()
             if found is not None:
@@ -58,21 +58,27 @@ class Examiner:
             bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
             if bound is not None:
                 reason += wording.known_bound(bound)
-        if len(effort.searched) > searched:
-            size = {"states": max(effort.searched[searched:])}
-            seconds = perf_counter() - started
-            if verdict == "proved":
-                reason += wording.searched(size["states"])
-            return Claim(name, verdict, reason, example, seconds, bound, "exhaustive", size)
-        if effort.programs == programs:
-            return Claim(name, verdict, reason, example, perf_counter() - started, bound)
-        called = effort.calls[calls:]
+        seconds = perf_counter() - started
+        made, called = effort.attempts[attempts:], effort.calls[calls:]
+        if not made and not called:
+            return Claim(name, verdict, reason, example, seconds, bound)
         if verdict == "proved":
-            reason += self._solved(called) if called else wording.CLOSED
+            reason += self._how(made, called)
+        if made and made[-1].method == "exhaustive":
+            size = {"states": max(attempt.states for attempt in made)}
+            return Claim(name, verdict, reason, example, seconds, bound, "exhaustive", size, len(called))
         largest = max(called, key=lambda call: call.columns, default=None)
         size = {} if largest is None else {"columns": largest.columns, "rows": largest.rows}
-        seconds = perf_counter() - started
         return Claim(name, verdict, reason, example, seconds, bound, "program", size, len(called))
+
+    def _how(self, made: list[Attempt], called: list[SolverCall]) -> str:
+        """What decided the questions of a claim."""
+        decided = [attempt for attempt in made if attempt.decided]
+        states = max((attempt.states for attempt in decided), default=0)
+        paths = max((attempt.paths for attempt in decided), default=0)
+        words = wording.searched(states) if states else ""
+        words += wording.walked(paths) if paths else ""
+        return words or (self._solved(called) if called else wording.CLOSED)
 
     def _solved(self, calls: list[SolverCall]) -> str:
         """What the solver said of the programs themselves, where they were to be solved whatever they are."""

@@ -21,8 +21,8 @@ from verify.base.undecided import during
 from verify.exhaustive.circles import circles
 from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
 from verify.packed.problem import TooLargeError
+from verify.programs.agents.product import automata
 from verify.programs.automata.network import FAR, distances, goal_states
-from verify.programs.automata.product import automata
 from verify.programs.effort import Minimum
 
 MOST_STATES: Final = 500_000

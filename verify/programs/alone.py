@@ -8,7 +8,7 @@ from serendipity.model import Options, Task
 from verify.base.operators import OwnActions
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
-from verify.programs.effort import Effort
+from verify.programs.effort import Attempt, Effort
 from verify.programs.recorded import described, refute
 from verify.proofs.book import Entry, ProofReader, require_same
 from verify.solvers.mip import BYTES_A_TERM, Model
@@ -30,7 +30,7 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
         UndecidedError: neither was proved, or the proof is of something else.
         LimitReachedError: the deadline came first.
     """
-    effort.programs += 1
+    effort.attempts.append(Attempt("program", decided=True))
     with during("writing a program for what the human can do alone"):
         program = _Alone(task, options, effort)
     units = program.read(effort.proof) if isinstance(effort.proof, ProofReader) else program.solve()

@@ -64,6 +64,23 @@ class SolverCall:
     cost: int | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """What one method made of a question.
+
+    Attributes:
+        method: ``program`` or ``exhaustive``.
+        decided: whether that was the answer.
+        states: how many an exhaustive search looked at.
+        paths: joint states in the search of what pruning leaves of a program, where that decided.
+    """
+
+    method: str
+    decided: bool
+    states: int = 0
+    paths: int = 0
+
+
 @dataclass(slots=True)
 class Effort:
     """The solver's settings, and what was spent under them.
@@ -74,9 +91,8 @@ class Effort:
         deadline: when to stop.
         method: one of :data:`METHODS`.
         proof: where what convinced is written down, or read from instead of asking a solver.
-        programs: number of questions that were put to an encoding.
+        attempts: what was made of questions, in order.
         calls: the solver's; fewer where an encoding sees by itself that there is no plan.
-        searched: the numbers of states of exhaustive searches.
     """
 
     encoding: str = "automata"
@@ -84,9 +100,8 @@ class Effort:
     deadline: Deadline = field(default_factory=Deadline)
     method: str = "auto"
     proof: ProofWriter | ProofReader | None = None
-    programs: int = 0
+    attempts: list[Attempt] = field(default_factory=list)
     calls: list[SolverCall] = field(default_factory=list)
-    searched: list[int] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         if self.method not in METHODS:
@@ -104,7 +119,6 @@ class Effort:
 
     def encode(self, question: Subproblem) -> "ProgramEncoding":
         """The program of a question."""
-        self.programs += 1
         if self.method == "program" and self.encoding == "automata":
             return AutomataEncoding(question, pruned=False)
         return ENCODINGS[self.encoding](question)

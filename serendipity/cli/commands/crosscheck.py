@@ -30,7 +30,10 @@ def crosscheck(
         int | None, typer.Option(help="Of the first random call; by default a new one.", metavar="S")
     ] = None,
     judges: Annotated[
-        str, typer.Option(help="Who answers, separated by commas: search, automata, paper, cbc.")
+        str,
+        typer.Option(
+            help="Who answers, separated by commas: search, automata, paper, cbc, program, exhaustive."
+        ),
     ] = "search,automata,paper",
     judge: Annotated[
         list[str] | None,

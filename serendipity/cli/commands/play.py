@@ -47,6 +47,12 @@ def play(
         Path | None,
         typer.Option("--study", metavar="FOLDER", help="Run a study; records go to the folder."),
     ] = None,
+    records: Annotated[
+        Path,
+        typer.Option(
+            "--records", metavar="FOLDER", help="Where every event is written down, unless --study."
+        ),
+    ] = Path("serendipity-play"),
     rounds: Annotated[
         int, typer.Option("--rounds", metavar="N", help="Scenarios of a study without a task.")
     ] = 4,
@@ -74,7 +80,7 @@ def play(
     try:
         from serendipity.live.guards import addresses
         from serendipity.live.play.application import Host, application
-        from serendipity.live.play.opening import open_study, open_table
+        from serendipity.live.play.opening import open_study, open_table, record_in
         from serendipity.live.server import serve as run
     except ImportError as missing:
         raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
@@ -87,9 +93,11 @@ def play(
         shown = example if named else _EXAMPLE
         task = naming.load(files, human, robot, agent, team, shown, quiet=quiet)
         with progress.working("getting ready", quiet=quiet):
-            host = open_table(shown or task.name, task, condition=robots, **how)
+            file = record_in(records)
+            host = open_table(shown or task.name, task, file, condition=robots, **how)
     listener = addresses.listening("127.0.0.1", port)
     if not quiet:
-        output.say(f"Play on {addresses.url(listener)}; Ctrl-C stops it.\n")
+        where = study if study is not None else file
+        output.say(f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n")
     run(application(host, addresses.hosts("127.0.0.1")), listener)
     return ExitCode.ANSWERED

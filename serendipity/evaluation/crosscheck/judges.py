@@ -42,7 +42,7 @@ def _by_search(call: PlanCall, deadline: Deadline) -> Result:
     return plan(call.task, human_plan=call.human_plan, deadline=deadline, **call.keywords())
 
 
-def _by_program(encoding: str, solver: str) -> Judge:
+def _by_verifier(encoding: str = "automata", solver: str = "highs", method: str = "pruned") -> Judge:
     def judge(call: PlanCall, deadline: Deadline) -> Result:
         options = options_from(call.keywords())
         return solve(
@@ -51,6 +51,7 @@ def _by_program(encoding: str, solver: str) -> Judge:
             human_plan=call.human_plan,
             encoding=encoding,
             solver=solver,
+            method=method,
             deadline=deadline,
         )
 
@@ -59,9 +60,11 @@ def _by_program(encoding: str, solver: str) -> Judge:
 
 JUDGES: Final[dict[str, Judge]] = {
     "search": _by_search,
-    "automata": _by_program("automata", "highs"),
-    "paper": _by_program("paper", "highs"),
-    "cbc": _by_program("automata", "cbc"),
+    "automata": _by_verifier(),
+    "paper": _by_verifier("paper"),
+    "cbc": _by_verifier(solver="cbc"),
+    "program": _by_verifier(method="program"),
+    "exhaustive": _by_verifier(method="exhaustive"),
 }
 """Judges by name; the first has to obey the laws, and is the only one that knows humans who replan."""
 

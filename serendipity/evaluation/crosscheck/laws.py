@@ -14,26 +14,12 @@ from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
 from serendipity.facade.planning import plan, plan_anytime
 from serendipity.facade.session import Session
-from serendipity.model import Deadline, LimitReachedError, Options, PlanError, Result, Task, UsageError
+from serendipity.model import Deadline, Options, PlanError, Result, Task, UsageError
+from serendipity.testing.countdown import Countdown
 from serendipity.testing.generator.calls import PlanCall, random_options
 from serendipity.testing.generator.tasks import split
 
 Law = Callable[[PlanCall, Result], Iterator[str]]
-
-
-class _Looks(Deadline):
-    """A deadline that runs out at a certain look at it: at the same one each time, unlike a clock."""
-
-    def __init__(self, looks: int) -> None:
-        super().__init__()
-        self._left = [looks]  # parts of the deadline share it
-
-    def check(self) -> None:
-        self._left[0] -= 1
-        if self._left[0] < 0:
-            raise LimitReachedError("time-limit")
-
-    tick = check
 
 
 def limited(call: PlanCall, answer: Result) -> Iterator[str]:
@@ -41,7 +27,7 @@ def limited(call: PlanCall, answer: Result) -> Iterator[str]:
     task, dice = replace(call.task), Random(f"limits {call.seed}")
     last, looks = answer, 0
     while True:
-        deadline = _Looks(looks)
+        deadline = Countdown(looks)
         early = _plan(call, task, deadline=deadline)
         yield from (f"after {looks} looks at the time: {fault}" for fault in _faults(call, early, answer))
         if early.status == "feasible":
@@ -51,7 +37,7 @@ def limited(call: PlanCall, answer: Result) -> Iterator[str]:
         looks = int(looks * dice.uniform(1.5, 3)) + 1
     yield from _differences("the next call", _plan(call, task), answer)
     for looks in (0, dice.randint(1, 40)):
-        early = _plan(call, task, deadline=_Looks(looks))
+        early = _plan(call, task, deadline=Countdown(looks))
         yield from (f"once more, after {looks} looks: {fault}" for fault in _faults(call, early, answer))
     if last.status == "feasible":
         refuted = verify(call.task, last).refuted

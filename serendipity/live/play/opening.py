@@ -1,5 +1,7 @@
 """What the command line asks for, as something that pages can be opened on."""
 
+from datetime import datetime
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -11,18 +13,32 @@ from serendipity.live.play.table import Table
 from serendipity.model import Task, UsageError
 
 
-def open_table(name: str, task: Task, **how: Any) -> Table:
+def open_table(name: str, task: Task, file: Path | None = None, **how: Any) -> Table:
     """Rounds of one task.
 
     Args:
         name: of the task, for people.
         task: the task.
+        file: where every event is written down when it happens; None: nowhere.
         **how: the other fields of :class:`.setting.Setting`.
 
     Raises:
         SerendipityError: the human can't reach the goal alone, or ``goals`` are wrong.
+        UsageError: the file can't be written.
     """
-    return Table(Setting(name, task, **how))
+    return Table(Setting(name, task, **how), file)
+
+
+def record_in(folder: Path) -> Path:
+    """A file of its own for what is played from now on, named after the time; the folder is made.
+
+    Raises:
+        UsageError: the folder can't be made.
+    """
+    _made(folder, "--records")
+    begun = datetime.now().astimezone().strftime("%Y-%m-%d-%H%M%S")
+    numbered = (f"{begun}{f'-{number}' if number > 1 else ''}.jsonl" for number in count(1))
+    return next(file for name in numbered if not (file := folder / name).exists())
 
 
 def open_study(folder: Path, rounds: int, seed: int, **how: Any) -> Study:
@@ -40,9 +56,13 @@ def open_study(folder: Path, rounds: int, seed: int, **how: Any) -> Study:
     """
     if how.get("goals") is not None:
         raise UsageError("--goals: goes with a task, not with --study")
+    _made(folder, "--study")
+    drawn = scenarios(rounds, seed, how["discount"])
+    return Study([Setting(name, task, **how) for name, task in drawn], folder, texts(folder), seed)
+
+
+def _made(folder: Path, option: str) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise UsageError(f"--study: {folder} can't be made: {(error.strerror or '').lower()}") from None
-    drawn = scenarios(rounds, seed, how["discount"])
-    return Study([Setting(name, task, **how) for name, task in drawn], folder, texts(folder), seed)
+        raise UsageError(f"{option}: {folder} can't be made: {(error.strerror or '').lower()}") from None

@@ -6,11 +6,12 @@ from typing import Any
 from serendipity.live.play.eyes import Eyes
 from serendipity.model import Options, Result, Task
 from serendipity.show.formats.svg import svg
-from serendipity.show.map.layout import lay_out
+from serendipity.show.map.layout import Layout, lay_out
 from serendipity.show.map.places import Places
 from serendipity.show.picture.map_picture import MARGIN, map_picture
 from serendipity.show.picture.palette import agent_colours, on
 from serendipity.show.picture.tokens import agent_key, initials, object_key
+from serendipity.show.scene.crowds import cell_size
 from serendipity.show.scene.finder import Finder
 from serendipity.show.scene.scene import Frame, Scene
 
@@ -26,9 +27,11 @@ class Stage:
 
     def __init__(self, task: Task, places: Places, eyes: Eyes) -> None:
         self._task = task
+        self._places = places
         self._finder = Finder(places)
         self._eyes = eyes
-        self._layout = lay_out(places) if places.names else None
+        self._layout: Layout | None = None
+        self._size = (0.0, 0.0)
         own = places.positions.get(task.human, {})
         named = (places.marks.get(fact) or own.get(fact) for fact in task.goal.positive)
         self._goals = tuple(dict.fromkeys(place for place in named if place is not None))
@@ -38,6 +41,15 @@ class Stage:
         """Take in where things are after an epoch."""
         self._state = state
         self._frames.append(self._frame(len(self._frames)))
+        if self._places.names:
+            self._make_room()
+
+    def _make_room(self) -> None:
+        """Lay out the map so that all that has been anywhere has room there; it never shrinks."""
+        wanted = cell_size(self._scene(), self._places.names)
+        size = max(wanted[0], self._size[0]), max(wanted[1], self._size[1])
+        if size != self._size:
+            self._size, self._layout = size, lay_out(self._places, size)
 
     @property
     def here(self) -> str | None:
@@ -87,11 +99,19 @@ class Stage:
         frame = self._frames[-1]
         away = [agent for agent, place in frame.at.items() if place != self.here]
         faded = [agent_key(agent) for agent in away]
-        for index, where in enumerate(frame.objects.values()):
-            place = where.place if where.holder is None else frame.at.get(where.holder)
-            if place != self.here:
-                faded.append(object_key(index))
+        faded += [
+            object_key(index)
+            for index, name in enumerate(frame.objects)
+            if self._place(frame, name) != self.here
+        ]
         return faded
+
+    def _place(self, frame: Frame, name: str) -> str | None:
+        """Where an object is, or what it is in, or who holds it."""
+        where = frame.objects[name]
+        if where.carrier in frame.objects:
+            return self._place(frame, str(where.carrier))
+        return where.place if where.holder is None else frame.at.get(where.holder)
 
     def _frame(self, epoch: int) -> Frame:
         known = self._eyes.belief
@@ -124,4 +144,5 @@ class Stage:
             window=None,
             changes=(),
             result=nothing,
+            vehicles=self._places.vehicles,
         )

@@ -1,6 +1,7 @@
 """Where rounds are played: every page shows the same one, and each event is recorded."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from serendipity.live.play.game import Game
@@ -16,11 +17,12 @@ class Table:
 
     Args:
         setting: what is played.
+        file: where every event is written down when it happens; None: nowhere.
     """
 
-    def __init__(self, setting: Setting) -> None:
+    def __init__(self, setting: Setting, file: Path | None = None) -> None:
         self._setting = setting
-        self._records = Records("player")
+        self._records = Records("player", file)
         self._round = 0
         self._begin()
 

@@ -14,7 +14,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
-from tests.search.assistance.oracle import by_rounds, explore, mean_over_all_policies
+from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
 from tests.search.assistance.strategies import games
 from tests.search.assistance.test_search_equals_brute_force import solve
 

@@ -9,7 +9,7 @@ from benchmarks.assistance import domain_of, number, problems
 from search import PreparedTask
 from search.assistance import joint_optimum
 from serendipity import Task
-from tests.search.assistance.oracle import Costs
+from serendipity.testing.oracle.assistance import Costs
 
 PROBLEMS = [
     *(("car_assistance1", n) for n in (2, 12, 17)),

@@ -10,7 +10,7 @@ import serendipity
 from search import PreparedTask
 from search.assistance import joint_optimum
 from serendipity import Result, Task
-from tests.search.assistance.oracle import Costs, by_rounds, explore, mean_over_all_policies
+from serendipity.testing.oracle.assistance import Costs, by_rounds, explore, mean_over_all_policies
 from tests.search.assistance.strategies import games
 
 _MOST_POLICIES = 400

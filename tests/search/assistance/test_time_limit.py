@@ -22,7 +22,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_5, case_6
 from serendipity.testing.countdown import Countdown
-from tests.search.assistance.oracle import by_rounds, explore
+from serendipity.testing.oracle.assistance import by_rounds, explore
 from tests.search.assistance.strategies import games
 
 TIES = ("optimistic", "fixed", "robust", "expected")

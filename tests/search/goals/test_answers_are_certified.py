@@ -15,8 +15,8 @@ import serendipity
 from search.goals import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
+from serendipity.testing.oracle.goals import best_expected, robots_sets
 from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
-from tests.search.goals.oracle import best_expected, robots_sets
 from tests.search.goals.strategies import literals, rivals
 from tests.search.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
 from tests.search.goals.test_worked_cases import helped, workshop

@@ -16,8 +16,8 @@ from serendipity.model import Condition, GroundAction, Options, PlanStep, Result
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import optimal_human_plan
+from serendipity.testing.oracle.goals import best_expected, robots_sets
 from serendipity.testing.strategies import Call, calls
-from tests.search.goals.oracle import best_expected, robots_sets
 from tests.search.goals.strategies import literals, rivals
 from verify.base.individual import IndividualOptimum
 from verify.goals.timelines import Timeline, rule_fault

@@ -1,9 +1,13 @@
 """The strong encoding of a question, from its task to a program that a solver can take."""
 
-from serendipity.model import GroundAction, Step, Window
+from functools import cached_property
+from typing import Final
+
+from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
+from verify.programs.agents.product import Automaton, automata, private_facts, small_automata
 from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
     FAR,
@@ -13,12 +17,15 @@ from verify.programs.automata.network import (
     distances,
     goal_states,
 )
-from verify.programs.automata.product import Automaton, automata
 from verify.programs.automata.program import BYTES_AN_ARC, Program
 from verify.programs.automata.pruning import prune, unroll
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import Setting, outer_needs
 from verify.programs.automata.suffixes import bound_suffix
+from verify.programs.promising import OfState, Team, keep_promising
 from verify.solvers.mip import Model
+
+MANY_ACTIONS: Final = 5_000
+"""Actions from which on small automata go before the large ones."""
 
 
 class AutomataEncoding:
@@ -38,7 +45,9 @@ class AutomataEncoding:
         """
         self.question = question
         self.deadline = question.deadline
-        self.program: Program | None = None
+        self.setting: Setting | None = None
+        self._spare: OfState | None = None
+        self._latest: OfState | None = None
         literal = question.rule == WINDOW and question.options.preservation == "state"
         expected = expected_states(question) if literal else ()
         part = relevant_part(question, frozenset().union(*expected))
@@ -46,33 +55,53 @@ class AutomataEncoding:
             part = whole_task(question)
         if part is None:
             return
+        self._whole = self.needs_whole_state(part)
         groups = [frozenset(variable.facts) for variable in question.task.variables]
-        groups = [group for group in groups if _moves_by_value(question, part, group)]
+        self._groups = [group for group in groups if _moves_by_value(question, part, group)]
         with during("building the agents' automata"):
-            setting = self._setting(part, groups, expected)
+            owner = private_facts(question.task, part, self.deadline)
+            if pruned and len(part.actions) > MANY_ACTIONS:
+                small = small_automata(question.task, part, self._groups, self.deadline, owner)
+                if not self._keep_promising(part, small, expected):
+                    return
+                part = part.only(_offered(question.task, small, self.deadline))
+            machines = automata(question.task, part, self._groups, self.deadline, owner)
+        if pruned and not self._keep_promising(part, machines, expected):
+            return
+        with during("building the agents' networks"):
+            setting = self._setting(part, machines, expected)
         with during(
             f"{'pruning' if pruned else 'unrolling'} the agents' automata over {question.horizon} epochs"
         ):
-            promising = prune(setting) if pruned else unroll(setting)
-        if promising:
-            arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
-            with during(f"writing a program for {arcs:,} arcs of the agents' automata"):
-                self.deadline.require(arcs * BYTES_AN_ARC)
-                self.program = Program(question, setting, groups, complete=self.needs_whole_state(part))
+            if prune(setting) if pruned else unroll(setting):
+                self.setting = setting
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether pruning alone proves that there is no plan."""
+        return self.setting is None
+
+    @cached_property
+    def program(self) -> Program:
+        """The program of the networks that pruning leaves."""
+        setting = self.setting
+        assert setting is not None, "there is something left"
+        arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
+        with during(f"writing a program for {arcs:,} arcs of the agents' automata"):
+            self.deadline.require(arcs * BYTES_AN_ARC)
+            return Program(self.question, setting, self._groups, complete=self._whole)
 
     @property
     def model(self) -> Model | None:
         """The integer program, or None where pruning alone proves that there is no plan."""
-        return None if self.program is None else self.program.model
+        return None if self.setting is None else self.program.model
 
     def plan(self, values: tuple[int, ...]) -> tuple[tuple[Step, ...], Window | None]:
         """The plan and the window that a solution stands for."""
-        assert self.program is not None
         return self.program.plan(values)
 
     def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
         """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
-        assert self.program is not None
         bound_suffix(self.program, xi2, state, least)
 
     def needs_whole_state(self, part: Relevant) -> bool:
@@ -95,16 +124,11 @@ class AutomataEncoding:
         return len(costs) > 1 or 0 in costs or talk or bool(task.robot_goal)
 
     def _setting(
-        self, part: Relevant, groups: list[frozenset[int]], expected: tuple[frozenset[int], ...]
+        self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
     ) -> Setting:
         question = self.question
         task = question.task
-        machines = automata(task, part, groups, self.deadline)
-        wanted_true = frozenset(task.goal.positive).union(*expected) & part.facts
-        wanted_false = frozenset(task.goal.negative) & part.facts
-        if question.robots_goal:
-            wanted_true |= part.facts.intersection(task.robot_goal.positive)
-            wanted_false |= part.facts.intersection(task.robot_goal.negative)
+        wanted_true, wanted_false = self._wanted(part, expected)
         weights = self._weights()
         control = HumanControl(question, expected)
         networks: list[Network] = []
@@ -113,9 +137,7 @@ class AutomataEncoding:
                 human = HumanNetwork(machine, weights[agent], control, question, part)
                 networks.append(human)
             else:
-                open_end = self.needs_whole_state(part) or self._watched(
-                    part, machine, wanted_true | wanted_false
-                )
+                open_end = self._goes_on(part, machine, wanted_true | wanted_false)
                 networks.append(RobotNetwork(machine, weights[agent], open_end=open_end))
         finals = [goal_states(question, machine) for machine in machines]
         return Setting(
@@ -128,9 +150,59 @@ class AutomataEncoding:
             wanted_true=wanted_true,
             wanted_false=wanted_false,
             finals=finals,
+            spare=self._spare,
+            latest=self._latest,
             deadline=self.deadline,
             bounds=distances(machines[task.human], weights[task.human], finals[task.human], self.deadline),
         )
+
+    def _wanted(
+        self, part: Relevant, expected: tuple[frozenset[int], ...]
+    ) -> tuple[frozenset[int], frozenset[int]]:
+        """Facts that a goal, or a state to be preserved, wants true, and those that a goal wants false."""
+        task = self.question.task
+        wanted_true = frozenset(task.goal.positive).union(*expected) & part.facts
+        wanted_false = frozenset(task.goal.negative) & part.facts
+        if self.question.robots_goal:
+            wanted_true |= part.facts.intersection(task.robot_goal.positive)
+            wanted_false |= part.facts.intersection(task.robot_goal.negative)
+        return wanted_true, wanted_false
+
+    def _keep_promising(
+        self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
+    ) -> bool:
+        """Drop moves of the automata that are on no plan within the limits; False if there is no plan."""
+        question, prices = self.question, self.question.prices
+        wanted_true, wanted_false = self._wanted(part, expected)
+        going_on = [m.agent for m in machines if self._goes_on(part, m, wanted_true | wanted_false)]
+        window = prices.epoch if question.rule == WINDOW else 0
+        with during("looking for moves of the agents that may pay"):
+            pre, neg = outer_needs(question.task, part, machines, self.deadline)
+            team = Team(
+                task=question.task,
+                machines=machines,
+                pre=pre,
+                neg=neg,
+                price=[a + b for a, b in zip(prices.team, prices.talk, strict=True)],
+                horizon=question.horizon,
+                most=FAR - 1 if question.most is None else question.most - window,
+                wanted_true=wanted_true,
+                wanted_false=wanted_false,
+                finals=[goal_states(question, machine) for machine in machines],
+                watched=frozenset(going_on),
+                deadline=self.deadline,
+            )
+            promising = keep_promising(team)
+            self._spare, self._latest = team.spare, team.latest
+        for machine, moves in zip(machines, team.moves, strict=True):
+            machine.moves = moves
+        return promising
+
+    def _goes_on(self, part: Relevant, machine: Automaton, wanted: frozenset[int]) -> bool:
+        """Whether an agent's flow goes on to the end, since its state may count there."""
+        if machine.agent == self.question.task.human or self._whole:
+            return True
+        return self._watched(part, machine, wanted)
 
     def _watched(self, part: Relevant, machine: Automaton, wanted: frozenset[int]) -> bool:
         """Whether anybody else looks at a robot's private facts: then they count to the end."""
@@ -154,6 +226,13 @@ class AutomataEncoding:
             payer = task.human if task.human in action.participants else action.participants[0]
             weights[payer][i] = question.prices.team[i] + question.prices.talk[i]
         return weights
+
+
+def _offered(task: Task, machines: tuple[Automaton, ...], deadline: Deadline) -> set[int]:
+    """The actions of which everybody who takes part in them has a move."""
+    moves = [{i for each in deadline.each(machine.moves) for i, _ in each} for machine in machines]
+    offered = set().union(*moves)
+    return {i for i in deadline.each(offered) if all(i in moves[k] for k in task.actions[i].participants)}
 
 
 def _moves_by_value(question: Subproblem, part: Relevant, group: frozenset[int]) -> bool:

@@ -13,8 +13,8 @@ from serendipity.model import Deadline
 from verify.base.relevance import Relevant
 from verify.base.shortest_paths import dijkstra
 from verify.base.subproblem import Subproblem
+from verify.programs.agents.product import Automaton
 from verify.programs.automata.control import ALL, OWN, SUFFIX, Control, HumanControl
-from verify.programs.automata.product import Automaton
 
 WAIT: Final = -1
 NOTHING: Final[frozenset[int]] = frozenset()

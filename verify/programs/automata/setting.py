@@ -1,10 +1,13 @@
 """What the pruning and the program of one question work on."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from serendipity.model import Deadline, Task
 from verify.base.relevance import Relevant
+from verify.programs.agents.product import Automaton
 from verify.programs.automata.network import HumanNetwork, Network
+from verify.programs.promising.team import OfState
 
 
 @dataclass(slots=True)
@@ -22,6 +25,8 @@ class Setting:
         finals: end nodes' automaton states that the goals allow, by agent.
         deadline: polled by the pruning and the program.
         bounds: for the human's automaton states, least weight and actions to a goal state.
+        spare: what robots may have spent, at most, when one of them is in an automaton state and goes on.
+        latest: the epoch after which that is too late.
         last: the human's nodes in which a plan may end; None where pruning has left no other.
         outer_pre: facts outside the participants' automata that each action needs true.
         outer_neg: the same, false.
@@ -38,14 +43,32 @@ class Setting:
     finals: list[set[int]]
     deadline: Deadline
     bounds: tuple[list[int], list[int]]
+    spare: OfState | None = None
+    latest: OfState | None = None
     last: frozenset[int] | None = None
     outer_pre: dict[int, tuple[int, ...]] = field(default_factory=dict)
     outer_neg: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for i in self.deadline.each(self.part.actions):
-            inside: set[int] = set()
-            for agent in self.task.actions[i].participants:
-                inside |= self.networks[agent].automaton.facts
-            self.outer_pre[i] = tuple(f for f in self.part.pre[i] if f not in inside)
-            self.outer_neg[i] = tuple(f for f in self.part.neg[i] if f not in inside)
+        machines = [network.automaton for network in self.networks]
+        self.outer_pre, self.outer_neg = outer_needs(self.task, self.part, machines, self.deadline)
+
+
+def outer_needs(
+    task: Task, part: Relevant, machines: Sequence[Automaton], deadline: Deadline
+) -> tuple[dict[int, tuple[int, ...]], dict[int, tuple[int, ...]]]:
+    """For each action the facts outside its participants' automata that it needs true, and false.
+
+    Args:
+        task: the task.
+        part: what of it matters.
+        machines: an automaton for each agent, by id.
+        deadline: polled.
+    """
+    pre: dict[int, tuple[int, ...]] = {}
+    neg: dict[int, tuple[int, ...]] = {}
+    for i in deadline.each(part.actions):
+        inside = [machines[agent].facts for agent in task.actions[i].participants]
+        pre[i] = tuple(f for f in part.pre[i] if not any(f in facts for facts in inside))
+        neg[i] = tuple(f for f in part.neg[i] if not any(f in facts for facts in inside))
+    return pre, neg

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
+from typing import Protocol
 
-from search.goals import Candidate
-from serendipity.model import GroundAction, Options, Task
+from serendipity.model import Condition, GroundAction, HumanPlan, Options, Task
 from serendipity.testing.oracle import Alone
 from serendipity.testing.oracle.epochs import State, after, compatible, holds, usable
 
@@ -15,6 +15,22 @@ Worth = tuple[Fraction, Fraction]
 
 Sets = tuple[tuple[GroundAction, ...], ...]
 """Robots' action sets, one an epoch."""
+
+
+class Candidate(Protocol):
+    """A goal that the human may have."""
+
+    @property
+    def goal(self) -> Condition:
+        """The goal."""
+
+    @property
+    def plan(self) -> HumanPlan:
+        """Their plan, if that is it."""
+
+    @property
+    def weight(self) -> Fraction:
+        """Its probability."""
 
 
 def robots_sets(task: Task, *, strict: bool) -> list[tuple[GroundAction, ...]]:

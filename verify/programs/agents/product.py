@@ -6,6 +6,7 @@ its private facts follow an automaton whose arcs are its actions; what an action
 other facts is left to the rows of the program.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Final
@@ -15,6 +16,12 @@ from verify.base.relevance import Relevant
 
 MOST_STATES: Final = 2000
 """Facts are left out of an automaton, and become shared ones, rather than pass this size."""
+
+STATES_A_VALUE: Final = 24
+"""The same, for each value of the variable with the most values: an automaton without it says little."""
+
+_SMALL: Final = 4
+"""States of a small automaton for each fact of its largest group."""
 
 _MANY: Final = 500_000
 """Moves from which on there may be no memory for more."""
@@ -63,7 +70,11 @@ def private_facts(task: Task, part: Relevant, deadline: Deadline) -> dict[int, i
 
 
 def automata(
-    task: Task, part: Relevant, units: Iterable[frozenset[int]], deadline: Deadline
+    task: Task,
+    part: Relevant,
+    units: Iterable[frozenset[int]],
+    deadline: Deadline,
+    owner: Mapping[int, int] | None = None,
 ) -> tuple[Automaton, ...]:
     """The automaton of each agent, in the order of ids.
 
@@ -72,18 +83,60 @@ def automata(
         part: what of it matters.
         units: groups of facts that go into an automaton, or stay out, together.
         deadline: polled.
+        owner: whose facts are whose; None: as :func:`private_facts` has it.
 
     Raises:
         LimitReachedError: the deadline came first.
     """
-    owner = private_facts(task, part, deadline)
+    owner = private_facts(task, part, deadline) if owner is None else owner
     result = []
+    largest = max((len(variable.facts) for variable in task.variables), default=0)
+    most = max(MOST_STATES, STATES_A_VALUE * largest)
     for agent in range(len(task.agents)):
         mine = frozenset(f for f, a in deadline.each(owner.items()) if a == agent)
         actions = {
             i: task.actions[i] for i in deadline.each(part.actions) if agent in task.actions[i].participants
         }
-        result.append(_Explorer(task, part, agent, actions, deadline).largest(mine, units))
+        result.append(_Explorer(task, part, agent, actions, most, deadline).largest(mine, units))
+    return tuple(result)
+
+
+def small_automata(
+    task: Task,
+    part: Relevant,
+    units: Iterable[frozenset[int]],
+    deadline: Deadline,
+    owner: Mapping[int, int],
+) -> tuple[Automaton, ...]:
+    """Automata of all agents over few facts: their largest group, and what most of their actions need.
+
+    Args:
+        task: the task.
+        part: what of it matters.
+        units: groups of facts of which exactly one is true.
+        deadline: polled.
+        owner: whose facts are whose.
+    """
+    groups = sorted(deadline.each(units), key=lambda unit: (-len(unit), min(unit)))
+    result = []
+    for agent in range(len(task.agents)):
+        mine = {f for f, a in deadline.each(owner.items()) if a == agent}
+        actions = {
+            i: task.actions[i] for i in deadline.each(part.actions) if agent in task.actions[i].participants
+        }
+        facts = next((unit for unit in groups if unit <= mine), frozenset())
+        asked = Counter(
+            f for i in deadline.each(actions) for f in part.pre[i] if f in mine and f not in facts
+        )
+        goal = [f for f in (*task.goal.positive, *task.goal.negative) if f in mine - facts]
+        most = max(MOST_STATES, _SMALL * len(facts))
+        explorer = _Explorer(task, part, agent, actions, most, deadline)
+        others = (*goal[:1], *(f for f, _ in asked.most_common(1) if f not in goal[:1]))
+        found = (
+            explorer.explore(facts.union(others)) or explorer.explore(facts) or explorer.explore(frozenset())
+        )
+        assert found is not None
+        result.append(found)
     return tuple(result)
 
 
@@ -96,30 +149,32 @@ class _Explorer:
         part: Relevant,
         agent: int,
         actions: Mapping[int, GroundAction],
+        most: int,
         deadline: Deadline,
     ) -> None:
         self._task = task
         self._part = part
         self._agent = agent
         self._actions = actions
+        self._most = most
         self._deadline = deadline
 
     def largest(self, mine: frozenset[int], units: Iterable[frozenset[int]]) -> Automaton:
         """The product of all private facts, or of as many units as stay below the limit."""
-        whole = self._explore(mine)
+        whole = self.explore(mine)
         if whole is not None:
             return whole
         pieces = [unit for unit in self._deadline.each(units) if unit <= mine]
         grouped = frozenset().union(*pieces)
         pieces += [frozenset((f,)) for f in sorted(mine - grouped)]
-        best = self._explore(frozenset())
+        best = self.explore(frozenset())
         assert best is not None
         for piece in sorted(pieces, key=lambda piece: (-len(piece), min(piece))):
-            best = self._explore(best.facts | piece) or best
+            best = self.explore(best.facts | piece) or best
         return best
 
-    def _explore(self, facts: frozenset[int]) -> Automaton | None:
-        """The reachable states over ``facts``, or None if they are too many."""
+    def explore(self, facts: frozenset[int]) -> Automaton | None:
+        """The automaton of the reachable states over ``facts``, or None if they are too many."""
         table = self._by_first_fact(facts)
         start = self._task.init & facts
         found = Automaton(self._agent, facts, [start])
@@ -133,7 +188,7 @@ class _Explorer:
                     if pre <= state and neg.isdisjoint(state):
                         target = (state - delete) | add
                         if target not in index:
-                            if len(index) >= MOST_STATES:
+                            if len(index) >= self._most:
                                 return None
                             index[target] = len(index)
                             found.states.append(target)

@@ -36,10 +36,12 @@ class Tree:
     choices: dict[State, list[Choice]]
 
     def final(self, state: State) -> bool:
+        """Whether the prime's goal holds."""
         return self.task.goal.holds(state)
 
 
 def after(action: GroundAction, state: State) -> State:
+    """The state after an action."""
     return state.difference(action.delete).union(action.add)
 
 

@@ -1,0 +1,108 @@
+"""Bounds on moves, and the search of what they leave, drop no plan that brute force finds."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+
+import serendipity
+from serendipity.model import Result, Task, UsageError
+from serendipity.testing.oracle import best
+from serendipity.testing.strategies import Call, calls
+from verify.calls.solve import solve
+from verify.programs.agents import product
+from verify.programs.automata import encoding
+
+
+def _figures(call: Call) -> tuple[object, ...] | None:
+    try:
+        optimum = best(call.task, call.options, call.human_plan)
+    except UsageError:
+        return None
+    return optimum.status, None if optimum.cost is None else float(optimum.cost)
+
+
+def _check(call: Call) -> None:
+    figures = _figures(call)
+    if figures is not None:
+        result = solve(call.task, call.options, human_plan=call.human_plan_names, method="auto")
+        assert (result.status, result.cost) == figures
+
+
+@settings(max_examples=30)
+@given(calls())
+def test_automata_of_few_facts_first(call: Call) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(encoding, "MANY_ACTIONS", 0)
+        _check(call)
+
+
+@settings(max_examples=30)
+@given(calls())
+def test_automata_that_leave_most_facts_out(call: Call) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(product, "MOST_STATES", 4)
+        patch.setattr(product, "STATES_A_VALUE", 0)
+        _check(call)
+
+
+@settings(max_examples=30)
+@given(calls(modes=("composite",), ties=False))
+def test_joint_paths_alone(call: Call) -> None:
+    """Equal costs and no limit on cost: a cheapest joint path is an answer, and no solver is needed."""
+    options = call.options.but(max_cost=None, window_weight=Fraction(0))
+    call = Call(call.task, options, call.human_plan)
+    if _figures(call) is None or options.horizon == "inf":
+        return
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("verify.calls.methods._searchable", lambda _: False)
+        patch.setattr("verify.programs.effort.Effort.solve", _refuse)
+        _check(call)
+
+
+def _refuse(*_: object) -> None:
+    raise AssertionError("a solver was asked")
+
+
+# -- buildings
+
+
+@pytest.fixture(scope="module")
+def building(tmp_path_factory: pytest.TempPathFactory) -> Task:
+    folder: Path = tmp_path_factory.mktemp("building")
+    serendipity.generate_usar(folder, rooms=84, medkits=3, robots=2, seed=3)
+    return serendipity.load(folder)
+
+
+@pytest.fixture(scope="module")
+def answer(building: Task) -> Result:
+    return serendipity.plan(building, window_weight=0, discount="0.9")
+
+
+def test_two_robots_that_hand_on_what_a_solver_does_not_decide(building: Task, answer: Result) -> None:
+    certificate = serendipity.verify(building, answer)
+    optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    assert (optimal.verdict, optimal.solver_calls) == ("proved", 0)
+    assert "joint states" in optimal.reason
+    assert optimal.method == "program"
+
+
+def test_a_dearer_answer_is_refuted_with_a_plan(building: Task, answer: Result) -> None:
+    dearer = serendipity.plan(building, mode="serendipity", discount="0.9")
+    assert dearer.cost is not None
+    assert answer.cost is not None
+    assert answer.cost < dearer.cost
+    data = {**dearer.to_dict(), "options": answer.to_dict()["options"]}
+    data |= {"objective": dearer.cost, "lower_bound": dearer.cost}
+    refuted = serendipity.verify(building, Result.from_dict(data)).refuted
+    assert refuted is not None
+    assert refuted.claim == "optimal"
+
+
+def test_a_window_of_all_epochs_is_as_good_as_any(building: Task, answer: Result) -> None:
+    found = solve(building, answer.options, method="auto")
+    assert found.cost == answer.cost
+    assert found.window is not None
+    assert (found.window.start, found.window.end) == (1, (found.horizon or 0) + 1)
+    assert serendipity.check(building, found).verdict == "proved"

@@ -1,0 +1,1 @@
+"""Automata of agents: what each of them can make of the facts that nobody else changes."""

@@ -1,0 +1,81 @@
+"""What the bounds on moves work on: automata, the needs of their actions, prices and limits."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from serendipity.model import Deadline, Task
+from verify.programs.agents.product import Automaton, Move
+
+FAR = 10**15
+"""More than any sum of weights."""
+
+
+OfState = Callable[[int, int], int]
+"""Of an agent and a state of their automaton."""
+
+
+@dataclass(slots=True)
+class Team:
+    """The automata of all agents, with the moves that are still on some plan.
+
+    Attributes:
+        task: the task.
+        machines: an automaton for each agent, by id.
+        pre: for each action the facts that it needs outside its participants' automata.
+        neg: the same for facts that have to be false.
+        price: what each action adds to the objective, by id.
+        horizon: number of epochs.
+        most: what all actions together may add.
+        wanted_true: facts that a goal wants true at the end.
+        wanted_false: those that it wants false.
+        finals: by agent the automaton states in which a plan may end.
+        watched: agents who go on to the end: what is true in their automata counts there.
+        deadline: polled.
+        moves: by agent and state, the moves that are left.
+        spare: what robots may have spent, at most, when one of them is in a state and goes on.
+        latest: the epoch after which that is too late.
+        needed: the facts that some action needs outside its participants' automata.
+    """
+
+    task: Task
+    machines: Sequence[Automaton]
+    pre: Mapping[int, tuple[int, ...]]
+    neg: Mapping[int, tuple[int, ...]]
+    price: Sequence[int]
+    horizon: int
+    most: int
+    wanted_true: frozenset[int]
+    wanted_false: frozenset[int]
+    finals: Sequence[set[int]]
+    watched: frozenset[int]
+    deadline: Deadline
+    moves: list[list[list[Move]]] = field(default_factory=list)
+    needed: frozenset[int] = frozenset()
+    spare: OfState | None = None
+    latest: OfState | None = None
+
+    def __post_init__(self) -> None:
+        self.moves = [machine.moves for machine in self.machines]
+        needs = (*self.pre.values(), *self.neg.values())
+        self.needed = frozenset(f for facts in self.deadline.each(needs) for f in facts)
+
+    @property
+    def robots(self) -> list[int]:
+        """Ids of all agents but the human."""
+        return [k for k in range(len(self.machines)) if k != self.task.human]
+
+    def actions(self, agent: int) -> set[int]:
+        """The actions in which an agent still may take part."""
+        return {action for moves in self.deadline.each(self.moves[agent]) for action, _ in moves}
+
+    def backward(self, agent: int) -> list[list[Move]]:
+        """For each state of an agent's, the actions that lead there and the states they come from."""
+        found: list[list[Move]] = [[] for _ in self.moves[agent]]
+        for state, moves in enumerate(self.deadline.each(self.moves[agent])):
+            for action, target in moves:
+                found[target].append((action, state))
+        return found
+
+    def count(self) -> int:
+        """How many moves are left."""
+        return sum(len(moves) for agent in self.moves for moves in self.deadline.each(agent))
