@@ -13,7 +13,7 @@ from serendipity.model import Deadline
 from verify.packed.layout import Effects
 
 MOST_FACTS: Final = 1_500
-MOST_ACTIONS: Final = 10_000
+MOST_ACTIONS: Final = 30_000
 """Sizes beyond which nobody should ask: it takes time with their product."""
 
 
