@@ -54,6 +54,9 @@ class Built(NamedTuple):
 
 def main() -> int:
     """Try everything; how many Pythons failed."""
+    if shutil.which("pyenv"):  # its commands find only versions that are switched on
+        bare = run("pyenv", "versions", "--bare").split()
+        os.environ["PYENV_VERSION"] = ":".join(sorted(bare, key=numbers, reverse=True))
     pythons = sys.argv[1:] or found()
     if not pythons:
         sys.exit("no Python to try")
@@ -95,9 +98,6 @@ class Steps:
 
 def found() -> list[str]:
     """The commands of the Pythons that are here."""
-    if shutil.which("pyenv"):  # its commands find only versions that are switched on
-        bare = run("pyenv", "versions", "--bare").split()
-        os.environ["PYENV_VERSION"] = ":".join(sorted(bare, key=numbers, reverse=True))
     named = {version: f"python{version}" for version in VERSIONS}
     here = {version: command for version, command in named.items() if works(command)}
     for version in named.keys() - here.keys():
