@@ -60,6 +60,7 @@ def go(page: Any, *places: str) -> None:
 
 def choose(page: Any, text: str) -> None:
     page.click(f'#can button:has-text("{text}")')
+    page.wait_for_selector(f'#can button:has-text("{text}")', state="detached")
 
 
 def fits(page: Any) -> bool:
