@@ -60,7 +60,6 @@ def go(page: Any, *places: str) -> None:
 
 def choose(page: Any, text: str) -> None:
     page.click(f'#can button:has-text("{text}")')
-    page.wait_for_selector(f'#can button:has-text("{text}")', state="detached")
 
 
 def fits(page: Any) -> bool:
@@ -83,6 +82,7 @@ def test_the_papers_example_by_clicks(opened: Opened) -> None:
         assert page.inner_text("#can .offer .word").split("\n")[-1] == "hand over mk2"
         assert page.inner_text("#thought .verdict") == "helps"
         choose(page, "hand over mk2")
+        page.wait_for_selector('#can button:has-text("hand over mk2")', state="detached")
         go(page, *TO_ROOM1)
         choose(page, "conduct triage")
         page.wait_for_selector("#finish")
@@ -142,6 +142,7 @@ def test_two_goals_are_possible(opened: Opened, tmp_path: Path) -> None:
         go(page, "hall8", "hall7", "hall6", "hall5", "hall4")
         assert page.locator("#thought .share output").all_inner_texts()[0] == "100 %"
         choose(page, "hand over mk2")
+        page.wait_for_selector('#can button:has-text("hand over mk2")', state="detached")
         go(page, *TO_ROOM1)
         choose(page, "conduct triage")
         page.wait_for_selector("#finish")
