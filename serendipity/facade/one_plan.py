@@ -11,7 +11,7 @@ from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.task.task import HumanPlan
 
 _VERDICT_SHARE: Final = 0.02
-"""What the verdict on humans who replan may add to the time limit: a share of it."""
+"""What verdicts on humans who replan may add to the time limit; on the way, what they take of the rest."""
 
 
 def answers(call: Call) -> Iterator[Answer]:
@@ -25,10 +25,11 @@ def last_answer(call: Call, human_plan: HumanPlan) -> Answer:
     return with_verdicts(call, answer._replace(human_plan=human_plan))  # which there was no time to find out
 
 
-def with_verdicts(call: Call, answer: Answer) -> Answer:
+def with_verdicts(call: Call, answer: Answer, *, last: bool = True) -> Answer:
     """The answer with the verdicts of semantics 6, where they were not looked at yet; none without a plan.
 
-    They may go a little beyond the time limit, so that an answer at the limit has them too.
+    They may go a little beyond the time limit, so that an answer at the limit has them too.  With an answer
+    that is not the last one they take a small share of the time that is left, and may be missing.
     """
     if answer.realised is not None or answer.steps is None or answer.cost is None:
         return answer
@@ -40,7 +41,7 @@ def with_verdicts(call: Call, answer: Answer) -> Answer:
         cost=answer.cost,
         horizon=answer.horizon,
         visible=call.visible,
-        deadline=call.limits.sooner(-_VERDICT_SHARE),
+        deadline=call.limits.sooner(-_VERDICT_SHARE) if last else call.limits.part(_VERDICT_SHARE),
     )
     return answer._replace(realised=verdicts)
 

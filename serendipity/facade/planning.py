@@ -123,7 +123,8 @@ def plan_anytime(
 
     From one to the next the objective never rises and the lower bound never falls, with one exception: an
     answer without a window has its cost as objective, so the first one with a window, which costs less,
-    has an objective that may be larger by up to ``window_weight`` an epoch (semantics 3.1).
+    has an objective that may be larger by up to ``window_weight`` an epoch (semantics 3.1).  Under a time
+    limit ``realised`` may be empty until the last one.
 
     Args and errors are those of :func:`plan`.
     """
@@ -152,13 +153,20 @@ def planned_anytime(
 
 
 def _results(call: Call, answers: Iterator[Answer]) -> Iterator[Result]:
+    result = None
     while True:
         with no_collection():  # only while it plans: what the caller does with an answer is the caller's
-            answer = next(answers, None)
-            result = None if answer is None else _result(call, answer)
-        if result is None:
-            return
+            following = next(answers, None)
+            if following is None:
+                break
+            answer = following
+            result = _result(call, answer, last=False)
         yield result
+    if result is not None and not result.realised:
+        with no_collection():
+            result = _result(call, answer)
+        if result.realised:
+            yield result
 
 
 def _told(results: Iterator[Result], on_improvement: Callable[[Result], None]) -> Result:
@@ -176,6 +184,6 @@ def _given(task: Task, names: Iterable[str] | None) -> Given:
     return None if names is None else partial(task.plan_from_names, names)
 
 
-def _result(call: Call, answer: Answer) -> Result:
-    answer = with_verdicts(call, answer)
+def _result(call: Call, answer: Answer, *, last: bool = True) -> Result:
+    answer = with_verdicts(call, answer, last=last)
     return to_result(call.task, call.options, answer, call.deadline.elapsed())

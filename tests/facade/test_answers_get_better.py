@@ -1,10 +1,15 @@
 """``plan_anytime``: objectives never rise but where the first window begins to count, bounds never fall."""
 
 from itertools import pairwise
+from typing import Any
+
+import pytest
 
 import serendipity
 from serendipity import Result, UsageError
 from serendipity.evaluation.crosscheck import random_call
+from serendipity.facade import one_plan
+from serendipity.model import Deadline
 
 CALLS = 150
 
@@ -39,3 +44,23 @@ def test_the_first_window_raises_the_objective_by_its_weight() -> None:
     answers = list(serendipity.plan_anytime(serendipity.example("room2"), discount=0.6))
     told = dict.fromkeys((answer.objective, answer.cost) for answer in answers)
     assert list(told) == [(13.0, 13.0), (1012.6, 12.6)]
+
+
+def test_verdicts_on_the_way_take_little_of_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    left: list[float | None] = []
+
+    def looked_at(*_: object, deadline: Deadline, **__: object) -> dict[str, bool]:
+        left.append(deadline.left())
+        return {}
+
+    monkeypatch.setattr(one_plan, "realised", looked_at)
+    *_, last = serendipity.plan_anytime(serendipity.example("room2"), discount=0.6, time_limit=50)
+    assert last.status == "optimal"
+    *before, at_the_end = (seconds for seconds in left if seconds is not None)
+    assert before and all(seconds <= 1 for seconds in before) and at_the_end > 10
+
+
+def test_the_last_answer_has_the_verdicts_that_plan_gives() -> None:
+    options: dict[str, Any] = {"discount": 0.6, "time_limit": 50}
+    *_, last = serendipity.plan_anytime(serendipity.example("room2"), **options)
+    assert last.realised == serendipity.plan(serendipity.example("room2"), **options).realised != {}
