@@ -8,8 +8,8 @@
 ``report`` runs ``up_test_cases/report.py`` of a checkout of unified-planning (of the version that is
 installed; its wheel lacks the problems in PDDL) for the engine ``serendipity``, and counts what it says.
 ``random`` and ``suite`` compare optima of tasks read as PDDL with those of the same tasks written as
-problems of the library and read again; ``files`` those of its teams with those of the MA-PDDL that its
-writer makes of them, factored and unfactored.
+problems of the library and read again, ``suite`` also the tasks themselves; ``files`` compares optima of
+its teams with those of the MA-PDDL that its writer makes of them, factored and unfactored.
 """
 
 import argparse
@@ -20,7 +20,7 @@ import sys
 import tempfile
 import warnings
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,7 @@ from serendipity.pddl import read_pddl
 from serendipity.pddl.write import write_pddl
 from serendipity.up import from_problem, to_plan, to_problem
 from serendipity.up.engine import SerendipityEngine
+from serendipity.up.names import legal
 
 TEAM: dict[str, Any] = {"mode": "composite", "horizon": "inf", "interference": "strict"}
 ALONE: dict[str, Any] = {"mode": "individual"}
@@ -57,7 +58,12 @@ def main() -> None:
     parser.add_argument("--packages", nargs="+", default=[], help="of test cases; default: all")
     parser.add_argument("--timeout", type=float, default=10.0, help="seconds for each case of the report")
     parser.add_argument("--count", type=int, default=200, help="random tasks")
-    parser.add_argument("--time-limit", type=float, default=3.0, help="seconds for each call of a suite")
+    parser.add_argument(
+        "--time-limit",
+        type=float,
+        default=3.0,
+        help="seconds for each call of a suite; 0: compare tasks only",
+    )
     parser.add_argument("--stride", type=int, default=1, help="every n-th problem of a domain")
     arguments = parser.parse_args()
     if arguments.what == "report":
@@ -120,7 +126,12 @@ def suite(folder: Path, seconds: float, stride: int) -> Iterator[tuple[str, str]
         human = min(name for kind in kinds for name in unit.objects_of(kind))
         task = read_pddl(problem.domain_file, problem.problem_file, human)
         limited = [{**options, "time_limit": seconds} for options in (TEAM, ALONE)]
-        yield from through(f"{problem.domain}/{problem.name}", task, task, limited)
+        name = f"{problem.domain}/{problem.name}"
+        who: dict[str, Any] = {"human": human, "robots": [task.agents[i] for i in task.robots]}
+        same = content(task) == content(from_problem(to_problem(task), **who))
+        yield name, "task: same" if same else "task: differ"
+        if seconds:
+            yield from through(name, task, task, limited)
 
 
 def through(name: str, first: Task, task: Task, calls: list[dict[str, Any]]) -> Iterator[tuple[str, str]]:
@@ -134,6 +145,39 @@ def through(name: str, first: Task, task: Task, calls: list[dict[str, Any]]) -> 
         if options["mode"] == "composite" and after.plan is not None:
             valid = SerendipityEngine(**who).validate(problem, to_plan(after, problem))
             yield name, f"plan in the library: {'valid' if valid else 'invalid'}"
+
+
+def content(task: Task) -> tuple[object, ...]:
+    """What a task is about, by agents' and facts' names: its optima follow from it.
+
+    Facts that no action can change are left out, and so are effects that change nothing.
+    """
+    added = {fact for action in task.actions for fact in action.add}
+    deleted = {fact for action in task.actions for fact in action.delete}
+    always, never = task.init - deleted, frozenset(range(len(task.facts))) - task.init - added
+    words = {fact: legal(name) for fact, name in enumerate(task.facts) if fact not in always | never}
+    assert len(set(words.values())) == len(words)
+
+    def condition(positive: Iterable[int], negative: Iterable[int]) -> object:
+        impossible = not never.isdisjoint(positive) or not always.isdisjoint(negative)
+        return None if impossible else (named(positive), named(negative))
+
+    def named(facts: Iterable[int]) -> frozenset[str]:
+        return frozenset(words[fact] for fact in facts if fact in words)
+
+    actions = Counter(
+        (
+            frozenset(task.agents[i] for i in action.participants),
+            action.cost,
+            before,
+            named(action.add),
+            named(action.delete),
+        )
+        for action in task.actions
+        if (before := condition(action.pre, action.neg)) is not None
+    )
+    goals = [condition(goal.positive, goal.negative) for goal in (task.goal, task.robot_goal)]
+    return task.agents, task.human, actions, named(task.init), goals
 
 
 def compared(before: Result, after: Result) -> str:
