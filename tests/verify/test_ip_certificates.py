@@ -7,12 +7,13 @@ import pytest
 from hypothesis import given
 
 import serendipity
-from serendipity.model import Certificate, Claim, InputError, Options, Task, UsageError
+from serendipity.model import Certificate, Claim, InputError, LimitReachedError, Options, Task, UsageError
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8, case_10
 from serendipity.testing.strategies import Call, calls
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED, dearer, solved
 from tests.verify.valid import CASE_4_PI_H
+from verify.base.optimal_plans import OptimalPlans
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs.effort import METHODS
@@ -78,6 +79,18 @@ def test_pi_h_is_said_to_be_canonical_or_given() -> None:
     assert other.human_plan == canonical.human_plan
     lazy = solved(case_3(), CASE_3_PLAN)
     assert "pi_H is" in _claim(certify(case_3(), lazy), "replay").reason
+
+
+def test_what_pi_h_is_does_not_hold_up_a_certificate(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(plans: OptimalPlans) -> None:
+        assert plans.deadline.left() is not None
+        raise LimitReachedError("time-limit")
+
+    answer = solved(case_4())
+    monkeypatch.setattr(OptimalPlans, "canonical", endless)
+    certificate = certify(case_4(), answer)
+    assert certificate.verdict == "proved"
+    assert "pi_H is" not in _claim(certificate, "replay").reason
 
 
 def test_no_answer_in_time_is_not_refuted() -> None:
