@@ -101,7 +101,7 @@ BUGS = (
         "cost vector of an action",
         "actions are not counted",
         replaced(lambda self, cost: self.of_cost(cost)),
-        crashes="ZeroDivisionError",
+        crashes="AssertionError: asked for plans where there are none",
     ),
     Bug(
         "cost vector of a window's start",

@@ -32,10 +32,13 @@ def _epochs() -> Iterator[PlanCall]:
             {"mode": "serendipity", "window_weight": "0"},
         ):
             yield PlanCall(build(init="p q", goal="a b", actions=actions), options)
+    pursued = build(init="p q", goal="a b", robot_goal="b", actions=circle)
+    yield PlanCall(pursued, {"mode": "composite", "horizon": "inf"})
     at_once = {"do h": "-> a b @ 9", "help r": "-> a", "lift h r": "-> b"}
     yield PlanCall(build(goal="a b", actions=at_once), {"mode": "composite", "horizon": "inf"})
     two_robots = {"go h": "-> g @ 5", "end h": "x y -> g", "one r": "-> x", "two s": "-> y"}
-    yield PlanCall(build(agents="h r s", goal="g", actions=two_robots), {"horizon": "2"})
+    for options in ({"horizon": "2"}, {"horizon": "2", "mode": "composite"}):
+        yield PlanCall(build(agents="h r s", goal="g", actions=two_robots), options)
 
 
 def _conditions() -> Iterator[PlanCall]:

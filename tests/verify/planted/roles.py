@@ -31,6 +31,7 @@ PLACES = {
     "joint actions with the human": "search.packed.successor_generator:Successors.joint",
     "whether an action fits beside others": "search.packed.successor_generator:Successors._fits",
     "whether a set can be done in some order": "search.packed.successor_generator:Successors.sequential",
+    "sets of a team that need one epoch": "search.classical.team:circles",
     # costs and orders
     "weights of operators": "search.packed.cost_vector:Weights.__init__",
     "cost of a joint action": "search.packed.cost_vector:Weights.team",
