@@ -52,15 +52,19 @@ def test_nothing_is_found_in_all_calls_of_the_default(pytester: pytest.Pytester)
     checked(pytester, TEXT).assert_outcomes(passed=7)
 
 
+@pytest.mark.parametrize("ci", ["", "true"], ids=["by-hand", "in-ci"])
 @pytest.mark.parametrize("bug", BUGS)
-def test_each_bug_is_found_and_its_smallest_case_shown(bug: str, pytester: pytest.Pytester) -> None:
+def test_each_bug_is_found_and_its_smallest_case_shown(
+    bug: str, ci: str, pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("CI", ci)  # where it is set, pytest repeats a failure's whole text in its summary
     right, wrong = BUGS[bug]
     assert TEXT.count(right) == 1
     done = checked(pytester, TEXT.replace(right, wrong), "-k", "brute-force")
     done.assert_outcomes(failed=1, deselected=6)
     shown = done.stdout.str()
     done.stdout.fnmatch_lines(["*planner:plan is wrong*", "  task(", "  brute force: optimal*", "in PDDL: *"])
-    actions = re.findall(r"^          '[^']+': '[^']*->", shown, re.MULTILINE)
+    actions = re.findall(r"^          '[^']+': '[^']*->", case_shown(done), re.MULTILINE)
     assert 1 <= len(actions) <= 5
 
     (folder,) = (pytester.path / "serendipity-cases").iterdir()
@@ -74,6 +78,7 @@ def test_each_bug_is_found_and_its_smallest_case_shown(bug: str, pytester: pytes
 
 
 def case_shown(done: pytest.RunResult) -> str:
+    """The first case that it shows."""
     shown = done.stdout.str()
     return shown[shown.index("  task(") : shown.index("again: ")]
 
