@@ -14,7 +14,7 @@ from math import prod
 from search.heuristics.achievers import shared_fields
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import OwnPrivateDistances
-from search.human.pattern_database import private_fields
+from search.human.pattern_database import PatternDatabase, private_fields, translated
 from search.human.tables import HumanTables
 from search.packed.cost_vector import CostScales
 from search.packed.packed_task import PackedTask
@@ -31,6 +31,7 @@ class TaskTables:
 
     Args:
         packed: the packed task.
+        human: what the human can do alone, where it is not to be found from the packed task.
 
     Attributes:
         packed: the packed task.
@@ -39,10 +40,10 @@ class TaskTables:
         robots: what robots can do.
     """
 
-    def __init__(self, packed: PackedTask) -> None:
+    def __init__(self, packed: PackedTask, human: HumanTables | None = None) -> None:
         self.packed = packed
         self.scales = CostScales(packed.costs)
-        self.human = HumanTables(packed)
+        self.human = human or HumanTables(packed)
         self.robots = RobotTables(packed)
         self._interactions: Interactions | None = None
         self._private_distances: OwnPrivateDistances | None = None
@@ -139,8 +140,13 @@ class PreparedTask:
         return self._complete
 
     def _doubting(self, facts: frozenset[int], deadline: Deadline) -> TaskTables:
-        own = doubted(self.task, deadline)
-        return TaskTables(PackedTask(own, facts, deadline, self.diversions(deadline)))
+        plain = self.with_diversions(deadline)
+        packed = PackedTask(doubted(self.task, deadline), facts, deadline, self.diversions(deadline))
+
+        def projection(deadline: Deadline) -> PatternDatabase:
+            return translated(plain.human.projection(deadline), plain.packed, packed)
+
+        return TaskTables(packed, HumanTables(packed, projection))
 
     # -- what else follows from it
 

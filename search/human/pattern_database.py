@@ -93,6 +93,31 @@ def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> 
     return PatternDatabase(graph.mask, backward(goals, (graph.moves, graph.interactions), deadline))
 
 
+def translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) -> PatternDatabase:
+    """A bound on private variables, for states that are packed in another way.
+
+    The bound of the other packing itself would also look at single facts of shared
+    variables ("the human has the kit"), and grow with every subset of them.
+
+    Args:
+        bound: for states of ``plain``.
+        plain: the task packed as it is.
+        packed: the same, with the same private variables.
+    """
+    fields: dict[int, dict[int, int]] = {}
+    mask = 0
+    for fact, bits in enumerate(plain.fact_bits):
+        there = packed.fact_bits[fact]
+        if bits is not None and there is not None and bits[0] & bound.mask:
+            fields.setdefault(bits[0], {})[bits[1]] = there[1]
+            mask |= there[0]
+    distances = {
+        sum(values.get(state & field, 0) for field, values in fields.items()): distance
+        for state, distance in bound.distances.items()
+    }
+    return PatternDatabase(mask, distances)
+
+
 def steps_in(own: PatternDatabase) -> PatternDatabase:
     """The numbers of actions in what :func:`own_projection` finds."""
     return PatternDatabase(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})

@@ -1,5 +1,7 @@
 """What the human can do alone, as far as it follows from the packed task alone."""
 
+from collections.abc import Callable
+
 from search.human.individual_planner import Memory
 from search.human.pattern_database import (
     PatternDatabase,
@@ -21,10 +23,14 @@ class HumanTables:
 
     Args:
         packed: the packed task.
+        project: makes the projection; None: from the packed task.
     """
 
-    def __init__(self, packed: PackedTask) -> None:
+    def __init__(
+        self, packed: PackedTask, project: Callable[[Deadline], PatternDatabase] | None = None
+    ) -> None:
         self._packed = packed
+        self._project = project or self._own_projection
         self._graph: Projected | None = None
         self._projection: PatternDatabase | None = None
         self._steps: PatternDatabase | None = None
@@ -43,8 +49,11 @@ class HumanTables:
     def projection(self, deadline: Deadline) -> PatternDatabase:
         """The human's private distances to the goal, in the unit of :func:`.own_weights`."""
         if self._projection is None:
-            self._projection = own_projection(self._packed, self.graph(deadline), deadline)
+            self._projection = self._project(deadline)
         return self._projection
+
+    def _own_projection(self, deadline: Deadline) -> PatternDatabase:
+        return own_projection(self._packed, self.graph(deadline), deadline)
 
     def steps(self, deadline: Deadline) -> PatternDatabase:
         """The same, counting the human's actions."""

@@ -4,8 +4,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from search.context import SearchContext
-from search.human.individual_planner import IndividualPlanner, canonical
-from search.human.pattern_database import PatternDatabase
+from search.human.individual_planner import canonical
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
@@ -64,18 +63,13 @@ class Human:
     ) -> None:
         local = human_model == "local"
         told = local and visible is not None
-        plain, seen = _packings(prepared, actions, deadline, local=local, told=told)
-        as_it_is = SearchContext(prepared, options, deadline, tables=plain)
-        self.context = SearchContext(prepared, options, deadline, tables=seen) if local else as_it_is
-        self.packed = seen.packed
+        tables = _packing(prepared, actions, deadline, local=local, told=told)
+        self.context = SearchContext(prepared, options, deadline, tables=tables)
+        self.packed = tables.packed
         self.weights = self.context.weights
         self.keys = self.weights.keys
-        self.bound = _translated(as_it_is.bound, plain.packed, self.packed) if local else as_it_is.bound
-        self.alone = (
-            IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, deadline)
-            if local
-            else as_it_is.alone
-        )
+        self.bound = self.context.bound
+        self.alone = self.context.alone
         self.intentions = Intentions(self.packed, self.keys, self.weights.human)
         self.eyes: Eyes = _eyes(prepared, self.packed, visible, deadline) if local else Everywhere()
         self.concern = self.packed.own_mask | self.packed.goal.mask
@@ -128,19 +122,17 @@ class Human:
         return (cost << self.keys.cost_shift) + (cost << self.keys.objective_shift)
 
 
-def _packings(
+def _packing(
     prepared: PreparedTask, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
-) -> tuple[TaskTables, TaskTables]:
-    """The task packed as it is, and as the human sees it; both hold what the actions ask for."""
+) -> TaskTables:
+    """The task packed as the human sees it, with what the actions ask for."""
+    if told:
+        return prepared.complete(deadline)
     plain = prepared.with_diversions(deadline)
     missing = _missing(plain.packed, actions)
-    if missing:
-        plain = prepared.including(missing, deadline, prepared.diversions(deadline))
-    if not local:
-        return plain, plain
-    if told:
-        return plain, prepared.complete(deadline)
-    return plain, prepared.doubting(missing, deadline) if missing else prepared.doubtful(deadline)
+    if local:
+        return prepared.doubting(missing, deadline) if missing else prepared.doubtful(deadline)
+    return prepared.including(missing, deadline, prepared.diversions(deadline)) if missing else plain
 
 
 def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
@@ -165,23 +157,3 @@ def _asked_by(op: Operator) -> int:
 
 def _eyes(prepared: PreparedTask, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:
     return Nearby(packed, prepared.surroundings(deadline)) if visible is None else AsTold(packed, visible)
-
-
-def _translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) -> PatternDatabase:
-    """A bound on private variables, for states that are packed in another way.
-
-    The bound of the other packing itself would also look at single facts of shared
-    variables ("the human has the kit"), and grow with every subset of them.
-    """
-    fields: dict[int, dict[int, int]] = {}
-    mask = 0
-    for fact, bits in enumerate(plain.fact_bits):
-        there = packed.fact_bits[fact]
-        if bits is not None and there is not None and bits[0] & bound.mask:
-            fields.setdefault(bits[0], {})[bits[1]] = there[1]
-            mask |= there[0]
-    distances = {
-        sum(values.get(state & field, 0) for field, values in fields.items()): distance
-        for state, distance in bound.distances.items()
-    }
-    return PatternDatabase(mask, distances)
