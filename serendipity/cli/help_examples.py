@@ -20,7 +20,7 @@ EXAMPLES: Final = (
     "serendipity solve --example room7 --discount 0.6 --mode communication --solver highs",
     "serendipity crosscheck --count 5 --judges search,automata",
     "serendipity bench --rooms 12 --seeds 2 --contenders search,automata --repeat 1 -o timings.csv",
-    "serendipity generate usar --rooms 30 --medkits 3 --seed 7 -o building",
+    "serendipity generate usar --rooms 30 --medkits 3 --seed 6 -o building",
     "serendipity check-task building",
     "serendipity plan building --discount 0.9",
     "serendipity generate usar --preset figure2 --seed 7 --layout pair -o figure2",
@@ -29,11 +29,19 @@ EXAMPLES: Final = (
     "serendipity explain --example room7 help.json",
     "serendipity interruptions --example room2 --discount 0.6 --heat-map windows.svg",
     "serendipity generate usar --preset room2 -o suite/test1",
+    "serendipity recognise --example room2 --goals goals.txt",
     "serendipity reproduce suite --modes serendipity,communication --discounts 0,0.6 --report suite.html",
 )
+
+SERVERS: Final = (
+    "serendipity play --example taxis --discount 0.9 --port 8124",
+    "serendipity play --study answers --rounds 4 --seed 1 --port 8124",
+    "serendipity serve --workers 2 --time-limit 10 --port 8123",
+)
+"""They go on until somebody stops them, so the tests ask them for a port that there can't be."""
 
 
 def epilog(command: str = "") -> str:
     """The examples of one command (all without one), as the closing lines of its help."""
-    chosen = [text for text in EXAMPLES if not command or text.split()[1] == command]
+    chosen = [text for text in (*EXAMPLES, *SERVERS) if not command or text.split()[1] == command]
     return "\n".join(["\b", "Examples:", *(f"  {text}" for text in chosen)])

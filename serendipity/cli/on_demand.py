@@ -1,6 +1,7 @@
 """The commands, each loaded when somebody asks for it: all of them take longer than most answers."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import wraps
 from importlib import import_module
 from typing import Any, Final
 
@@ -9,6 +10,7 @@ from typer.core import TyperGroup, TyperOption
 from typer.main import get_command
 
 from serendipity.cli.help_examples import epilog
+from serendipity.cli.options import overwriting
 from serendipity.cli.streams import progress
 
 NAMES: Final = (
@@ -69,12 +71,27 @@ def _command(name: str) -> Any:
     if group is not None:
         return get_command(group)
     single = typer.Typer(add_completion=False, rich_markup_mode=None)
-    single.command(name, epilog=epilog(name))(getattr(module, function))
+    written: dict[str, str] = {}
+    single.command(name, epilog=epilog(name))(_overwriting_nothing(getattr(module, function), written))
     command = get_command(single)
+    for parameter in command.params:
+        for option in set(parameter.opts) & overwriting.WRITTEN:
+            written[str(parameter.name)] = option
     names = [parameter.name for parameter in command.params]
     if "quiet" in names:  # it may take a while
         command.params.insert(names.index("quiet") + 1, _progress())
     return command
+
+
+def _overwriting_nothing(function: Callable[..., int], written: Mapping[str, str]) -> Callable[..., int]:
+    """A command that is not begun where what it writes would replace what it reads."""
+
+    @wraps(function)
+    def call(**values: Any) -> int:
+        overwriting.check(values, written)
+        return function(**values)
+
+    return call
 
 
 def _progress() -> TyperOption:

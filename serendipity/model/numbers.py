@@ -38,7 +38,15 @@ def exact(value: Number, what: str = "number", most: int = MOST_DIGITS) -> Fract
         float(found)
         return found
     except (ValueError, ArithmeticError):
-        raise UsageError(f"{what}: expected a finite number, got {value!r:.50}") from None
+        most_of = f" of at most {most} digits" if _is_finite(str(value).strip()) else ""
+        raise UsageError(f"{what}: expected a finite number{most_of}, got {value!r:.50}") from None
+
+
+def _is_finite(text: str) -> bool:
+    try:
+        return Decimal(text).is_finite()
+    except ArithmeticError:
+        return False
 
 
 def fraction(text: str, most: int = MOST_DIGITS) -> Fraction:

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.model.errors import UsageError
-from serendipity.model.numbers import exact, unrounded
+from serendipity.model.numbers import as_written, exact, unrounded
 
 INFINITE: Final = "inf"
 """Horizon without an end (composite mode only)."""
@@ -169,12 +169,17 @@ def _written(name: str, value: object) -> bool:
     if name in ("keep_prefix", "no_block"):
         return isinstance(value, bool) or (value is None and name == "no_block")
     if isinstance(value, str):
-        return name in CHOICES or value == _WORDS.get(name) or (name in _EXACT and "/" in value)
+        return name in CHOICES or value == _WORDS.get(name) or (name in _EXACT and _needs_text(value))
     if value is None:
         return name in _OPTIONAL
     if isinstance(value, bool) or not isinstance(value, int | float) or name in CHOICES:
         return False
     return isinstance(value, int) or name in (*_EXACT, *_LIMITS)
+
+
+def _needs_text(value: str) -> bool:
+    """Whether no float is what an exact text says, so that it stands in JSON as it is."""
+    return "/" in value or isinstance(unrounded(as_written(value)), str)
 
 
 def _not_negative(value: Fraction, name: str) -> Fraction:

@@ -18,6 +18,9 @@ Pair = tuple[PathArgument, PathArgument]
 
 TEAM: Final = "superagent"
 
+ALL: Final = "all"
+"""Every other agent, in the place of robots' names."""
+
 
 def read_folder(
     path: PathArgument,
@@ -137,8 +140,8 @@ def read_pddl(
         domain: the domain file.
         problem: the problem file; its goal is the human's.
         human: the object that is the human.
-        robots: the objects that are robots, at least one; with MA-PDDL none means all the
-            other objects that can be an ``:agent``, if there are any.
+        robots: the objects that are robots, at least one; with MA-PDDL none, or ``all`` where no
+            object is called that, means all the other objects that can be an ``:agent``.
         name: of the task; default is that of the problem.
         deadline: how long it may take, and in how much memory.
         on_progress: is told what is being done, and how many ground actions there are so far.
@@ -153,7 +156,9 @@ def read_pddl(
 
     def read(work: Work) -> Task:
         unit = read_unit(None, domain, problem, work)
-        names = _unique_names([human, *(robots or _other_agents(unit, canonical_name(human)))])
+        by_name = bool(robots) and (list(robots) != [ALL] or ALL in unit.problem.objects)
+        named = robots if by_name else _other_agents(unit, canonical_name(human))
+        names = _unique_names([human, *named])
         return _one(unit, names, name, work)
 
     return within_limits(read, deadline, on_progress)
@@ -163,7 +168,10 @@ def _other_agents(unit: Unit, human: str) -> list[str]:
     """The other objects that can be an ``:agent``."""
     kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
     if not kinds:
-        raise UsageError("one PDDL task: expected at least one robot among its objects")
+        raise UsageError(
+            "one PDDL task: expected at least one robot among its objects, by name: "
+            "no action has an ':agent' that would say who the others are"
+        )
     return sorted({name for kind in kinds for name in unit.objects_of(kind)} - {human})
 
 

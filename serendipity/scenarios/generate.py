@@ -16,6 +16,9 @@ _WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}
 PRESETS: Final = ("figure2", *_WORKED_EXAMPLES)
 """``figure2``: the building, positions by the seed; the others: worked examples in it."""
 
+_MOST: Final = 1_000_000
+"""Places, connections and medkits in all agents' files together: some 40 MB, written in seconds."""
+
 
 def worked_example(name: str) -> Usar:
     """One of the paper's examples in Figure 2: commx in room13, the robot in room4 (semantics 5)."""
@@ -79,6 +82,11 @@ def make_usar(
     Raises:
         UsageError: a number is out of range, or there is no such preset.
     """
+    size = (max(rooms, 1) + max(medkits, 1) + max(extra_edges, 0)) * max(robots, 1)
+    if size > _MOST:
+        raise UsageError(
+            f"rooms, medkits, extra_edges: expected at most {_MOST:,} together, once a robot, got {size:,}"
+        )
     if preset in _WORKED_EXAMPLES:
         return worked_example(preset)
     if preset == "figure2":

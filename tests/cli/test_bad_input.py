@@ -200,6 +200,19 @@ def test_truncated_result_names_the_line(answer: dict[str, object], run: Callabl
     assert_one_line(run("verify --example room2 answer.json"), f"answer.json:{lines}:")
 
 
+@pytest.mark.parametrize("option", ["--window-weight", "--max-cost"])
+def test_weights_that_no_float_is(option: str, run: Callable[[str], Run]) -> None:
+    done = run(f"plan --example room2 --discount 0.6 {option} 99999999999999999999 -o help.json")
+    assert (done.code, done.err) == (0, "")
+    assert run("verify --example room2 help.json").code == 0
+
+
+@pytest.mark.parametrize("number", ["1e300", "9" * 101])
+def test_numbers_that_are_too_long_are_called_so(number: str, run: Callable[[str], Run]) -> None:
+    done = run(f"plan --example room2 --window-weight {number}")
+    assert_one_line(done, "window_weight: expected a finite number of at most 100 digits", number[:40])
+
+
 def test_in_a_process_of_its_own(process: Callable[[str], Run]) -> None:
     assert_one_line(process("plan nowhere --discount 0.5"), "nowhere")
     assert_one_line(process("plan --discount"), "--discount")

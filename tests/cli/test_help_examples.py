@@ -1,14 +1,17 @@
 """Every example that --help shows runs, in the order shown."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
-from serendipity.cli.help_examples import EXAMPLES
+from serendipity.cli.help_examples import EXAMPLES, SERVERS
+from serendipity.cli.on_demand import NAMES
 from tests.cli.conftest import Run
 
 
-def test_examples_of_help_run(run: Callable[[str], Run]) -> None:
+def test_examples_of_help_run(run: Callable[[str], Run], tmp_path: Path) -> None:
+    (tmp_path / "goals.txt").write_text("2: conducted_triage commx room1\n1: conducted_triage commx room2\n")
     for command in EXAMPLES:
         program, rest = command.split(" ", 1)
         done = run(rest)
@@ -17,12 +20,18 @@ def test_examples_of_help_run(run: Callable[[str], Run]) -> None:
         assert done.err == ""
 
 
-@pytest.mark.parametrize(
-    "command", ["", "plan", "verify", "examples", "explain", "interruptions", "reproduce", "generate usar"]
-)
+def test_examples_of_servers_are_right_but_for_the_port(run: Callable[[str], Run]) -> None:
+    for command in SERVERS:
+        rest, _, port = command.split(" ", 1)[1].rpartition(" ")
+        done = run(f"{rest} 70000")
+        assert port.isdigit()
+        assert (done.code, done.err) == (2, "Error: --port: expected a number from 0 to 65535, got 70000\n")
+
+
+@pytest.mark.parametrize("command", ["", *(name for name in NAMES if name != "generate"), "generate usar"])
 def test_help_shows_its_examples(command: str, run: Callable[[str], Run]) -> None:
     done = run(f"{command} --help")
-    shown = [text for text in EXAMPLES if text.startswith(f"serendipity {command}".rstrip())]
+    shown = [text for text in (*EXAMPLES, *SERVERS) if text.startswith(f"serendipity {command}".rstrip())]
     assert done.code == 0
     assert shown
     for text in shown:

@@ -20,6 +20,16 @@ def test_without_robots_all_other_agents_are_robots(tmp_path: Path) -> None:
     assert task.warnings == ()
 
 
+def test_all_names_every_other_agent(tmp_path: Path) -> None:
+    assert loaded(tmp_path, "all").agents == ("w", "v", "x")
+
+
+def test_an_object_may_be_called_all(tmp_path: Path) -> None:
+    renamed = PROBLEM.replace("v v - van", "all all - van").replace("(is v a)", "(is all a)")
+    task = loaded(tmp_path, "all", problem=renamed)
+    assert task.agents == ("w", "all")
+
+
 def test_an_action_is_its_agents_alone(tmp_path: Path) -> None:
     task = loaded(tmp_path)
     found = {a.name: a.participants for a in task.actions}
@@ -82,6 +92,8 @@ def test_plain_pddl_needs_robots(tmp_path: Path) -> None:
     plain = DOMAIN[: DOMAIN.index("(:action")] + ")"
     with pytest.raises(UsageError, match="expected at least one robot among its objects"):
         loaded(tmp_path, text=plain)
+    with pytest.raises(UsageError, match="by name"):
+        loaded(tmp_path, "all", text=plain)
 
 
 @pytest.mark.parametrize(

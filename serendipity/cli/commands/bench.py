@@ -32,39 +32,47 @@ def bench(
     folder: Annotated[
         Path | None,
         typer.Argument(
+            metavar="FOLDER",
             help="Tasks in folders, as for `reproduce`; or a suite, folders with domain.pddl and problems in "
-            "MA-PDDL; or the CSV of a suite, to print its tables again. Generated buildings without one."
+            "MA-PDDL; or the CSV of a suite, to print its tables again. Generated buildings without one.",
         ),
     ] = None,
     stride: Annotated[
-        int, typer.Option(min=1, help="Take every N-th task of the folder, of each domain of a suite.")
+        int,
+        typer.Option(
+            metavar="N", min=1, help="Take every N-th task of the folder, of each domain of a suite."
+        ),
     ] = 1,
-    domains: Annotated[str, typer.Option(help="Of a suite, separated by commas: all.")] = "",
-    rooms: Annotated[int, typer.Option(min=2, help="Rooms of generated buildings.")] = 21,
-    medkits: Annotated[int, typer.Option(min=1, help="Their medkits.")] = 2,
+    domains: Annotated[str, typer.Option(metavar="NAME,...", help="Of a suite; by default all.")] = "",
+    rooms: Annotated[int, typer.Option(metavar="N", min=2, help="Rooms of generated buildings.")] = 21,
+    medkits: Annotated[int, typer.Option(metavar="M", min=1, help="Their medkits.")] = 2,
     robots: Annotated[
-        int | None, typer.Option(min=1, help="Their robots: 1; of a suite's tasks the most: 2.")
+        int | None, typer.Option(metavar="K", min=1, help="Their robots: 1; of a suite's tasks the most: 2.")
     ] = None,
     seeds: Annotated[
         int | None,
-        typer.Option(min=1, help="How many to generate: 10; for each value of a scaling series 5."),
+        typer.Option(
+            metavar="N", min=1, help="How many to generate: 10; for each value of a scaling series 5."
+        ),
     ] = None,
     modes: Annotated[
         str | None,
         typer.Option(
-            help="Modes, separated by commas; composite-inf is composite mode without a horizon. Fast "
-            "Downward knows that one, and individual in suites, where serendipity-k0 has K = 0."
+            metavar="MODE,...",
+            help="Modes; composite-inf is composite mode without a horizon. Fast "
+            "Downward knows that one, and individual in suites, where serendipity-k0 has K = 0.",
         ),
     ] = None,
     discounts: Annotated[
-        str | None, typer.Option(help="Discounts, separated by commas: 0,0.5,0.9; one for a suite: 0.9.")
+        str | None, typer.Option(metavar="D,...", help="Discounts: 0,0.5,0.9; one for a suite: 0.9.")
     ] = None,
     contenders: Annotated[
         str | None,
         typer.Option(
+            metavar="NAME,...",
             help="Some of search (first calls), in-turn (each task's discounts one after another), again "
-            "(the same call again), automata, paper, fast-downward, separated by commas; of a suite some "
-            "of search, fast-downward, fast-downward-ipdb."
+            "(the same call again), automata, paper, fast-downward; of a suite some "
+            "of search, fast-downward, fast-downward-ipdb.",
         ),
     ] = None,
     scaling: Annotated[
@@ -75,9 +83,11 @@ def bench(
         ),
     ] = None,
     repeat: Annotated[
-        int, typer.Option(min=1, help="Calls per figure, after a warm-up; passes for in-turn.")
+        int, typer.Option(metavar="N", min=1, help="Calls per figure, after a warm-up; passes for in-turn.")
     ] = 5,
-    time_limit: Annotated[float, typer.Option(min=0, help="Seconds for each call.")] = 20.0,
+    time_limit: Annotated[
+        float, typer.Option(metavar="SECONDS", min=0, help="Seconds for each call.")
+    ] = 20.0,
     output_file: Annotated[
         Path | None,
         typer.Option(

@@ -32,7 +32,8 @@ def crosscheck(
     judges: Annotated[
         str,
         typer.Option(
-            help="Who answers, separated by commas: search, automata, paper, cbc, program, exhaustive."
+            metavar="NAME,...",
+            help="Who answers: search, automata, paper, cbc, program, exhaustive.",
         ),
     ] = "search,automata,paper",
     judge: Annotated[

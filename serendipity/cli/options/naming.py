@@ -39,7 +39,7 @@ Robots = Annotated[
     typer.Option(
         "--robot",
         metavar="R",
-        help="A robot (with DOMAIN PROBLEM; repeat it). In MA-PDDL all other agents, if none is named.",
+        help="A robot (with DOMAIN PROBLEM; repeat it). In MA-PDDL 'all', or none, means all other agents.",
     ),
 ]
 Agents = Annotated[
@@ -176,7 +176,9 @@ class TaskName:
         if more:
             raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(self.files)} paths")
         if self.human is None:
-            raise UsageError("task: with DOMAIN PROBLEM, name the agents: --human H --robot R ...")
+            raise UsageError(
+                "task: with DOMAIN PROBLEM, name the agents: --human H --robot R ..., in MA-PDDL --human H"
+            )
         return read_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
 
 
