@@ -6,7 +6,7 @@ READY := .venv/.ready
 PROBLEMS := $(or $(SERENDIPITY_PROBLEMS),../shared)
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test test-browser test-robot robot pictures browser check docs bench bench-domains bench-extra fuzz wheels release-check requirements clean
+.PHONY: help .venv demo test test-browser test-robot robot pictures browser check docs bench bench-domains bench-limits bench-extra fuzz wheels release-check requirements clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z.-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -105,6 +105,13 @@ bench: bench-extra  ## measure on the 200 problems of the paper: parts, contende
 bench-domains: bench-extra  ## measure on the competition's domains beside Fast Downward: an hour or two
 	@mkdir -p build/bench
 	@$(BIN)/serendipity bench $(PROBLEMS)/codmap15 -o build/bench/domains.csv --plot build/bench/domains.svg
+
+bench-limits: $(READY)  ## measure how well limits of time and memory are kept: an hour or more, two processes at a time
+	@mkdir -p build/bench
+	@missed=0; for what in plan "plan --limits 10 --rotate 3" "verify --rotate 5" memory; do \
+	  echo "limits $$what" && $(BIN)/python -m benchmarks.limits $$what --suite $(PROBLEMS)/codmap15 --jobs 2 \
+	    --csv "build/bench/limits $$what.csv" || missed=1; \
+	done; exit $$missed
 
 bench-extra: $(READY)
 	@$(BIN)/python -c 'import sys; from serendipity.evaluation.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \

@@ -5,7 +5,9 @@ four parameters, which has 4.5 million ground actions: of two agents, and of 46;
 of domains (``serendipity.evaluation.benchmark.coverage``), with two robots.
 """
 
+import argparse
 import json
+import re
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
@@ -22,7 +24,7 @@ from serendipity.evaluation.benchmark.coverage.suite import roles
 P = ParamSpec("P")
 T = TypeVar("T")
 
-_SECONDS: Final = 5.0
+_SECONDS: Final = 1.0
 """For an answer to check."""
 
 _ROBOTS: Final = 2
@@ -44,7 +46,7 @@ class Named:
     Attributes:
         name: of the task.
         words: ``task``; with one robot only, ``alone``; ``suite``, a folder of tasks; files to
-            read: ``goals``; answers in several modes, such as ``result``.
+            read: ``goals``; answers in several modes, by the words of ``ANSWERED``.
         size: number of ground actions, where it was looked at.
     """
 
@@ -53,10 +55,16 @@ class Named:
     size: int = 0
 
 
-ANSWERED: Final = {
-    "result": {"mode": "serendipity"},
+ANSWERED: Final[dict[str, dict[str, object]]] = {
+    "result": {"discount": "0.9"},
     "individual_result": {"mode": "individual"},
-    "composite_result": {"mode": "composite", "horizon": "inf"},
+    "free_window_result": {"discount": "0.9", "window_weight": "0"},
+    "communication_result": {"discount": "0.9", "mode": "communication"},
+    "composite_result": {"discount": "0.9", "mode": "composite", "horizon": "inf"},
+    "local_result": {"discount": "0.9", "human_model": "local"},
+    "ties_result": {"discount": "0.9", "ties": "robust", "max_ties": 1_000_000},
+    "goals_result": {"discount": "0.9"},
+    "assistance_result": {"mode": "assistance"},
 }
 """Options of the answers that are there to be checked, by the words that name them."""
 
@@ -115,7 +123,7 @@ def _apart(work: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T:
 
 
 def _large(folder: Path) -> str:
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     objects = " ".join(f"o{i}" for i in range(46))
     clean = " ".join(f"(clean o{i})" for i in range(46))
     problem = f"(define (problem p) (:domain large) (:objects {objects}) (:init {clean}) (:goal (done o1)))"
@@ -127,39 +135,69 @@ def _large(folder: Path) -> str:
 def with_files(named: Named, wanted: set[str], folder: Path) -> Named:
     """A task with goals to recognise and answers to check, where it can be read and answered.
 
+    What is there already from an earlier run is not made again.
+
     Args:
         named: the task.
         wanted: words to add, as far as they can be.
         folder: where the files go.
     """
-    folder.mkdir(exist_ok=True)
-    found = _apart(_write_files, named.words["task"].split(), wanted, folder)
-    return Named(named.name, {**named.words, **found}, named.size)
+    own = folder / re.sub(r"\W+", "-", named.name)
+    own.mkdir(exist_ok=True)
+    index = own / "words.json"
+    found = json.loads(index.read_text()) if index.exists() else {}
+    missing = wanted.intersection(("goals", *ANSWERED)) - {*found}
+    if missing:
+        # The goals first: answers to them need the file.
+        found |= _apart(_write_files, named.words, sorted(missing, key=lambda word: word != "goals"), own)
+        index.write_text(json.dumps(found))
+    words = {word: file for word, file in found.items() if file is not None}
+    return Named(named.name, named.words | words, named.size)
 
 
-def _write_files(words: list[str], wanted: set[str], folder: Path) -> dict[str, str]:
-    found = {}
-    with suppress(serendipity.SerendipityError):
-        task = _loaded(words)
-        if "goals" in wanted:
-            goals = folder / "goals.json"
-            listed = [task.facts[fact] for fact in task.goal.positive][:3]
-            goals.write_text(json.dumps([{"goal": [fact]} for fact in listed]))
-            found["goals"] = str(goals)
-        for name, options in ANSWERED.items():
-            if name not in wanted:
+def _write_files(words: dict[str, str], wanted: list[str], folder: Path) -> dict[str, str | None]:
+    """Files by the words that name them; None for what there is not."""
+    found: dict[str, str | None] = dict.fromkeys(wanted)
+    for name in wanted:
+        alone = name == "assistance_result"
+        if alone and "alone" not in words:
+            continue
+        with suppress(serendipity.SerendipityError):
+            task = _loaded(words["alone" if alone else "task"].split())
+            written = _goals(task) if name in ("goals", "goals_result") else None
+            if name == "goals":
+                (folder / "goals.json").write_text(json.dumps(written))
+                found["goals"] = str(folder / "goals.json")
                 continue
-            answer = serendipity.plan(task, discount="0.9", time_limit=_SECONDS, **options)
-            if answer.plan is not None:
-                result = folder / f"{name}.json"
-                result.write_text(json.dumps(answer.to_dict()))
-                found[name] = str(result)
+            answer = serendipity.plan(task, goals=written, time_limit=_SECONDS, **ANSWERED[name])
+            if answer.status != "unknown":
+                (folder / f"{name}.json").write_text(json.dumps(answer.to_dict()))
+                found[name] = str(folder / f"{name}.json")
     return found
 
 
+def _goals(task: Task) -> list[dict[str, list[str]]]:
+    """Up to three goals: the facts of the task's own, one by one."""
+    return [{"goal": [task.facts[fact]]} for fact in sorted(task.goal.positive)[:3]]
+
+
 def _loaded(words: list[str]) -> Task:
-    if len(words) == 1:
-        return serendipity.load(words[0], deadline=serendipity.Deadline(time_limit=_SECONDS))
-    domain, problem, _, human, *robots = words
-    limit = serendipity.Deadline(time_limit=_SECONDS)
-    return serendipity.load_pddl(domain, problem, human, robots[1::2], deadline=limit)
+    """What a command line names."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("files", nargs="*")
+    parser.add_argument("--example")
+    parser.add_argument("--human")
+    parser.add_argument("--robot", action="append", default=[])
+    parser.add_argument("--agent", action="append", default=[])
+    named = parser.parse_args(words)
+    limit = serendipity.Deadline(time_limit=5 * _SECONDS)
+    if named.example is not None:
+        return serendipity.example(named.example, deadline=limit)
+    if named.agent:
+        agents = dict(agent.split("=") for agent in named.agent)
+        files = {agent: tuple(pair.split(",")) for agent, pair in agents.items()}
+        return serendipity.load_agents(files, human=named.human, deadline=limit)  # type: ignore[arg-type]
+    if len(named.files) == 1:
+        return serendipity.load(named.files[0], named.human, deadline=limit)
+    domain, problem = named.files
+    return serendipity.load_pddl(domain, problem, named.human, named.robot, deadline=limit)

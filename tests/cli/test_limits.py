@@ -1,6 +1,9 @@
 """Every command that works for long keeps its limits: with what it knows, or with one line."""
 
+import ast
 import json
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -8,10 +11,12 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.cli.options import naming
+from serendipity.cli.options import limits, naming
 from serendipity.cli.options.limits import during
 from serendipity.model import Deadline, LimitReachedError, Result, Task
 from tests.cli.conftest import Run, assert_one_line
+
+ROOT = Path(__file__).parents[2]
 
 Runs = Callable[[str], Run]
 
@@ -157,3 +162,25 @@ def test_the_process_ends_with_all_that_was_written(process: Runs) -> None:
     assert (done.code, done.err) == (0, "")
     assert json.loads(done.out)["cost"] == 12.6
     assert process("plan --example nowhere").code == 2
+
+
+def test_what_is_loaded_in_the_middle_is_loaded_first_under_a_time_limit() -> None:
+    """Loading arrays and solvers takes longer than a short limit allows to overrun it."""
+    late = {name for room in ("search", "verify") for name in imported_in_functions(ROOT / room)}
+    late = {name for name in late if "assistance" not in name}  # the mode's own modules are known beforehand
+    modules = {"verify.certificate.certify", *limits.PLANNING, *limits.CHECKING}
+    code = f"import sys\nfor name in {sorted(modules)}: __import__(name)\nprint(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert late - {*loaded.split()} == {"pulp"}  # only who asks for CBC needs it
+
+
+def imported_in_functions(room: Path) -> Iterator[str]:
+    """The modules that are imported in functions of a room."""
+    for file in room.rglob("*.py"):
+        for function in ast.walk(ast.parse(file.read_text())):
+            if isinstance(function, ast.FunctionDef):
+                for node in ast.walk(function):
+                    if isinstance(node, ast.Import):
+                        yield from (alias.name for alias in node.names)
+                    elif isinstance(node, ast.ImportFrom) and node.module:
+                        yield node.module

@@ -53,7 +53,8 @@ def explain(
     """Explain an answer: what changes, why then, from which discount on; or what stands in the way."""
     arguments = locals()
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.explanation", "serendipity.facade.certify")
+    modules = ("serendipity.explanation", "serendipity.facade.certify", "serendipity.cli.text.render")
+    deadline = limits.begin(time_limit, memory_limit, *modules, *limits.PLANNING)
     named = list(files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)

@@ -59,7 +59,8 @@ def interruptions(
     output.check_output(heat_map, "--heat-map")
     if heat_map is not None and heat_map.suffix not in _PICTURES:
         raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.interruptibility")
+    modules = ("serendipity.facade.interruptibility", *limits.PLANNING)
+    deadline = limits.begin(time_limit, memory_limit, *modules)
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = plan_options.among(arguments)
     if human_plan is not None:

@@ -131,17 +131,19 @@ def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, c
 
 
 def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str]:
-    """What is going to be loaded."""
+    """What is going to be loaded, or may be."""
     modules = ["serendipity.facade.planning", "serendipity.facade.certify", "serendipity.cli.text.answers"]
     if mode == "assistance":
         modules += [
             "serendipity.facade.assistance",
             "search.assistance.distances.layers",
             "search.assistance.distances.perimeter",
+            "verify.policy",
         ]
     if goals is not None:
         modules.append("serendipity.facade.unknown_goals")
-    return [*modules, "verify.certificate.certify"] if certify else modules
+    modules += limits.PLANNING
+    return [*modules, "verify.certificate.certify", *limits.CHECKING] if certify else modules
 
 
 def _for_goals(result: Result, certificate: Certificate | None, form: str, output_file: Path | None) -> int:

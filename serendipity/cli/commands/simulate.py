@@ -37,7 +37,8 @@ def simulate(
 ) -> int:
     """Play a plan, epoch by epoch, against a human who looks up and replans."""
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.simulation")
+    modules = ("serendipity.facade.simulation", "serendipity.facade.certify", "serendipity.cli.text.render")
+    deadline = limits.begin(time_limit, memory_limit, *modules, *limits.PLANNING)
     named, answer, result = read_result(files, "simulate")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     wrong = broken_rule(task, result, answer, deadline)

@@ -48,7 +48,7 @@ def solve(
     from verify.calls.solve import solve as by_program
 
     form = output.prepare(format, output_file, verbose)
-    deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.certify")
+    deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.certify", *limits.CHECKING)
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     options = options_from(plan_options.among(arguments, limits=True))
     given = None if human_plan is None else read_human_plan(human_plan).checked(task)

@@ -30,7 +30,7 @@ def verify(
     form = output.prepare(format, output_file, verbose)
     output.check_output(proof, "--proof")
     modules = ("serendipity.facade.certify", "verify.certificate.certify", "serendipity.cli.text.answers")
-    deadline = limits.begin(time_limit, memory_limit, *modules)
+    deadline = limits.begin(time_limit, memory_limit, *modules, *limits.CHECKING)
     named, answer, result = read_result(files, "verify")
     task = naming.load(named, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
     try:

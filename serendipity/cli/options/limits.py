@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
@@ -19,6 +19,27 @@ MemoryLimit = Annotated[
     str | None,
     typer.Option("--memory-limit", metavar="MIB", help="Stop when so many MiB of memory are in use."),
 ]
+
+
+PLANNING: Final = (
+    "search.apart.short_windows",
+    "search.classical.canonical",
+    "search.classical.team",
+    "search.human.own_problem",
+    "search.abstractions.bound",
+    "search.abstractions.reachability",
+)
+"""What planning loads where it turns out to be long: arrays, and what asks the kernel."""
+
+CHECKING: Final = (
+    "serendipity.facade.proofs",
+    "verify.packed.cheapest_path",
+    "verify.policy",
+    "highspy",
+    "numpy.ma",
+    "numpy.random",
+)
+"""What certificates load as claims turn out to be hard: arrays, and a solver."""
 
 
 def begin(time_limit: str | None, memory_limit: str | None, *modules: str) -> Deadline:
