@@ -58,3 +58,6 @@ class Adviser(Protocol):
         Raises:
             LimitReachedError: the deadline came before there was any.
         """
+
+    def again(self) -> "Adviser":
+        """The same, which knows what this one knows, and goes its own way from here."""

@@ -1,6 +1,7 @@
 """The robots' side: what they know of the person, and what they decide in each epoch."""
 
 from collections.abc import Iterable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
@@ -78,6 +79,13 @@ class Brain:
     def goals(self) -> dict[str, float]:
         """The posterior of each candidate goal; empty where there is only one."""
         return {} if self._beliefs is None else self._beliefs.named()
+
+    def again(self) -> "Brain":
+        """The same robots, who know what these know, and go their own way from here; their goal is known."""
+        assert self._beliefs is None, "what is known of several goals is not told twice"
+        other = copy(self)
+        other._promises = self._promises.again()
+        return other
 
     # -- what robots learn
 

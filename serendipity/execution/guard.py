@@ -9,6 +9,7 @@ replans when that is cheaper, or has to, never pays more than they would have al
 """
 
 from collections.abc import Iterable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -64,6 +65,12 @@ class Following:
     def start(self) -> Start:
         """Where they are, what they believe, and what they go on with."""
         return Start(self._state, self._belief, self._oldest())
+
+    def again(self) -> "Following":
+        """The same, which goes its own way from here."""
+        other = copy(self)
+        other.plans = list(self.plans)
+        return other
 
     def look(self, state: frozenset[int]) -> None:
         """The person looks up.

@@ -1,5 +1,7 @@
 """The person with one of the goals that may be theirs, as robots imagine them, and what to do beside them."""
 
+from copy import copy
+
 from search import PreparedTask
 from search.simulation.companion import Companion
 from serendipity.execution.advice import Adviser
@@ -55,6 +57,13 @@ class Imagined:
             if by_session
             else ReactiveAdviser(task, options.discount, self.companion, hands, pointless)
         )
+
+    def again(self) -> "Imagined":
+        """The same, with the same tables, which goes its own way from here."""
+        other = copy(self)
+        other.following = self.following.again()
+        other.adviser = self.adviser.again()
+        return other
 
 
 def useful(prepared: PreparedTask, deadline: Deadline) -> frozenset[int]:

@@ -63,22 +63,33 @@ class Replanner:
         task: where they begin; its goal is theirs.
         human_model: ``observant`` or ``local``.
         dice: draws which of their optimal plans they follow; None: the canonical one.
+        prepared: the task made ready, whose tables they go on with; None: it is made ready.
     """
 
-    def __init__(self, task: Task, human_model: str = "observant", dice: Random | None = None) -> None:
+    def __init__(
+        self,
+        task: Task,
+        human_model: str = "observant",
+        dice: Random | None = None,
+        prepared: PreparedTask | None = None,
+    ) -> None:
         self._dice = dice
         self._human_model = human_model
         self._joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
-        self._begin(task)
+        self._begin(task, prepared or PreparedTask(task))
 
-    def _begin(self, task: Task) -> None:
+    def _begin(self, task: Task, prepared: PreparedTask) -> None:
         """Begin anew, with nothing in mind, from a state that they know."""
         self._task = task
         self._human = Human(
-            PreparedTask(task), Options(), Deadline(), human_model=self._human_model, actions=self._joint
+            prepared, Options(), Deadline(), human_model=self._human_model, actions=self._joint
         )
         self._expected = self._human.packed.pack(task.init)
         self._intention = self._human.intentions.of(())
+
+    def _begin_at(self, state: frozenset[int]) -> None:
+        task = self._task.at(state)
+        self._begin(task, PreparedTask(task))
 
     @property
     def plan(self) -> HumanPlan:
@@ -88,7 +99,7 @@ class Replanner:
     def choose(self, moment: Moment) -> str | None:
         """See :class:`Person`."""
         if not self._task.fits(moment.state):
-            self._begin(self._task.at(moment.state))
+            self._begin_at(moment.state)
         human = self._human
         state = human.packed.pack(moment.state)
         belief = human.eyes.look(self._expected, state)
@@ -111,7 +122,7 @@ class Replanner:
     def does(self, state: frozenset[int], action: int | None) -> None:
         """Say that they did something else than they had chosen: an own action, or nothing."""
         if not self._task.fits(state):
-            self._begin(self._task.at(state))
+            self._begin_at(state)
         human = self._human
         belief = human.eyes.look(self._expected, human.packed.pack(state))
         if action is not None:
@@ -170,14 +181,23 @@ class Noisy:
         probability: of something else, in each epoch.
         dice: draws.
         ties: whether the dice also draw which of their optimal plans they follow.
+        prepared: as for :class:`Replanner`.
     """
 
-    def __init__(self, task: Task, probability: float, dice: Random, *, ties: bool = False) -> None:
+    def __init__(
+        self,
+        task: Task,
+        probability: float,
+        dice: Random,
+        *,
+        ties: bool = False,
+        prepared: PreparedTask | None = None,
+    ) -> None:
         self._task = task
         self._probability = probability
         self._dice = dice
-        self._usual = Replanner(task, "observant", dice if ties else None)
-        self._alone = PreparedTask(task)
+        self._alone = prepared or PreparedTask(task)
+        self._usual = Replanner(task, "observant", dice if ties else None, self._alone)
 
     @property
     def plan(self) -> HumanPlan:

@@ -6,6 +6,7 @@ from pathlib import Path
 from random import Random
 from typing import Final
 
+from search import PreparedTask
 from serendipity.execution.faults import probability
 from serendipity.execution.persons import Noisy, Omniscient, Person, Recorded, Replanner
 from serendipity.model.errors import InputError, UsageError
@@ -41,21 +42,24 @@ class Policy:
         """What robots take them to be, unless somebody says otherwise."""
         return self.name if self.name in ("omniscient", "local") else "observant"
 
-    def person(self, task: Task, dice: Random, *, drawn: bool) -> Person:
+    def person(
+        self, task: Task, dice: Random, *, drawn: bool, prepared: PreparedTask | None = None
+    ) -> Person:
         """Somebody who acts like that.
 
         Args:
             task: where they begin.
             dice: for what they leave to chance.
             drawn: whether that includes which of their optimal plans they follow.
+            prepared: the task made ready, whose tables they go on with; None: it is made ready.
         """
         if self.name == "omniscient":
             return Omniscient(task)
         if self.name == "noisy":
-            return Noisy(task, self.probability, dice, ties=drawn)
+            return Noisy(task, self.probability, dice, ties=drawn, prepared=prepared)
         if self.name == "recorded":
             return Recorded(task, self.actions)
-        return Replanner(task, self.name, dice if drawn else None)
+        return Replanner(task, self.name, dice if drawn else None, prepared)
 
 
 def policy_from(task: Task, text: str) -> Policy:

@@ -1,6 +1,7 @@
 """What robots promise to the person, whichever of the possible goals is theirs (see :mod:`.guard`)."""
 
 from collections.abc import Iterable, Sequence
+from copy import copy
 
 from search import PreparedTask
 from serendipity.execution.advice import Allows
@@ -30,6 +31,12 @@ class Promises:
         self._told = told
         self._imagined: list[Imagined | None] = [None] * len(tasks)
         self._useful: frozenset[int] | None = None
+
+    def again(self) -> "Promises":
+        """The same, with the same tables, which go their own way from here."""
+        other = copy(self)
+        other._imagined = [None if imagined is None else imagined.again() for imagined in self._imagined]
+        return other
 
     def to(self, goal: int) -> Imagined:
         """The person with a goal; one that was looked at."""

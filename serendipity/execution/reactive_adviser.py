@@ -1,6 +1,7 @@
 """Advice beside a person who replans: kept while it is any good, made better while there is time."""
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -68,6 +69,10 @@ class ReactiveAdviser:
         """See :class:`serendipity.execution.advice.Adviser`."""
         advice = self._as_planned(question, deadline)
         return advice if advice is not None else self._anew(question, deadline)
+
+    def again(self) -> "ReactiveAdviser":
+        """See :class:`serendipity.execution.advice.Adviser`."""
+        return copy(self)
 
     def _as_planned(self, question: Question, deadline: Deadline) -> Advice | None:
         kept = self._kept

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from search import PreparedTask
 from search.planner import canonical_human_plan
+from serendipity.execution.again import Again
 from serendipity.execution.crews import Crew, Maker
 from serendipity.execution.decided import Decided, event_lines
 from serendipity.execution.execution import Execution
@@ -161,13 +162,12 @@ class _Settings:
     """What all runs of a call have in common."""
 
     task: Task
-    policy: Policy
+    again: Again
     drawn: bool
     crew: Crew
     epochs: int
     alone: Fraction | None
     goal: str | None
-    arguments: Mapping[str, Any]
     notes: Mapping[str, Any]
 
 
@@ -236,22 +236,22 @@ def execute(
     given = Durations.parse(durations) if isinstance(durations, str) else durations
     crew = Crew(adapter, wrong, given, epoch_seconds)
     plan = canonical_human_plan(PreparedTask(task), Deadline())
+    arguments = {"human_model": model, "goals": goals, "told": policy.told, **options}
     settings = _Settings(
         task=task,
-        policy=policy,
+        again=Again(task, policy, arguments),
         drawn=ties == "drawn",
         crew=crew,
         epochs=epochs or 100 + 10 * len(plan or ()),
         alone=None if plan is None else task.cost_of(plan),
         goal=None if goals is None else _name_of(task, goals),
-        arguments={"human_model": model, "goals": goals, "told": policy.told, **options},
         notes={
             "policy": human,
             "ties": ties,
             "faults": {f.name: getattr(wrong, f.name) for f in fields(wrong)},
         },
     )
-    Execution(task, **{**settings.arguments, "deadline": None})  # what is wrong shows before the first run
+    Execution(task, **{**arguments, "deadline": None})  # what is wrong shows before the first run
     assignments = [(settings, number, seed + number - 1) for number in range(1, runs + 1)]
     done: list[tuple[Run, tuple[dict[str, Any], ...]]] = []
     for finished in map(_run, assignments) if jobs == 1 else in_processes(_run, assignments, jobs):
@@ -277,8 +277,8 @@ def _run(assignment: tuple[_Settings, int, int]) -> tuple[Run, tuple[dict[str, A
     task = settings.task
     dice, luck = Random(f"person {seed}"), Random(f"robots {seed}")
     adapter = settings.crew.adapter(task, luck)
-    run = Execution(task, adapter=adapter, **settings.arguments)
-    person = settings.policy.person(task, dice, drawn=settings.drawn)
+    run = settings.again.execution(adapter)
+    person = settings.again.person(dice, drawn=settings.drawn)
     spoilt = 0
     left = [task.agents[i] for i in task.robots]
     with nullcontext() if adapter is None else closing(adapter):

@@ -1,6 +1,7 @@
 """Advice through a session: for people who are told or omniscient, and for robots with goals of their own."""
 
 from collections import OrderedDict
+from copy import copy
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
@@ -60,6 +61,12 @@ class SessionAdviser:
                 proved = result.status == "optimal"
                 return Advice(result.plan, result.window, cost, result.opportunity, proved)
             removed |= {robots[0]}
+
+    def again(self) -> "SessionAdviser":
+        """See :class:`serendipity.execution.advice.Adviser`."""
+        other = copy(self)
+        other._kept = dict(self._kept)
+        return other
 
     def _best(self, question: Question, removed: frozenset[int], deadline: Deadline) -> Result | None:
         promise = question.following.promise()
