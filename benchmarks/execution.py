@@ -1,12 +1,16 @@
 """What becomes of help while it happens: many executions with people who do as they like.
 
     python -m benchmarks.execution [--tables people,domains,goals] [--stride N] [--seeds N] [--jobs N]
-        [--processor-time]
+        [--processor-time] [--record FILE [--only-print]]
 
 ``people``: the 200 buildings, with people who follow the canonical one of their optimal plans, or any.
 *Alone* is for ``noisy`` what the same person, with the same dice, pays where robots do nothing.
 ``domains``: three domains of CoDMAP 2015, each problem with two of its goals, drawn again and again.
+With ``--stride 3 --seeds 7`` that is about 1,000 runs of each person whose plans are drawn, in half an
+hour of one core.
 ``goals``: the buildings, where robots do not know in which of 2 to 5 rooms triage is to be conducted.
+With ``--record`` what is done is written down at once, and not done again; ``--only-print`` prints what
+is there.
 Prints tables in Markdown.  Problems that are not there are left out (see ``benchmarks.problems``).
 """
 
@@ -15,12 +19,15 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from itertools import product
 from multiprocessing import get_context
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import serendipity
 from benchmarks.problems import PROBLEMS
+from benchmarks.record import Record
 from serendipity import SerendipityError, Task
 from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles, problems, roles
 from serendipity.execution import Run
@@ -123,19 +130,30 @@ class Job:
     goals: int
     deadline: float
 
+    @property
+    def key(self) -> str:
+        """What it is found by in a record."""
+        if isinstance(self.source, Path):
+            what = self.source.name
+        else:
+            what = f"{self.source[0].domain} {self.source[0].name} {self.source[2]}"
+        return (
+            f"{'/'.join(self.line)} {what} {self.ties} x{self.seeds} of {self.goals} in {self.deadline:g} s"
+        )
 
-def done(job: Job) -> tuple[Job, float, tuple[Run, ...]] | None:
+
+def done(job: Job) -> tuple[Job, dict[str, Any] | None]:
     """The paper's saving on the task, and a row a run; None where the person has no plan alone."""
     task, promised = _task(job.source), _promised(job.source)
     if promised is None:
-        return None
+        return job, None
     candidates = _candidates(task, job.goals) if job.goals > 1 else None
     common = {"runs": job.seeds, "ties": job.ties, "discount": DISCOUNT, "goals": candidates}
     rows = serendipity.execute(task, job.human, deadline=job.deadline, **common).rows
     if job.human.startswith("noisy"):
         idle = serendipity.execute(task, job.human, deadline=0, setup=0, **common).rows
         rows = tuple(replace(row, alone=other.human_cost) for row, other in zip(rows, idle, strict=True))
-    return job, promised, rows
+    return job, {"promised": promised, "rows": [row.to_dict() for row in rows]}
 
 
 @lru_cache(maxsize=1)
@@ -178,13 +196,15 @@ def domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
     suite = PROBLEMS / "codmap15"
     if not suite.is_dir():
         return
+    known = {}
     for name in DOMAINS:
         small = sorted(problems(suite, [name]), key=lambda p: (len(p.name), p.name))[:SMALLEST]
-        known = [(problem, who) for problem in small if (who := _who(problem)) is not None]
-        for number in range(0, DRAWS, stride):
-            for human in PEOPLE:
-                problem, who = known[number % len(known)]
-                yield Job((name, human), (problem, who, number), human, "drawn", seeds, 1, deadline)
+        known[name] = [(problem, who) for problem in small if (who := _who(problem)) is not None]
+    for number, name in product(range(0, DRAWS, stride), DOMAINS):
+        problem, who = known[name][number // stride % len(known[name])]
+        for human in PEOPLE:
+            for ties, runs in (("fixed", 1), ("drawn", seeds)):
+                yield Job((name, human, ties), (problem, who, number), human, ties, runs, 1, deadline)
 
 
 SMALLEST = 3
@@ -216,7 +236,7 @@ def goals(stride: int, _seeds: int, deadline: float) -> Iterator[Job]:
 
 
 TABLES = {"people": people, "domains": domains, "goals": goals}
-HEADS = {"people": ("person", "plans"), "domains": ("domain", "person"), "goals": ("goals",)}
+HEADS = {"people": ("person", "plans"), "domains": ("domain", "person", "plans"), "goals": ("goals",)}
 
 
 def _buildings(stride: int) -> list[Path]:
@@ -228,15 +248,27 @@ def _buildings(stride: int) -> list[Path]:
 def main() -> None:
     """Measure and print the tables."""
     arguments = _arguments()
+    record = Record(arguments.record)
     for name in arguments.tables.split(","):
         jobs = list(TABLES[name](arguments.stride, arguments.seeds, arguments.deadline))
-        tallies: dict[tuple[str, ...], Tally] = {job.line: Tally() for job in jobs}
-        clock = _on_processor_time if arguments.processor_time else None
-        for job, promised, rows in _worked_on(jobs, arguments.jobs, clock):
+        if not arguments.only_print:
+            clock = _on_processor_time if arguments.processor_time else None
+            open_jobs = [job for job in jobs if job.key not in record]
+            for job, found in _worked_on(open_jobs, arguments.jobs, clock):
+                record.add(job.key, found)
+        _print(name, _tallied(jobs, record))
+
+
+def _tallied(jobs: Sequence[Job], record: Record) -> dict[tuple[str, ...], Tally]:
+    """The lines of a table."""
+    tallies = {job.line: Tally() for job in jobs}
+    for job in jobs:
+        found = record.get(job.key)
+        if found is not None:
             tally = tallies[job.line]
-            tally.promised += promised * len(rows)
-            tally.rows += rows
-        _print(name, tallies)
+            tally.promised += found["promised"] * len(found["rows"])
+            tally.rows += [Run(**row) for row in found["rows"]]
+    return tallies
 
 
 def _on_processor_time() -> None:
@@ -246,14 +278,14 @@ def _on_processor_time() -> None:
 
 def _worked_on(
     jobs: Sequence[Job], processes: int, clock: Callable[[], None] | None
-) -> Iterator[tuple[Job, float, tuple[Run, ...]]]:
+) -> Iterator[tuple[Job, dict[str, Any] | None]]:
     if processes == 1:
         if clock is not None:
             clock()
-        yield from filter(None, map(done, jobs))
+        yield from map(done, jobs)
         return
     with get_context("spawn").Pool(processes, clock) as pool:
-        yield from filter(None, pool.imap_unordered(done, jobs, chunksize=len(PEOPLE)))
+        yield from pool.imap_unordered(done, jobs, chunksize=2 * len(PEOPLE))
 
 
 def _print(name: str, tallies: dict[tuple[str, ...], Tally]) -> None:
@@ -301,6 +333,8 @@ def _arguments() -> argparse.Namespace:
         action="store_true",
         help="deadlines are of processor time, which other programs do not take part of",
     )
+    parser.add_argument("--record", type=Path, help="a file of what is done, which is not done again")
+    parser.add_argument("--only-print", action="store_true", help="what is in the record")
     return parser.parse_args()
 
 
