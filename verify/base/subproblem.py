@@ -13,6 +13,7 @@ from typing import TypeVar
 
 from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
 from verify.base.execution import price
+from verify.base.plan_graph import PlanGraph
 
 Amount = TypeVar("Amount", int, tuple[int, int])
 
@@ -66,6 +67,7 @@ class Subproblem:
         human_plan: ``pi_H``; empty where there is none.
         horizon: number of epochs.
         prices: integer costs.
+        any_of: where the human may be on any of their optimal plans: these; ``human_plan`` is one of them.
         robots: whether robots (and joint actions) take part at all.
         robots_goal: whether ``G_R`` has to be reached.
         most: the objective may not exceed this many units, or None.
@@ -79,6 +81,7 @@ class Subproblem:
     human_plan: HumanPlan
     horizon: int
     prices: Prices
+    any_of: PlanGraph | None = None
     robots: bool = True
     robots_goal: bool = True
     most: int | None = None

@@ -204,6 +204,11 @@ def all_played(amount: str) -> str:
     return f"everything that robots can do for less than {amount} was played"
 
 
+def whatever_happens(amount: str) -> str:
+    """No joint plan costs less, so nothing that happens with a human who replans does."""
+    return f"no joint plan costs less than {amount}, whatever the human does"
+
+
 def played_again(models: str) -> str:
     """A plan turned out as promised."""
     return f"played again, {models}: as the result says"
@@ -233,6 +238,18 @@ def tie_costs(human_plan: tuple[str, ...], cost: float | None) -> str:
 def over_ties(ties: str, count: int, cost: Fraction) -> str:
     """What the answers add up to."""
     return f"the {ties} cost over {count} optimal plans of the human is {float(cost):.12g}"
+
+
+def no_tie_is_dearer(count: int, cost: float) -> str:
+    """With one plan robots are of no use, and no answer is dearer than that."""
+    return (
+        f"robust over {count} optimal plans of the human: none is dearer than leaving them alone, {cost:.12g}"
+    )
+
+
+def no_tie_is_cheaper(count: int, cost: float) -> str:
+    """Whichever plan the human is on, nothing undercuts the answer."""
+    return f"whichever of {count} optimal plans the human is on, nothing costs less than {cost:.12g}"
 
 
 def ties_bound(words: str, ties: str) -> str:

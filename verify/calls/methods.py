@@ -42,7 +42,7 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
         effort: method, deadline and solver; what is spent is noted there.
         plans: the human's optimal plans.
     """
-    if _is_free(question):
+    if is_free(question):
         found = decide(question.but(rule=FREE), effort, plans)
         return found if found.found is None else replace(found, found=_throughout(question, found.found))
     if effort.method == "exhaustive" and question.horizon > 0:
@@ -54,10 +54,12 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
 
 def decide_without_horizon(question: Subproblem, effort: Effort) -> Minimum:
     """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does."""
-    return cheapest(question, bounded=effort.method != "exhaustive")
+    found = cheapest(question, bounded=effort.method != "exhaustive")
+    effort.attempts.append(Attempt("exhaustive", found.status != "undecided", found.states))
+    return found
 
 
-def _is_free(question: Subproblem) -> bool:
+def is_free(question: Subproblem) -> bool:
     """Whether the window of all epochs is as good as any: no epoch of it costs, and none is too many.
 
     There is neither prefix nor suffix then, so that every plan fits it.

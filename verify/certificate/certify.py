@@ -33,7 +33,7 @@ from verify.goals.check import claims_by_rules, examine, unexamined
 from verify.goals.proof import GoalsProof
 from verify.policy import check_policy
 from verify.programs.alone import least_alone
-from verify.programs.effort import Effort
+from verify.programs.effort import Effort, NoProgramError
 from verify.proofs.book import ProofReader, ProofWriter
 from verify.rules import Checker, RuleReport
 from verify.rules.claims import rule_claim
@@ -292,15 +292,20 @@ class _Certifier:
         return None if worth is None else worth[0]
 
     def _ties(self, wanted: list[str]) -> Iterator[Claim]:
-        """Each optimal ``pi_H`` is solved; the answers have to give the result's figures."""
-        started = perf_counter()
+        """What every optimal ``pi_H`` allows has to give the result's figures."""
+        started, mark = perf_counter(), self.effort.mark
         try:
             verdict, reason = combined(self.task, self.result, self.effort, self.plans)
         except UNDECIDED as error:
             verdict, reason = "undecided", why(error)
+        except NoProgramError:
+            raise
         except UsageError as error:
             verdict, reason = "refuted", str(error)
+        seconds, spent = perf_counter() - started, self.effort.since(mark)
+        if verdict == "proved" and spent.method == "exhaustive":
+            reason += wording.searched(spent.size["states"])
         if is_mean(self.result):
             wanted = ["cost", *wanted]
         for name in wanted:
-            yield Claim(name, verdict, reason, seconds=perf_counter() - started)
+            yield Claim(name, verdict, reason, None, seconds, None, *spent)

@@ -45,7 +45,7 @@ class Examiner:
         """Run an examination; running out of time or memory leaves the claim undecided."""
         started = perf_counter()
         effort, bound, example = self.call.effort, None, None
-        attempts, calls = len(effort.attempts), len(effort.calls)
+        attempts, calls = mark = effort.mark
         try:
             verdict, reason, found = examine()
             if found is not None:
@@ -60,16 +60,9 @@ class Examiner:
                 reason += wording.known_bound(bound)
         seconds = perf_counter() - started
         made, called = effort.attempts[attempts:], effort.calls[calls:]
-        if not made and not called:
-            return Claim(name, verdict, reason, example, seconds, bound)
-        if verdict == "proved":
+        if verdict == "proved" and (made or called):
             reason += self._how(made, called)
-        if made and made[-1].method == "exhaustive":
-            size = {"states": max(attempt.states for attempt in made)}
-            return Claim(name, verdict, reason, example, seconds, bound, "exhaustive", size, len(called))
-        largest = max(called, key=lambda call: call.columns, default=None)
-        size = {} if largest is None else {"columns": largest.columns, "rows": largest.rows}
-        return Claim(name, verdict, reason, example, seconds, bound, "program", size, len(called))
+        return Claim(name, verdict, reason, example, seconds, bound, *effort.since(mark))
 
     def _how(self, made: list[Attempt], called: list[SolverCall]) -> str:
         """What decided the questions of a claim."""

@@ -1,21 +1,30 @@
 """Claims about the best help that happens with a human who replans (semantics 6)."""
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Final
 
 from verify.base import wording
-from verify.base.subproblem import Solution
+from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import UndecidedError
 from verify.calls.call import Call
+from verify.calls.methods import decide
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.reactions import cheapest_reaction
+from verify.programs.effort import NoProgramError
 from verify.simulator import Person, play
+
+_A_MOMENT: Final = 2.0
+_SHARE: Final = 0.2
+"""Seconds, and of the time that is left, for a program that may spare playing what robots can do."""
 
 
 class HumanExaminer(Examiner):
     """Examines a result that was planned for an observant or a local human.
 
-    No integer program knows what they do; whatever robots could do is played instead.
+    No integer program knows what they do.  One says what the team could do if they did anything; where that
+    is not enough, whatever robots could do is played.
     """
 
     def optimal(self) -> Verdict:
@@ -93,7 +102,9 @@ class HumanExaminer(Examiner):
         return _idle_cost(self.call)
 
     def _played(self, cost: int) -> str:
-        return wording.all_played(self._amount(cost))
+        made = self.call.effort.attempts
+        played = bool(made) and made[-1].method == "exhaustive"
+        return (wording.all_played if played else wording.whatever_happens)(self._amount(cost))
 
 
 def human_cost(call: Call) -> Fraction | None:
@@ -119,10 +130,39 @@ def _cheaper(call: Call, cost: int) -> Solution | None:
 
 
 def _decided(call: Call, most: int | None) -> Solution | None:
+    """The cheapest that happens with the human, for this much at most; None: proved that there is nothing.
+
+    Raises:
+        UndecidedError: neither was found out.
+        NoProgramError: a proof file is asked for, and a plan that costs no more has to be played.
+    """
+    if _out_of_reach(call, most):
+        return None
+    if call.effort.proof is not None:
+        raise NoProgramError("a human who replans, where a joint plan costs less than the answer")
     minimum = cheapest_reaction(call, most)
     if minimum.status == "undecided":
         raise UndecidedError(minimum.reason)
     return minimum.found
+
+
+def _out_of_reach(call: Call, most: int | None) -> bool:
+    """Whether a program says that no joint plan costs so little: then nothing that happens does.
+
+    Whatever robots do beside a human who replans, what is executed is a plan of the team.  ``exhaustive``
+    asks no program, and in turns it gets a moment.
+    """
+    effort = call.effort
+    question = call.question.but(rule=FREE).below(most)
+    if effort.method == "exhaustive":
+        return False
+    if effort.method == "auto":
+        deadline = effort.deadline.part(_SHARE).within(_A_MOMENT)
+        effort, question = (
+            replace(effort, method="pruned", deadline=deadline),
+            question.but(deadline=deadline),
+        )
+    return decide(question, effort, call.plans).status == "none"
 
 
 def _idle_cost(call: Call) -> int | None:

@@ -2,10 +2,13 @@
 
 from serendipity.model import INFINITE, Result, UsageError
 from verify.base.obligations import BY_RULES, needed
+from verify.programs.effort import NoProgramError
 
 
 def require_programs(result: Result, method: str = "program") -> None:
-    """Return if programs decide what rules can't.
+    """Return if programs may decide what rules can't.
+
+    Of humans who replan, and of several goals, they decide some answers; that turns out on the way.
 
     Args:
         result: of checked types.
@@ -18,7 +21,7 @@ def require_programs(result: Result, method: str = "program") -> None:
         raise UsageError(f"proof: goes with method program, not {method}")
     decided = _decided_otherwise(result)
     if decided is not None:
-        raise UsageError(f"proof: there are no programs for {decided}")
+        raise NoProgramError(decided)
 
 
 def _decided_otherwise(result: Result) -> str | None:
@@ -27,10 +30,6 @@ def _decided_otherwise(result: Result) -> str | None:
         return "mode assistance"
     if result.mode == "individual":
         return None
-    if options.human_model != "omniscient":
-        return "a human who replans"
-    if result.says("goals"):
-        return "goals that are not known"
     unpredicted = result.mode == "composite" and result.human_plan is None and options.horizon is None
     if options.horizon == INFINITE or unpredicted:
         return "plans without a horizon"

@@ -18,7 +18,7 @@ from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import during
 from verify.calls.call import Call
 from verify.exhaustive.uniform_cost import LeastLeft
-from verify.programs.effort import Minimum
+from verify.programs.effort import Attempt, Minimum
 from verify.simulator import Moment, Person, Play
 
 MOST_MOMENTS: Final = 200_000
@@ -65,10 +65,13 @@ class _Reactions:
     def run(self) -> Minimum:
         """Play the layers until nothing is left that could cost less."""
         try:
-            return self._run()
+            found = self._run()
         except LIMITS as limit:
             doing = f"playing what robots can do, {len(self.known):,} states and minds so far"
             return Minimum("undecided", reason=str(LimitReachedError(limit_reason(limit), doing)))
+        decided = found.status != "undecided"
+        self.call.effort.attempts.append(Attempt("exhaustive", decided, states=len(self.known)))
+        return found
 
     def _run(self) -> Minimum:
         start = self.game.start(self.call.human_plan or ())

@@ -1,15 +1,14 @@
 """Whether an answer over all optimal plans of the human has the right answers in it (semantics 1)."""
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable
 from fractions import Fraction
 
 from serendipity.model import Result, Task
 from verify.base import wording
 from verify.base.obligations import is_mean
 from verify.base.optimal_plans import OptimalPlans
-from verify.calls.answer import answer, calls
-from verify.calls.call import Call
-from verify.certificate.humans import human_cost
+from verify.certificate.each_plan import EachPlan, Solved
 from verify.programs.effort import Effort
 from verify.rules.tied import tied_answers
 
@@ -17,21 +16,8 @@ Verdict = tuple[str, str]
 """``proved`` or ``refuted``, and why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solved:
-    """The proved answer for one optimal ``pi_H``; None where there is no plan."""
-
-    cost: Fraction | None
-    objective: Fraction | None
-    saving: Fraction | None
-    opportunity: bool
-
-
-Known = dict[tuple[str, ...], Solved]
-
-
 def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) -> Verdict:
-    """Solve for every optimal ``pi_H`` and compare.
+    """Compare an answer with what every optimal ``pi_H`` allows.
 
     Args:
         task: the task.
@@ -43,66 +29,100 @@ def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) ->
         UndecidedError: one of them could not be proved.
         UsageError: there are more than ``max_ties``.
     """
-    known: Known = {}
-    for call in calls(task, result.options, None, effort, plans):
-        names = tuple(task.actions[i].name for i in call.human_plan or ())
-        known.setdefault(names, _solved(call))
-    fault = _listed_fault(result, known)
+    each = EachPlan(task, result.options, effort, plans)
+    worst = _is_worst(result, each)
+    best = not worst and _is_best(result, each)
+    if worst or best:
+        each.asked = len(tied_answers(result))
+    fault = _listed_fault(result, each)
     if fault is not None:
         return "refuted", fault
-    if any(solved.cost is None for solved in known.values()):
+    if worst:
+        return "proved", wording.no_tie_is_dearer(each.graph.count, result.cost or 0.0)
+    if best and result.objective == _objective(result, each):
+        return "proved", wording.no_tie_is_cheaper(each.graph.count, result.cost or 0.0)
+    known = each.all()
+    if any(solved.cost is None for solved in known):
         return "refuted", wording.TIE_WITHOUT_PLAN
-    return _compared(result, known)
+    return _compared(result, known, each)
 
 
-def _solved(call: Call) -> Solved:
-    if call.options.human_model == "omniscient":
-        found = answer(call)
-        return Solved(found.cost, found.objective, found.saving, found.opportunity)
-    cost = human_cost(call)
-    if cost is None or call.baseline is None:  # whatever can be done then is an opportunity
-        return Solved(cost, cost, None, opportunity=cost is not None)
-    saving = max(call.prices.cost(call.baseline) - cost, Fraction(0))
-    return Solved(cost, cost, saving, opportunity=saving > 0)
+def _is_worst(result: Result, each: EachPlan) -> bool:
+    """Whether ``robust`` has found as much as leaving the human alone costs: no answer is dearer."""
+    alone = each.alone
+    robust = result.status == "optimal" and result.options.ties == "robust"
+    return robust and alone is not None and result.cost == result.objective == float(alone)
 
 
-def _listed_fault(result: Result, known: Known) -> str | None:
+def _is_best(result: Result, each: EachPlan) -> bool:
+    """Whether ``optimistic`` has found what nothing undercuts, whichever optimal plan the human is on."""
+    if (result.status, result.options.ties) != ("optimal", "optimistic"):
+        return False
+    own = _own(result, each)
+    if own is None or own.cost is None or float(own.cost) != result.cost:
+        return False
+    return each.none_cheaper(own.cost)
+
+
+def _own(result: Result, each: EachPlan) -> Solved | None:
+    """The answer beside the result's own plan; None: that is no optimal plan."""
+    plan = each.graph.named(result.human_plan or ())
+    return None if plan is None else each.beside(plan)
+
+
+def _objective(result: Result, each: EachPlan) -> float:
+    """Of the answer beside the result's own plan, which is among those that are listed."""
+    own = _own(result, each)
+    assert own is not None and own.objective is not None, "looked at before"
+    return float(own.objective)
+
+
+def _listed_fault(result: Result, each: EachPlan) -> str | None:
     """Whether something is wrong with one of the answers that the result lists."""
     for said in tied_answers(result):
-        solved = known.get(said.human_plan)
-        if solved is None:
+        plan = each.graph.named(said.human_plan)
+        if plan is None:
             return wording.NOT_OPTIMAL_TIE
+        if result.status != "optimal":
+            continue
+        solved = each.beside(plan)
         right = (None if solved.cost is None else float(solved.cost), solved.opportunity)
-        if result.status == "optimal" and (said.cost, said.opportunity) != right:
+        if (said.cost, said.opportunity) != right:
             return wording.tie_costs(said.human_plan, right[0])
     return None
 
 
-def _compared(result: Result, known: Known) -> Verdict:
+def _compared(result: Result, known: Counter[Solved], each: EachPlan) -> Verdict:
     """Compare the figures of an answer with those that the options make of all of them."""
-    ties, count = result.options.ties, len(known)
-    costs = [solved.cost or Fraction(0) for solved in known.values()]
-    objectives = [solved.objective or Fraction(0) for solved in known.values()]
+    ties, count = result.options.ties, known.total()
     if ties == "expected":
-        cost, objective = sum(costs, Fraction(0)) / count, sum(objectives, Fraction(0)) / count
+        cost = _mean(known, lambda solved: solved.cost)
+        objective = _mean(known, lambda solved: solved.objective)
     else:
-        cost, objective = (min if ties == "optimistic" else max)(costs), min(objectives)
-    words = wording.over_ties(ties, count, cost)
+        cost = (min if ties == "optimistic" else max)(solved.cost or Fraction(0) for solved in known)
+        objective = min(solved.objective or Fraction(0) for solved in known)
+    words, least = wording.over_ties(ties, count, cost), float(objective)
     if result.status == "feasible":
         assert result.lower_bound is not None, "a rule"
-        if result.lower_bound > float(objective):
+        if result.lower_bound > least:
             return "refuted", wording.ties_bound(words, ties)
         return "proved", words
     if result.plan is not None:  # one of the answers, which has an objective of its own
-        objective = known[result.human_plan or ()].objective or Fraction(0)
-    if (result.cost, result.objective) != (float(cost), float(objective)):
+        least = _objective(result, each)
+    if (result.cost, result.objective) != (float(cost), least):
         return "refuted", words
     if is_mean(result):  # else a rule says what is saved
-        savings = [solved.saving for solved in known.values() if solved.saving is not None]
-        if len(savings) < count:
-            right: tuple[float | None, float | None] = (None, None)
-        else:
-            right = (float(sum(savings, Fraction(0)) / count), 0.0)
+        right: tuple[float | None, float | None] = (None, None)
+        if all(solved.saving is not None for solved in known):
+            right = (float(_mean(known, lambda solved: solved.saving)), 0.0)
         if (result.saving, result.saving_alone) != right:
             return "refuted", wording.ties_savings(words, *right)
     return "proved", words
+
+
+def _mean(known: Counter[Solved], figure: Callable[[Solved], Fraction | None]) -> Fraction:
+    """Over all plans, of a figure that each of them has."""
+    total = Fraction(0)
+    for solved, number in known.items():
+        total += (figure(solved) or Fraction(0)) * number
+    return total / known.total()

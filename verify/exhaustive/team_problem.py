@@ -91,9 +91,9 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem) -> Minimum:
     except TooManyStatesError:
         return Minimum("undecided", bound=least, reason="there are too many joint states")
     if found is None:
-        return Minimum("none")
+        return Minimum("none", states=search.states)
     _, path = search.path(found)
     sets = enumerate((team.sets[k] for k in path), start=1)
     steps = tuple(Step(epoch, i) for epoch, chosen in sets for i in chosen)
     cost = search.paid(found)
-    return Minimum("found", Solution(steps, None, cost, cost), cost)
+    return Minimum("found", Solution(steps, None, cost, cost), cost, states=search.states)

@@ -6,7 +6,7 @@ Only sets in which actions disable each other in a circle have to stay together.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Final
 
@@ -61,13 +61,16 @@ def cheapest(question: Subproblem, *, bounded: bool = True) -> Minimum:
     if bounded:
         found = search.run(_FEW)
         if search.closed <= _FEW:
-            return found
+            return replace(found, states=search.closed)
     with during("preparing the search for joint plans"):
         try:
             team = team_problem(question, part, bounded=bounded)
         except TooLargeError:
             team = None
-    return search.run() if team is None else cheapest_without_epochs(question, team)
+    if team is not None:
+        return cheapest_without_epochs(question, team)
+    found = search.run()
+    return replace(found, states=search.closed)
 
 
 class LeastLeft:

@@ -13,7 +13,7 @@ from verify.calls.call import Call
 from verify.goals.check import beyond_rules
 from verify.goals.timelines import Timeline, close, mean
 from verify.goals.together import Better, Rank, Together
-from verify.programs.effort import Effort
+from verify.programs.effort import Effort, NoProgramError
 
 _ROUNDED = 1 - Fraction(1, 10**9)
 """A bound that was summed from rounded probabilities may be too high by its last digits."""
@@ -35,7 +35,7 @@ class GoalsProof:
 
     def claims(self) -> Iterator[Claim]:
         """What rules can't say: one proof for the optimum and its bound."""
-        started = perf_counter()
+        started, mark = perf_counter(), self.effort.mark
         first, *others = beyond_rules(self.result)
         better: Better | None = None
         try:
@@ -51,15 +51,18 @@ class GoalsProof:
         bound = self.result.lower_bound if verdict == "proved" else None
         task, discount = self.lines[0].task, self.result.options.discount
         example = None if better is None else tuple(plan_step(task, s, discount) for s in better.robots)
-        yield Claim(first, verdict, reason, example, perf_counter() - started, bound)
+        spent = self.effort.since(mark)
+        yield Claim(first, verdict, reason, example, perf_counter() - started, bound, *spent)
         for name in others:
-            yield Claim(name, verdict, wording.like(first, reason), example, bound=bound)
+            yield Claim(name, verdict, wording.like(first, reason), example, 0.0, bound, *spent)
 
     def _best(self, together: Together, idle: Rank) -> tuple[str, str, Better | None]:
         """Whether robots could do better than the answer says they can."""
         limit = self._limit(idle)
         if together.floor() >= limit:
             return "proved", wording.EACH_ADDS_UP, None
+        if self.effort.proof is not None:
+            raise NoProgramError("several goals whose best answers by themselves don't add up to the answer")
         better = together.better(limit)
         denied = self.result.status == "optimal" and not self.result.opportunity
         if better is None or (denied and better.rank[1] >= idle[1]):

@@ -19,6 +19,7 @@ from verify.base.undecided import UndecidedError
 from verify.calls.answer import best_plan
 from verify.calls.call import Call, Score
 from verify.exhaustive.uniform_cost import LeastLeft
+from verify.programs.effort import Attempt
 from verify.programs.mending import replans
 
 MOST_NODES: Final = 20_000
@@ -138,6 +139,8 @@ class Together:
             layer = list(self._following(layer, epoch, incumbent))
         for node in self._following(layer, self._horizon, incumbent):
             incumbent.offer(self._rank(node.lines), node.steps)
+        played = Attempt("exhaustive", decided=True, states=incumbent.looked_at)
+        self._calls[0].effort.attempts.append(played)
         return incumbent.best
 
     def _following(self, layer: Sequence[_Node], epoch: int, incumbent: _Incumbent) -> Iterator[_Node]:

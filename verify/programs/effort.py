@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Final, Protocol
+from typing import Final, NamedTuple, Protocol
 
 from serendipity.model import Deadline, Step, UsageError, Window
 from verify.base.execution import State
@@ -81,6 +81,27 @@ class Attempt:
     paths: int = 0
 
 
+class NoProgramError(UsageError):
+    """A proof file is asked for, and something else than programs decides."""
+
+    def __init__(self, what: str) -> None:
+        super().__init__(f"proof: there are no programs for {what}")
+
+
+class Spent(NamedTuple):
+    """What a claim took: who decided it, how large that was, and how often a solver was called.
+
+    Attributes:
+        method: ``program`` or ``exhaustive``; None where rules and shortest paths were enough.
+        size: columns and rows of the largest program, or states.
+        calls: the solver's.
+    """
+
+    method: str | None = None
+    size: dict[str, int] = {}  # noqa: RUF012 - never changed
+    calls: int = 0
+
+
 @dataclass(slots=True)
 class Effort:
     """The solver's settings, and what was spent under them.
@@ -117,6 +138,23 @@ class Effort:
         largest = max(self.calls, key=lambda call: call.columns, default=SolverCall(0, 0))
         return {"variables": largest.columns, "constraints": largest.rows}
 
+    @property
+    def mark(self) -> tuple[int, int]:
+        """How much has been spent, for :meth:`since`."""
+        return len(self.attempts), len(self.calls)
+
+    def since(self, mark: tuple[int, int]) -> Spent:
+        """What has been spent since then."""
+        made, called = self.attempts[mark[0] :], self.calls[mark[1] :]
+        if not made and not called:
+            return Spent()
+        if made and made[-1].method == "exhaustive":
+            states = max(attempt.states for attempt in made)
+            return Spent("exhaustive", {"states": states}, len(called))
+        largest = max(called, key=lambda call: call.columns, default=None)
+        size = {} if largest is None else {"columns": largest.columns, "rows": largest.rows}
+        return Spent("program", size, len(called))
+
     def encode(self, question: Subproblem) -> "ProgramEncoding":
         """The program of a question."""
         if self.method == "program" and self.encoding == "automata":
@@ -139,12 +177,14 @@ class Minimum:
         found: the best plan, or for ``undecided`` some plan, if any.
         bound: proved lower bound on the objective in units, or None.
         reason: why it is undecided.
+        states: how many were looked at, where that is not noted as an :class:`Attempt`.
     """
 
     status: str
     found: Solution | None = None
     bound: int | None = None
     reason: str = ""
+    states: int = 0
 
     def settled(self) -> Solution | None:
         """Some plan, best or not; None: there is provably none.

@@ -173,6 +173,8 @@ def _found(
 
 def _described(question: Subproblem, model: Model) -> Entry:
     words = f"{_WORDS[question.rule]}, {question.horizon} epochs"
+    if question.any_of is not None:
+        words += f", beside any of {question.any_of.count} plans"
     if not question.robots:
         words += ", robots idle"
     if question.most_cost is not None:

@@ -150,7 +150,11 @@ def test_equal_proofs_are_equal_files(tmp_path: Path) -> None:
     ("options", "what"),
     [
         ({"mode": "composite", "horizon": "inf"}, "plans without a horizon"),
-        ({"human_model": "observant"}, "a human who replans"),
+        (
+            {"human_model": "observant", "discount": "0.9"},
+            "a human who replans, where",
+        ),
+        ({"mode": "assistance"}, "mode assistance"),
     ],
 )
 def test_no_programs_no_proof(options: dict[str, Any], what: str, tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ class HumanControl:
         elif rule == EXACT:
             yield self._planned(epoch)
         elif control[0] == PREFIX:
-            yield self._planned(epoch)
+            yield from self._prefix(control, epoch)
             if epoch <= len(self.plan):
                 tag = epoch if self.literal else 0
                 yield Leg((INSIDE, tag, 1 if self.counted else 0), ALL, weight=self.question.prices.epoch)
@@ -89,6 +89,15 @@ class HumanControl:
         if control[0] == INSIDE:
             return [self.expected[last]]
         return [frozenset()] if control[1] == last else []
+
+    def _prefix(self, control: Control, epoch: int) -> Iterator[Leg]:
+        """What is planned; of several plans, what one does that led here."""
+        graph = self.question.any_of
+        if graph is None or epoch > len(graph):
+            yield self._planned(epoch)
+            return
+        for action, node in graph.moves[epoch - 1][control[1]]:
+            yield Leg((PREFIX, node, 0), (action,), wait=False)
 
     def _planned(self, epoch: int) -> Leg:
         """Eq. (7b) at its own epoch; with the paper's second (7b) any action of the plan."""

@@ -1,0 +1,86 @@
+"""All optimal plans of the human as ways through a graph, which may have far fewer states than ways."""
+
+from collections.abc import Iterator
+
+from serendipity.model import HumanPlan, Task, UsageError
+from verify.base.execution import State
+from verify.base.optimal_plans import OptimalPlans
+
+Move = tuple[int, int]
+"""An action, and the number of the state behind it, in the next layer."""
+
+
+class PlanGraph:
+    """The states that the human's optimal plans lead through, layer by layer.
+
+    All optimal plans have the same number of actions, so a layer is an epoch.  Of several actions of one
+    name, only the first begins a plan (semantics 1): ways and plans are the same.
+
+    Args:
+        task: the task.
+        plans: the human's optimal plans.
+        most: how many there may be.
+
+    Attributes:
+        moves: by epoch (from 0) and state, what optimal plans do next, by name.
+        count: the number of plans; 0 where the human can't reach their goal.
+
+    Raises:
+        UsageError: there are more than ``most``.
+        TooManyStatesError: the human's own problem is too large.
+        LimitReachedError: the deadline of ``plans`` came first.
+    """
+
+    def __init__(self, task: Task, plans: OptimalPlans, most: int) -> None:
+        self._task = task
+        self.moves: list[list[list[Move]]] = []
+        worth = plans.worth(task.init)
+        self.count = 0
+        if worth is None:
+            return
+        layer: dict[State, int] = {task.init: 0}
+        ways = [1]  # that lead to each state; all of them go on
+        for _ in range(worth[1]):
+            after: dict[State, int] = {}
+            moves = []
+            for state in layer:
+                steps = plans.steps(state)
+                moves.append([(i, after.setdefault(reached, len(after))) for i, reached in steps])
+            self.moves.append(moves)
+            before, ways = ways, [0] * len(after)
+            for count, onward in zip(before, moves, strict=True):
+                for _, number in onward:
+                    ways[number] += count
+            layer = after
+            if sum(ways) > most:
+                raise UsageError(f"max_ties: the human has more than {most} optimal plans")
+        self.count = sum(ways)
+
+    def __len__(self) -> int:
+        """The number of actions of a plan."""
+        return len(self.moves)
+
+    def plans(self) -> Iterator[HumanPlan]:
+        """All plans, the canonical one first."""
+        if self.count:
+            yield from self._continue((), 0)
+
+    def named(self, names: tuple[str, ...]) -> HumanPlan | None:
+        """The plan of these names; None if it is no optimal one."""
+        if not self.count or len(names) != len(self):
+            return None
+        plan: HumanPlan = ()
+        state = 0
+        for moves, name in zip(self.moves, names, strict=True):
+            chosen = next(((i, n) for i, n in moves[state] if self._task.actions[i].name == name), None)
+            if chosen is None:
+                return None
+            plan, state = (*plan, chosen[0]), chosen[1]
+        return plan
+
+    def _continue(self, plan: HumanPlan, state: int) -> Iterator[HumanPlan]:
+        if len(plan) == len(self):
+            yield plan
+            return
+        for i, after in self.moves[len(plan)][state]:
+            yield from self._continue((*plan, i), after)

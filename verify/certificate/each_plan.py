@@ -1,0 +1,221 @@
+"""The right answer beside each optimal plan of the human, with as little asked as the plans differ in."""
+
+from collections import Counter
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Final
+
+from serendipity.model import HumanPlan, LimitReachedError, Options, Task
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.plan_graph import PlanGraph
+from verify.base.subproblem import in_plan
+from verify.base.undecided import UndecidedError
+from verify.calls.answer import answer
+from verify.calls.call import Call
+from verify.calls.methods import decide, is_free
+from verify.certificate.humans import human_cost
+from verify.exhaustive.beside_plans import HelpBesidePlans, answers_all
+from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
+from verify.programs.effort import Attempt, Effort
+
+_SECONDS: Final = 4.0
+_SECONDS_A_PLAN: Final = 0.1
+_A_MOMENT: Final = 2.0
+_SHARE: Final = 0.4
+"""Where methods take turns: what a search beside all plans may take, and a program; of the time left."""
+
+_SEVERAL: Final = 3
+"""Plans for which one search pays."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """The proved answer for one optimal ``pi_H``; None where there is no plan."""
+
+    cost: Fraction | None
+    objective: Fraction | None
+    saving: Fraction | None
+    opportunity: bool
+
+
+class EachPlan:
+    """Answers beside the human's optimal plans.
+
+    Plans between which the call does not tell are one question (:func:`kin`).  Windows are searched beside
+    all plans at once, where the rules and the method allow that; else question after question is asked.
+
+    Args:
+        task: the task.
+        options: the call's.
+        effort: method, solver and deadline.
+        plans: the human's optimal plans.
+
+    Attributes:
+        graph: these plans.
+        asked: beside how many of them an answer will be asked for.
+
+    Raises:
+        UsageError: there are more than ``max_ties``.
+        TooManyStatesError: the human's own problem is too large.
+        LimitReachedError: the deadline came first.
+    """
+
+    def __init__(self, task: Task, options: Options, effort: Effort, plans: OptimalPlans) -> None:
+        self._task, self._options, self._effort, self._plans = task, options, effort, plans
+        self.graph = PlanGraph(task, plans, options.max_ties)
+        self.asked = self.graph.count
+        self._known: dict[Hashable, Solved] = {}
+
+    def beside(self, plan: HumanPlan) -> Solved:
+        """The answer beside one plan.
+
+        Raises:
+            UndecidedError: it could not be proved.
+        """
+        shared = None if self._unaided else self._shared
+        if self._unaided or shared is not None:
+            return self._solved(None if shared is None else shared.beside(plan))
+        call = self._call(plan)
+        same = kin(call)
+        if same not in self._known:
+            self._known[same] = _solved(call)
+        return self._known[same]
+
+    def all(self) -> Counter[Solved]:
+        """The answers, each with the number of plans that it is for.
+
+        Raises:
+            UndecidedError: one of them could not be proved.
+        """
+        if self._unaided:
+            return Counter({self._solved(None): self.graph.count})
+        shared = self._shared
+        if shared is None:
+            return Counter(self.beside(plan) for plan in self.graph.plans())
+        found: Counter[Solved] = Counter()
+        for score, count in shared.scores.items():
+            found[self._solved(score)] += count
+        return found
+
+    @property
+    def alone(self) -> Fraction | None:
+        """What no answer is dearer than: leaving the human alone; None where robots have goals."""
+        call = self._first
+        return None if call.robots_goal or call.baseline is None else call.prices.cost(call.baseline)
+
+    def none_cheaper(self, cost: Fraction) -> bool:
+        """Whether one program says that nothing costs less, whichever of the plans the human is on."""
+        if not self._windows or self._effort.method == "exhaustive" or self._shared is not None:
+            return False
+        nothing = self._nothing
+        least = self._first.prices.units(cost)
+        return self._unaided if least >= nothing[1] else self._nobody(nothing[0], least - 1)
+
+    @cached_property
+    def _first(self) -> Call:
+        return self._call(next(self.graph.plans()))
+
+    @property
+    def _nothing(self) -> tuple[int, int]:
+        """Objective and cost of leaving the human alone."""
+        nothing = self._first.do_nothing
+        assert nothing is not None, "robots have no goals"
+        return nothing
+
+    @cached_property
+    def _windows(self) -> bool:
+        """Whether the plans are prefixes of windows that are replanned: all can be looked at together."""
+        call = self._first
+        options = call.options
+        if self.asked < _SEVERAL or options.human_model != "omniscient" or call.robots_goal:
+            return False
+        replanned = answers(call.question) and not options.keep_prefix and self._effort.encoding == "automata"
+        return options.windowed and len(self.graph) > 0 and replanned and not is_free(call.question)
+
+    @cached_property
+    def _unaided(self) -> bool:
+        """Whether one program says that nothing helps, whichever of the plans the human is on."""
+        if not self._windows or self._effort.method == "exhaustive":
+            return False
+        objective, cost = self._nothing
+        if not self._nobody(objective - 1):
+            return False
+        return not self._first.may_tie(self._nothing) or self._nobody(objective, cost - 1)
+
+    def _nobody(self, *limits: int) -> bool:
+        """Whether a program allows no plan within limits on objective and cost, beside any optimal plan."""
+        effort = self._effort
+        if effort.method == "auto":
+            effort = replace(effort, deadline=effort.deadline.part(_SHARE).within(_A_MOMENT), method="pruned")
+        question = self._first.question.below(*limits).but(any_of=self.graph, deadline=effort.deadline)
+        minimum = decide(question, effort, self._plans)
+        if minimum.status == "undecided":
+            self._effort.deadline.check()
+            if effort.proof is not None:  # what is written down has to be read in the same order
+                raise UndecidedError(minimum.reason, minimum.bound)
+        return minimum.status == "none"
+
+    @cached_property
+    def _shared(self) -> HelpBesidePlans | None:
+        """The search beside all plans; None where it does not apply, or is not done in its turn."""
+        effort, call = self._effort, self._first
+        if not self._windows or effort.method == "program" or not answers_all(call.question):
+            return None
+        deadline = effort.deadline
+        if effort.method == "auto":
+            seconds = _SECONDS + _SECONDS_A_PLAN * self.graph.count
+            deadline = deadline.part(_SHARE).within(seconds)
+        question = call.question.but(deadline=deadline)
+        try:
+            found = HelpBesidePlans(question, self.graph, self._plans, bounded=effort.method == "auto")
+        except OtherMethodError:
+            return None
+        except LimitReachedError:
+            effort.deadline.check()
+            if effort.method == "exhaustive":
+                raise
+            return None
+        effort.attempts.append(Attempt("exhaustive", decided=True, states=found.states))
+        return found
+
+    def _call(self, plan: HumanPlan) -> Call:
+        return Call(self._task, self._options, plan, self._plans, self._effort)
+
+    def _solved(self, score: tuple[int, int] | None) -> Solved:
+        """The answer where windows allow a score; None: nothing that undercuts leaving the human alone."""
+        call = self._first
+        assert call.baseline is not None
+        idle = call.prices.cost(call.baseline)
+        if score is None:
+            return Solved(idle, idle, Fraction(0), opportunity=False)
+        objective, cost = map(call.prices.cost, score)
+        return Solved(cost, objective, idle - cost, opportunity=True)
+
+
+def kin(call: Call) -> Hashable:
+    """What of ``pi_H`` a call depends on: optimal plans of which it is the same have the same answer.
+
+    All optimal plans cost the same and have the same length.  Told humans are asked for what is not in their
+    plan, whatever its order; a window of all epochs has no prefix that could follow it.
+    """
+    options, plan = call.options, call.human_plan
+    if call.robots_goal or options.human_model != "omniscient" or plan is None:
+        return plan
+    if options.mode == "communication":
+        if options.keep_prefix and (options.suffix, options.preservation) != ("replan", "kernel"):
+            return plan
+        return in_plan(call.task, plan) if options.keep_prefix or any(call.prices.talk) else None
+    return None if is_free(call.question) else plan
+
+
+def _solved(call: Call) -> Solved:
+    if call.options.human_model == "omniscient":
+        found = answer(call)
+        return Solved(found.cost, found.objective, found.saving, found.opportunity)
+    cost = human_cost(call)
+    if cost is None or call.baseline is None:  # whatever can be done then is an opportunity
+        return Solved(cost, cost, None, opportunity=cost is not None)
+    saving = max(call.prices.cost(call.baseline) - cost, Fraction(0))
+    return Solved(cost, cost, saving, opportunity=saving > 0)

@@ -1,0 +1,319 @@
+"""The best help beside each of the human's optimal plans, for all of them at once (semantics 3.1, ``ties``).
+
+The plans share what can be shared.  In the prefix, what robots can have brought about by an epoch is the
+same for all plans that lead there on ways that made no difference to it; such plans are one *strand*.  Once
+a window is open, ``pi_H`` plays no part any more: what a state is still worth is worked out once for each
+epoch, from the last one backwards, whichever plans lead to it.  So the work grows with states and strands,
+where one plan after another would take the number of plans, which may be exponential in both.
+
+Scores are one number each: ``objective * base + cost`` with a base that no cost reaches, so that the least is
+the least objective and, of these, the least cost.
+"""
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from serendipity.model import Deadline, HumanPlan
+from verify.base.execution import facts_of_his
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.plan_graph import PlanGraph
+from verify.base.relevance import Relevant, relevant_part
+from verify.base.subproblem import WINDOW, Subproblem
+from verify.base.undecided import during
+from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
+from verify.exhaustive.team import MOST_ACTIONS, Team
+from verify.exhaustive.team_problem import team_problem
+from verify.packed.layout import Words
+from verify.packed.operators import Ints, OperatorTable
+from verify.packed.pattern import FAR
+from verify.packed.problem import MOST_WEIGHT, TooLargeError
+from verify.packed.state_table import StateTable
+
+Score = tuple[int, int]
+"""Objective and cost, in units."""
+
+_NEVER: Final = int(FAR)
+_NONE: Final = np.zeros(0, np.int64)
+
+
+def answers_all(question: Subproblem) -> bool:
+    """Whether the method knows a question's rules."""
+    options = question.options
+    longest = options.max_window
+    return (
+        question.rule == WINDOW
+        and answers(question)
+        and not options.keep_prefix
+        and question.most_cost is None
+        and (longest is None or longest >= question.horizon)
+        and not any(question.prices.talk)
+        and bool(question.human_plan)
+        and not (question.robots_goal and question.task.robot_goal)
+    )
+
+
+class Front(NamedTuple):
+    """Different states of the team, and what was paid for each."""
+
+    states: Words
+    paid: Ints
+
+
+@dataclass(slots=True)
+class _Strand:
+    """Prefixes of plans that lead to one state of the human's, beside which robots can do the same.
+
+    Attributes:
+        node: the state's number in the graph of plans.
+        front: what robots can have brought about.
+        best: the least score of a window that opens here.
+        moves: by action, the strand that goes on; empty in the last epoch.
+    """
+
+    node: int
+    front: Front
+    best: int = _NEVER
+    moves: dict[int, int] = field(default_factory=dict)
+
+
+class _Worths:
+    """What states are worth, looked up by state.
+
+    Args:
+        states: different ones.
+        worth: of each.
+        deadline: asked for memory.
+    """
+
+    def __init__(self, states: Words, worth: Ints, deadline: Deadline) -> None:
+        self._table = StateTable(states.shape[1], deadline)
+        numbers, _ = self._table.numbers(states)
+        self._worth = np.full(len(states), FAR)
+        self._worth[numbers] = worth
+
+    def of(self, states: Words) -> Ints:
+        """What some states are worth; ``FAR`` where that is not known."""
+        numbers, new = self._table.numbers(states)
+        self._worth = np.concatenate((self._worth, np.full(len(new), FAR)))
+        return self._worth[numbers]
+
+
+class HelpBesidePlans:
+    """What windows allow beside every optimal plan of the human.
+
+    Args:
+        question: of one of the plans; which one does not matter.
+        graph: all of them.
+        plans: what the human does alone.
+        bounded: whether lower bounds spare the search states.
+
+    Attributes:
+        states: how many were looked at.
+        scores: the number of plans by the best score beside them that undercuts leaving the human alone;
+            None where nothing does.
+
+    Raises:
+        OtherMethodError: the question is not one for this method.
+        LimitReachedError: the deadline came first.
+    """
+
+    def __init__(self, question: Subproblem, graph: PlanGraph, plans: OptimalPlans, *, bounded: bool) -> None:
+        if not answers_all(question):
+            raise OtherMethodError("not all optimal plans can be searched beside at once")
+        with during("preparing a search beside all optimal plans"):
+            part = relevant_part(question)
+            if part is None or len(part.actions) > MOST_ACTIONS:
+                raise OtherMethodError(f"the exhaustive method takes {MOST_ACTIONS} actions at most")
+            try:
+                self._prepare(question, part, bounded=bounded)
+            except TooLargeError:
+                raise OtherMethodError("the task is too large for the exhaustive method") from None
+        self._graph, self._plans = graph, plans
+        self.states = 0
+        with during("searching beside all optimal plans"):
+            self._strands: list[list[_Strand]] = []
+            self._openings: list[Front] = []
+            self._prefixes()
+            self._value()
+        self.scores = self._counted()
+
+    def _prepare(self, question: Subproblem, part: Relevant, *, bounded: bool) -> None:
+        self._question, self._deadline = question, question.deadline
+        team = team_problem(question, part, bounded=bounded)
+        self._problem = team.problem
+        self._layout = self._problem.layout
+        table = OperatorTable(self._layout, team.singles)
+        strict = question.options.strict
+        self._team = Team(question.task, part.actions, table, self._deadline, strict=strict)
+        self._numbers = {i: k for k, i in enumerate(part.actions)}
+        alone = sum(question.prices.team[i] for i in question.human_plan)
+        epoch = question.prices.epoch
+        self._base = alone + epoch + 1
+        self._unit = self._base + 1
+        self._epoch = epoch * self._base
+        self._limit = (alone + epoch) * self._base + alone
+        dearest = max((operator.weight for operator in team.singles), default=0)
+        own = [f for f in facts_of_his(question.task, self._deadline) if f in self._layout.place]
+        self._mask = np.zeros(self._layout.words, np.uint64)
+        for number in {self._layout.place[f].field for f in own}:
+            of_his = self._layout.fields[number]
+            self._mask[of_his.word] |= np.uint64(of_his.mask)
+        self._constant = question.task.init - self._layout.place.keys()
+        if (self._limit + dearest * self._unit * len(self._team.order)) * 4 > MOST_WEIGHT:
+            raise TooLargeError
+
+    # -- prefixes
+
+    def _prefixes(self) -> None:
+        """All strands, epoch by epoch, and the states that windows open in."""
+        start = self._problem.pack([self._question.task.init])
+        assert start is not None, "the initial state is reached"
+        strands = [_Strand(0, Front(start, np.zeros(1, np.int64)))]
+        for epoch in range(len(self._graph)):
+            self._strands.append(strands)
+            self._openings.append(self._merged([strand.front for strand in strands]))
+            if epoch + 1 < len(self._graph):
+                strands = self._following(strands, epoch)
+
+    def _following(self, strands: list[_Strand], epoch: int) -> list[_Strand]:
+        known: dict[object, int] = {}
+        following: list[_Strand] = []
+        for strand in strands:
+            for action, node in self._graph.moves[epoch][strand.node]:
+                front = self._beside(strand.front, action)
+                key = node, front.states.tobytes(), front.paid.tobytes()
+                if key not in known:
+                    known[key] = len(following)
+                    following.append(_Strand(node, front))
+                strand.moves[action] = known[key]
+        return following
+
+    def _beside(self, front: Front, action: int) -> Front:
+        """What robots can have brought about when the human has done one more step, in order."""
+        self._deadline.check()
+        if not len(front.states):
+            return front
+        if action not in self._numbers:
+            raise OtherMethodError("an optimal plan has an action that has no bearing on its goal")
+        his = np.array([self._numbers[action]], np.int64)
+        pieces = self._team.steps(front.states, his, wait=False)
+        after = [Front(piece.after, front.paid[piece.before] + piece.cost * self._unit) for piece in pieces]
+        merged = self._hopeful(self._merged(after), self._epoch)
+        order = np.lexsort(merged.states.T)
+        return Front(merged.states[order], merged.paid[order])
+
+    # -- windows
+
+    def _inside(self, before: list[Front]) -> Front:
+        """The states after one more epoch of windows."""
+        after = []
+        for front in before:
+            for piece in self._team.steps(front.states):
+                paid = front.paid[piece.before] + piece.cost * self._unit + self._epoch
+                after.append(self._hopeful(Front(piece.after, paid), 0))
+        return self._merged(after)
+
+    def _merged(self, fronts: list[Front]) -> Front:
+        """Each state once, at its least price."""
+        table = StateTable(self._layout.words, self._deadline)
+        least = np.zeros(0, np.int64)
+        for front in fronts:
+            self._deadline.check()
+            numbers, new = table.numbers(front.states)
+            least = np.concatenate((least, np.full(len(new), FAR)))
+            np.minimum.at(least, numbers, front.paid)
+        self.states += len(least)
+        return Front(table.rows.copy(), least)
+
+    def _hopeful(self, front: Front, rest: int) -> Front:
+        """The states that may still lead to a score within the limit; ``rest`` has to be paid in any case."""
+        most = self._limit // self._unit + 1  # more than that is too much
+        left = np.minimum(self._problem.bounds(front.states), most)
+        total = front.paid + left * self._unit + rest
+        kept = total < self._limit
+        return Front(front.states[kept], front.paid[kept])
+
+    def _value(self) -> None:
+        """What each state in which a window may open is worth, from the last epoch backwards."""
+        horizon, nobody = self._question.horizon, Front(np.zeros((0, self._layout.words), np.uint64), _NONE)
+        inside = [nobody]
+        for epoch in range(1, horizon + 1):
+            openings = self._openings[epoch - 1 : epoch]
+            inside.append(self._inside([front for front in (*openings, inside[-1]) if len(front.states)]))
+        worth = nobody.paid
+        for epoch in range(horizon, 0, -1):
+            front = inside[epoch]
+            ended = self._ended(front.states, horizon - epoch)
+            if epoch < horizon:
+                ended = np.minimum(ended, self._onward(front.states, inside[epoch + 1], worth))
+            worth = ended
+            if epoch <= len(self._openings):
+                opening = self._openings[epoch - 1]
+                self._open(self._strands[epoch - 1], opening, self._onward(opening.states, front, worth))
+
+    def _onward(self, states: Words, following: Front, worth: Ints) -> Ints:
+        """The least score of one more epoch of the window and what follows."""
+        known = _Worths(following.states, worth, self._deadline)
+        least = np.full(len(states), FAR)
+        for piece in self._team.steps(states):
+            rest = known.of(piece.after)
+            reached = rest < FAR
+            total = rest[reached] + piece.cost[reached] * self._unit + self._epoch
+            np.minimum.at(least, piece.before[reached], total)
+        return least
+
+    def _ended(self, states: Words, left: int) -> Ints:
+        """The score of the human's own optimal plan, where the window is over and it fits."""
+        found = np.full(len(states), FAR)
+        own, of = np.unique(states & self._mask, axis=0, return_inverse=True)
+        for number, row in enumerate(self._deadline.each(list(own))):
+            worth = self._plans.worth(self._layout.facts_of(row) | self._constant)
+            paid = None if worth is None or worth[1] > left else self._question.prices.units(worth[0])
+            if paid is not None and paid < self._base:  # else it is beyond the limit
+                found[of.ravel() == number] = paid * self._unit
+        return found
+
+    def _open(self, strands: list[_Strand], opening: Front, worth: Ints) -> None:
+        """What windows that open now are worth beside each strand."""
+        known = _Worths(opening.states, worth, self._deadline)
+        for strand in strands:
+            if len(strand.front.states):
+                rest = known.of(strand.front.states)
+                total = np.where(rest < FAR, rest + strand.front.paid, FAR)
+                strand.best = int(total.min())
+
+    # -- plans
+
+    def beside(self, plan: HumanPlan) -> Score | None:
+        """The best score beside an optimal plan; None where nothing undercuts leaving the human alone."""
+        best, number = _NEVER, 0
+        for strands, action in zip(self._strands, plan, strict=True):
+            strand = strands[number]
+            best = min(best, strand.best)
+            number = strand.moves.get(action, 0)
+        return self._score(best)
+
+    def _counted(self) -> Counter[Score | None]:
+        """The plans, counted by their scores: along the strands, with the best so far."""
+        counts: dict[int, Counter[int]] = {0: Counter({_NEVER: 1})}
+        for epoch, strands in enumerate(self._strands):
+            after: dict[int, Counter[int]] = {}
+            for number, ways in counts.items():
+                strand = strands[number]
+                best: Counter[int] = Counter()
+                for score, count in ways.items():
+                    best[min(score, strand.best)] += count
+                for action, _ in self._graph.moves[epoch][strand.node]:
+                    after.setdefault(strand.moves.get(action, 0), Counter()).update(best)
+            counts = after
+        found: Counter[Score | None] = Counter()
+        for ways in counts.values():
+            for score, count in ways.items():
+                found[self._score(score)] += count
+        return found
+
+    def _score(self, score: int) -> Score | None:
+        return divmod(score, self._base) if score < self._limit else None
