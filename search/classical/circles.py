@@ -34,7 +34,7 @@ def circles(
     Raises:
         TooManyError: they are too many to be looked for.
     """
-    disabled = _disabled(packed, operators, deadline)
+    disabled = _in_turn(_disabled(packed, operators, deadline), deadline)
     steps = 0
     for first in sorted(disabled):
         ways: list[tuple[int, ...]] = [(first,)]
@@ -49,6 +49,25 @@ def circles(
                     yield tuple(operators[i] for i in way)
                 elif after > first and after not in way and _fits(packed, operators, way, after):
                     ways.append((*way, after))
+
+
+def _in_turn(disabled: dict[int, list[int]], deadline: Deadline) -> dict[int, list[int]]:
+    """Leaves out who disables nobody, as long as there is anybody: the others may be in circles."""
+    by: dict[int, list[int]] = {}
+    for number, others in disabled.items():
+        deadline.tick()
+        for other in others:
+            by.setdefault(other, []).append(number)
+    left = {number: len(others) for number, others in disabled.items()}
+    idle = [number for number in by if number not in left]
+    while idle:
+        deadline.tick()
+        for number in by.get(idle.pop(), ()):
+            left[number] -= 1
+            if not left[number]:
+                del left[number]
+                idle.append(number)
+    return {number: [other for other in disabled[number] if other in left] for number in left}
 
 
 Asking = dict[tuple[int, int], dict[int, list[int]]]
