@@ -30,7 +30,7 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     left = planner.cheapest(state, deadline)
     if left >= NO_PLAN:
         return None
-    rest = in_order(operators, planner.known_plan(state) or (), deadline)
+    rest = in_order(operators, planner.known_plan(state) or ())
     amounts = [planner.problem.amount(weight) for weight in planner.problem.weights]
     plan: list[int] = []
     refuted: set[int] = set()
@@ -40,11 +40,10 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
                 break
             if number in refuted:
                 continue
-            deadline.check()
             op = operators[number]
             after, amount = state & op.keep | op.put, left - amounts[number]
-            if amount >= 0 and planner.cheapest(after, deadline, amount + 1) == amount:
-                rest = [number, *in_order(operators, planner.known_plan(after) or (), deadline)]
+            if amount >= 0 and planner.cheapest(after, deadline, amount + 1, before=number) == amount:
+                rest = [number, *in_order(operators, planner.known_plan(after) or ())]
                 break
             refuted.add(number)
         chosen = operators[rest[0]]
@@ -54,21 +53,16 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     return plan
 
 
-def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadline) -> list[int]:
+def in_order(operators: Sequence[Operator], plan: Sequence[int]) -> list[int]:
     """Of all orders in which a plan's operators do the same the first.
 
     Args:
         operators: of the problem.
         plan: some of them, by their numbers, as they can be done one after another.
-        deadline: polled.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     waits = [0] * len(plan)
     after: list[list[int]] = [[] for _ in plan]
     for later, number in enumerate(plan):
-        deadline.check()
         for earlier in range(later):
             if not _independent(operators[plan[earlier]], operators[number]):
                 after[earlier].append(later)

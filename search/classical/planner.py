@@ -33,6 +33,9 @@ _MOST_TRANSITIONS: Final = 3_000_000
 _MOST_ORDERS: Final = 10
 _SAMPLES: Final = 50
 
+_NONE: Final = -1
+"""No operator."""
+
 _RUNNING, _FOUND, _NOT_BELOW, _HOPELESS, _MEMORY = range(5)
 
 
@@ -54,7 +57,7 @@ class _Spec(ctypes.Structure):
 _SIGNATURES: Final = {
     "planner_new": (c_void_p, [c_void_p]),
     "planner_free": (None, [c_void_p]),
-    "planner_begin": (c_int, [c_void_p, c_char_p, c_int64, c_size_t]),
+    "planner_begin": (c_int, [c_void_p, c_char_p, c_int32, c_int64, c_size_t]),
     "planner_run": (c_int, [c_void_p, c_double, c_size_t]),
     "planner_begin_greedy": (c_int, [c_void_p, c_char_p, c_size_t]),
     "planner_run_greedy": (c_int, [c_void_p, c_double, c_size_t]),
@@ -154,6 +157,7 @@ class ClassicalPlanner:
         deadline: Deadline,
         limit: int = NO_PLAN,
         on_bound: Callable[[int], None] | None = None,
+        before: int = _NONE,
     ) -> int:
         """The amount of a cheapest plan from a packed state; any value from ``limit`` on means "not below".
 
@@ -162,6 +166,7 @@ class ClassicalPlanner:
             deadline: polled.
             limit: what is dearer does not matter.
             on_bound: told now and then what no plan is cheaper than.
+            before: an operator that leads to the state: only such plans matter as go on from it optimally.
 
         Raises:
             LimitReachedError: the deadline came first.
@@ -169,7 +174,7 @@ class ClassicalPlanner:
         kernel, planner = self._kernel, self._planner
         row, most = self._row(state), self.problem.limit(limit)
         self._asked = state & self._mask
-        self._allowed(lambda room: kernel.planner_begin(planner, row, most, room), deadline)
+        self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
         while self._allowed(lambda room: kernel.planner_run(planner, _SLICE, room), deadline) == _RUNNING:
             deadline.check()
             if on_bound is not None:

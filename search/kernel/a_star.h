@@ -40,7 +40,7 @@ typedef struct {
 static int a_star_new(AStar *s, const Problem *p, Relaxation *r, Lookahead *l) {
     s->problem = p, s->relaxation = r, s->lookahead = l, s->table.words = p->words;
     s->row = malloc((size_t)p->words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
-    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem) && stubborn_new(&s->stubborn, p);
+    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem, p) && stubborn_new(&s->stubborn, p);
 }
 
 static void a_star_free(AStar *s) {
@@ -49,15 +49,18 @@ static void a_star_free(AStar *s) {
     free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->plan.at), free(s->spare.at), free(s->row);
 }
 
+/* What is left from a node, at least, for an optimal plan that comes by it. */
+static Cost left_from(const Node *node) { return node->exact || node->onward < node->rest ? node->rest : node->onward; }
+
 static void open_node(AStar *s, int32_t id) {
     const Node *node = node_of(&s->table, id);
-    if (node->rest == INFINITE_COST) return;
-    Cost total = node->spent + node->rest;
+    if (left_from(node) == INFINITE_COST) return;
+    Cost total = node->spent + left_from(node);
     if (total >= s->limit) {
         s->cut_off = 1;
         return;
     }
-    heap_push(&s->open, (Entry){total, node->rest, id, s->serial++});
+    heap_push(&s->open, (Entry){total, left_from(node), id, s->serial++});
 }
 
 static int first_first(const void *a, const void *b) { return *(const int32_t *)a - *(const int32_t *)b; }
@@ -124,7 +127,8 @@ static int finish(AStar *s, int outcome, Cost total) {
     return outcome;
 }
 
-static int a_star_begin(AStar *s, const Word *state, Cost limit, size_t allowed) {
+/* `before`: the operator that an optimal plan begins with, and goes on with one from here; NONE: this is the first. */
+static int a_star_begin(AStar *s, const Word *state, int32_t before, Cost limit, size_t allowed) {
     s->open.count = s->closed.count = 0;
     s->least = 0;
     grant(&s->table, allowed);
@@ -135,13 +139,25 @@ static int a_star_begin(AStar *s, const Word *state, Cost limit, size_t allowed)
     if (is_new) look_up(&s->evaluator, s->problem, node, state);
     s->limit = limit, s->cut_off = 0, s->serial = 0, s->has_plan = 0, s->nearest = INFINITE_COST;
     s->stamp++;
-    node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = NONE;
+    node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = before, node->onward = 0;
     open_node(s, s->start);
     return RUNNING;
 }
 
 /* Of equal entries the latest is expanded first, so the first operator comes last: plans are found near the canonical one. */
 static int later_first(const void *a, const void *b) { return *(const int32_t *)b - *(const int32_t *)a; }
+
+/* A node can be come by at the same cost by another operator. */
+static void come_by(AStar *s, int32_t id, int32_t op) {
+    Node *node = node_of(&s->table, id);
+    if (node->closed || node->onward == SEVERAL || node->op == NONE) return;
+    Intentions *intentions = &s->evaluator.intentions;
+    const RelaxedProblem *x = &s->relaxation->problem;
+    if (node->op == op || users_of(intentions, s->problem, x, node->op) == users_of(intentions, s->problem, x, op)) return;
+    int is_open = node->onward > node->rest;
+    node->onward = SEVERAL;
+    if (is_open) open_node(s, id);
+}
 
 static void expand(AStar *s, int32_t id) {
     const Problem *p = s->problem;
@@ -163,8 +179,11 @@ static void expand(AStar *s, int32_t id) {
         s->generated++;
         Cost spent = node->spent + p->weight[op];
         if (is_new) look_up(&s->evaluator, p, after, s->row);
-        if (after->stamp == s->stamp && after->spent <= spent) continue;
-        after->stamp = s->stamp, after->spent = spent, after->parent = id, after->op = op, after->closed = 0;
+        if (after->stamp == s->stamp && after->spent <= spent) {
+            if (after->spent == spent) come_by(s, next, op);
+            continue;
+        }
+        after->stamp = s->stamp, after->spent = spent, after->parent = id, after->op = op, after->closed = 0, after->onward = 0;
         if (!after->exact) {
             Cost rest = node->rest - p->weight[op];
             Cost known = fresh ? rest_after(&s->evaluator, &s->relaxation->problem, op) : 0;
@@ -182,7 +201,7 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
     while (s->open.count) {
         Entry entry = s->open.at[0];
         Node *node = node_of(&s->table, entry.item);
-        if (node->closed || entry.key != node->spent + node->rest) {
+        if (node->closed || entry.key != node->spent + left_from(node)) {
             heap_pop(&s->open);
             continue;
         }
@@ -197,9 +216,11 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
             break;
         }
         look_up(&s->evaluator, p, node, state);
-        if (node->evaluated < N_TURNS && node->rest < INFINITE_COST && node->spent + node->rest == entry.key)
+        if (node->evaluated < N_TURNS && left_from(node) < INFINITE_COST && node->spent + left_from(node) == entry.key)
             evaluate(&s->evaluator, p, s->relaxation, node, state);
-        if (node->rest == INFINITE_COST || node->spent + node->rest != entry.key) {
+        if (node->evaluated == N_TURNS && node->rest < INFINITE_COST && node->spent + left_from(node) == entry.key)
+            evaluate_onward(&s->evaluator, p, s->relaxation, node, state);
+        if (left_from(node) == INFINITE_COST || node->spent + left_from(node) != entry.key) {
             heap_pop(&s->open);
             open_node(s, entry.item);
             continue;

@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "cost_partitioning.h"
+#include "intended_effects.h"
 #include "lm_cut.h"
 #include "problem.h"
 #include "relaxation.h"
@@ -20,18 +21,21 @@ enum { TRIALS = 500, SELDOM = 20 };
 typedef struct {
     LmCut lm_cut;
     Projections projections;
-    /* how often LM-cut was asked, by turns, said more than what was known, and was not asked */
-    int64_t asked[N_TURNS], raised[N_TURNS], skipped[N_TURNS];
+    Intentions intentions;
+    /* how often LM-cut was asked, by turns and for an operator alone, said more than what was known, and was not asked */
+    int64_t asked[N_TURNS + 1], raised[N_TURNS + 1], skipped[N_TURNS + 1];
     int64_t evaluated;
     const Word *rests_of; /* the state whose landmarks `rests` is about */
     Cost *rests;          /* per relaxed operator what is left after it; last: after those that are no relaxed ones */
 } Evaluator;
 
-static int evaluator_new(Evaluator *s, const RelaxedProblem *x) {
-    return (s->rests = malloc(((size_t)x->n_ops + 1) * sizeof(Cost))) && lm_cut_new(&s->lm_cut, x);
+static int evaluator_new(Evaluator *s, const RelaxedProblem *x, const Problem *p) {
+    return intentions_new(&s->intentions, p, x) && (s->rests = malloc(((size_t)x->n_ops + 1) * sizeof(Cost))) && lm_cut_new(&s->lm_cut, x);
 }
 
-static void evaluator_free(Evaluator *s) { lm_cut_free(&s->lm_cut), projections_free(&s->projections), free(s->rests); }
+static void evaluator_free(Evaluator *s) {
+    lm_cut_free(&s->lm_cut), projections_free(&s->projections), intentions_free(&s->intentions), free(s->rests);
+}
 
 /* What projections say of a node, once. */
 static void look_up(const Evaluator *s, const Problem *p, Node *node, const Word *state) {
@@ -61,6 +65,13 @@ static void keep_rests(Evaluator *s, const Relaxation *r, const Word *state, Cos
     if (total > s->rests[x->n_ops]) s->rests[x->n_ops] = total;
 }
 
+/* What LM-cut has left says of plans that intend what the operator before does. */
+static void look_onward(Evaluator *s, const Problem *p, const Relaxation *r, Node *node, const Word *state, Cost total) {
+    if (node->op == NONE || node->onward == SEVERAL) return;
+    Cost onward = with_intention(&s->intentions, p, r, node->op, state, total);
+    if (onward > node->onward) node->onward = onward;
+}
+
 /* What the next turn of LM-cut says of a node. */
 static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, Node *node, const Word *state) {
     int32_t turn = node->evaluated++;
@@ -73,6 +84,15 @@ static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, Node *node, 
         return;
     }
     keep_rests(s, r, state, rest);
+    look_onward(s, p, r, node, state, rest);
+}
+
+/* The same for the operator that the best way to the node ends with, where this was not asked together with LM-cut. */
+static void evaluate_onward(Evaluator *s, const Problem *p, Relaxation *r, Node *node, const Word *state) {
+    if (node->onward || node->op == NONE || users_of(&s->intentions, p, &r->problem, node->op) < 0 || !pays(s, N_TURNS)) return;
+    s->evaluated++, s->asked[N_TURNS]++;
+    look_onward(s, p, r, node, state, lm_cut(&s->lm_cut, r, p, state, 0));
+    if (node->onward > node->rest) s->raised[N_TURNS]++;
 }
 
 /* What is known to be left after an operator, from the state that was evaluated last. */

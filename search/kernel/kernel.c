@@ -10,6 +10,7 @@
      api                                   what Python calls
      a_star, greedy_search                 the searches
      learning, evaluation, stubborn_sets   what A* learns of states; bounds of nodes; which operators it leaves out
+     intended_effects                      operators that optimal plans need after others
      lm_cut, relaxed_plan                  bounds and first steps from the delete relaxation: LM-cut, FF
      cost_partitioning                     bounds from projections that add up
      relaxation, relaxed_problem           the problem without deletes, explored from a state

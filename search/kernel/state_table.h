@@ -12,10 +12,11 @@
 #include "lists.h"
 #include "values.h"
 
-enum { CHUNK_BITS = 12, CHUNK = 1 << CHUNK_BITS };
+enum { SEVERAL = -1, CHUNK_BITS = 12, CHUNK = 1 << CHUNK_BITS };
 
 typedef struct {
     Cost spent, rest; /* spent in the search `stamp`; rest: no plan from here is cheaper */
+    Cost onward;      /* no optimal plan that comes by `op` is cheaper from here; 0: not known; SEVERAL: of more than one */
     int32_t parent, op;
     uint32_t stamp;
     uint8_t exact, evaluated, projected, closed;
@@ -135,7 +136,7 @@ static int32_t find(Table *t, const Word *state, int *is_new) {
     int32_t id = t->count++;
     t->slots[i] = id;
     memcpy(state_of(t, id), state, (size_t)t->words * sizeof *state);
-    memset(node_of(t, id), 0, sizeof(Node));
+    *node_of(t, id) = (Node){.parent = NONE, .op = NONE};
     *is_new = 1;
     return id;
 }

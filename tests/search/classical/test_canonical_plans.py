@@ -110,8 +110,7 @@ def test_operators_that_have_nothing_to_do_with_each_other_are_sorted() -> None:
         return Operator(asks, 0, ~sets, sets, ((forbids, forbids),) if forbids else (), 0, 1, 0)
 
     free = [op(0b0001, 0b0001), op(0b0010, 0b0010), op(0b0100, 0b0100)]
-    ever = Deadline()
-    assert in_order(free, [2, 1, 0], ever) == [0, 1, 2]
-    assert in_order([op(0b0010, 0b0001), *free[1:]], [2, 1, 0], ever) == [1, 0, 2]  # 0 asks for what 1 sets
-    assert in_order([op(0, 0b0010), *free[1:]], [2, 1, 0], ever) == [1, 0, 2]  # both set it
-    assert in_order([op(0, 0b0001, 0b0010), *free[1:]], [2, 1, 0], ever) == [1, 0, 2]  # 0 must not find it
+    assert in_order(free, [2, 1, 0]) == [0, 1, 2]
+    assert in_order([op(0b0010, 0b0001), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # 0 asks for what 1 sets
+    assert in_order([op(0, 0b0010), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # both set it
+    assert in_order([op(0, 0b0001, 0b0010), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # 0 must not find it
