@@ -17,7 +17,7 @@ from search.human.plan_graph import PlanGraph
 from search.joint_plans import JointPlans
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
-from search.prediction import Prediction, expected_plan, individual_answers
+from search.prediction import Prediction, answers_at_once, expected_plan, individual_answers, plan_at_hand
 from search.prepared_task import PreparedTask
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
@@ -64,7 +64,8 @@ def solve(
         if options.mode == "individual":
             yield from individual_answers(context, human_plan)
             return
-        expected = expected_plan(context, human_plan)
+        yield from answers_at_once(context, at_hand := plan_at_hand(context, human_plan))
+        expected = expected_plan(context, human_plan, at_hand)
         if expected is None and (options.mode == "serendipity" or options.keep_prefix):
             answers = iter((Answer("infeasible", reason="no-human-plan"),))
         else:
@@ -119,7 +120,7 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
         LimitReachedError: the deadline ran out.
     """
-    expected = expected_plan(context, human_plan)
+    expected = expected_plan(context, human_plan, plan_at_hand(context, human_plan))
     if expected is None:
         return None
     call = _Call(context, expected, given=human_plan is not None)
@@ -344,8 +345,7 @@ class _Call:
         return self.baseline if self.options.windowed and not self._helps() else self.best
 
     def _outcome(self, status: str) -> Answer:
-        helps = self._helps()
-        answer = self._answer()
+        helps, answer = self._helps(), self._answer()
         has_plan = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
         cost = self.keys.cost(answer.key) if has_plan else None
         baseline = self.keys.cost(self.baseline.key) if self.baseline.key < INFINITE_KEY else None

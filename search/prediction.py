@@ -9,6 +9,8 @@ from search.engine.paths import plan_steps
 from search.human.individual_planner import FoundPlan
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
+from serendipity.model.options import INFINITE
+from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.task import HumanPlan
 
 _SHARE: Final = 0.4
@@ -27,8 +29,8 @@ class Prediction(NamedTuple):
     optimal: bool
 
 
-def expected_plan(context: SearchContext, given: HumanPlan | None) -> Prediction | None:
-    """``pi_H``: the given plan, else the canonical one, or another where the deadline is near; None if none.
+def plan_at_hand(context: SearchContext, given: HumanPlan | None) -> HumanPlan | None:
+    """Some plan of the human's where an optimal one may take long and is asked for; None elsewhere.
 
     Args:
         context: of the call.
@@ -37,17 +39,48 @@ def expected_plan(context: SearchContext, given: HumanPlan | None) -> Prediction
     Raises:
         LimitReachedError: the deadline came before any plan.
     """
+    return context.alone.first_plan(context.packed.init) if given is None and context.is_shared else None
+
+
+def answers_at_once(context: SearchContext, at_hand: HumanPlan | None) -> Iterator[Answer]:
+    """Doing nothing beside a plan that is at hand, where nothing speaks against it; no bound is known yet.
+
+    Args:
+        context: of the call.
+        at_hand: what :func:`plan_at_hand` found.
+    """
+    horizon = context.options.horizon
+    if at_hand is None or context.task.robot_goal:
+        return
+    if horizon is None or horizon == INFINITE or len(at_hand) <= int(horizon):
+        answer = _some(context, FoundPlan(at_hand, 0, 0), proved=False)
+        horizon = horizon_of(context.task, context.options, at_hand)
+        yield answer._replace(horizon=horizon, lower_bound=Fraction(0))
+
+
+def expected_plan(
+    context: SearchContext, given: HumanPlan | None, at_hand: HumanPlan | None
+) -> Prediction | None:
+    """``pi_H``: the given plan, else the canonical one, or another where the deadline is near; None if none.
+
+    Args:
+        context: of the call.
+        given: ``pi_H``, already replayed, or None to predict it.
+        at_hand: what :func:`plan_at_hand` found.
+
+    Raises:
+        LimitReachedError: the deadline came before any plan.
+    """
     if given is not None:
         return Prediction(given, optimal=False)
-    first = context.alone.first_plan(context.packed.init) if context.is_shared else None
-    if first is None:
+    if at_hand is None:
         optimal = context.canonical_plan()
         return None if optimal is None else Prediction(optimal.actions, optimal=True)
     try:
         optimal = context.under(context.deadline.part(_SHARE)).canonical_plan()
     except LimitReachedError:
         context.deadline.check()
-        best = _cheaper(context, first).actions
+        best = _cheaper(context, at_hand).actions
         return Prediction(best, optimal=context.task.cost_of(best) <= _least(context))
     assert optimal is not None, "there is a plan"
     return Prediction(optimal.actions, optimal=True)
@@ -62,9 +95,7 @@ def individual_answers(context: SearchContext, human_plan: HumanPlan | None) -> 
     """
     known: Answer | None = None
     try:
-        first = human_plan
-        if first is None and context.is_shared:
-            first = context.alone.first_plan(context.packed.init)
+        first = plan_at_hand(context, human_plan) if human_plan is None else human_plan
         if first is not None:
             known = _some(context, FoundPlan(first, 0, 0), proved=False)
             yield known
