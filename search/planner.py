@@ -221,9 +221,11 @@ class _Call:
         longer = INFINITE_KEY if self.options.max_window == 1 else progress.bound + self.keys.epoch_weight
         if not self.options.windowed or not self.plan or best.key >= longer:
             return False
-        with suppress(EnoughError):
-            yield from best_first(Few(self._space(), FIRST), best, progress, self.deadline, self._ties())
+        with suppress(EnoughError, LimitReachedError):
+            few, part = Few(self._space(), FIRST), self.deadline.part(_SOON)
+            yield from best_first(few, best, progress, part, self._ties())
             return True
+        self.deadline.check()
         yield from one_by_one(self.context, self.plan, int(self.horizon), best, progress, longer)
         return False
 

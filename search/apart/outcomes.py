@@ -6,7 +6,7 @@ in one field.
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,8 +72,9 @@ class Together:
 
     Args:
         apart: what each of them can leave behind.
+        nets: per robot and outcome what it costs, less the most that it saves the human.
         fields: those that they set and that matter to the human.
-        most: what costs as much is left out.
+        most: where the sum of nets is as much, outcomes are left out.
         deadline: polled; asked for memory.
 
     Attributes:
@@ -84,52 +85,75 @@ class Together:
     """
 
     def __init__(
-        self, apart: Sequence[Outcomes], fields: Sequence[int], most: int, deadline: Deadline
+        self,
+        apart: Sequence[Outcomes],
+        nets: Sequence[Amounts],
+        fields: Sequence[int],
+        most: int,
+        deadline: Deadline,
     ) -> None:
         self._deadline = deadline
-        self._most = most
         self._fields = [column(field, apart[0].rows.shape[0]) for field in fields]
+        best = [int(net.min(initial=0)) for net in nets]
         self.found, self._parts = _only(apart[0])
-        for more in apart[1:]:
-            self._join(more)
+        self._nets = nets[0]
+        self._keep(self._nets < most - sum(best[1:]))
+        for number, more in enumerate(apart[1:], 1):
+            self._join(more, nets[number], most - sum(best[number + 1 :]))
 
     def parts(self, place: int) -> list[int]:
         """Places of each robot's own outcome, for one of all together."""
         return [int(part) for part in self._parts[:, place]]
 
-    def _join(self, more: Outcomes) -> None:
-        known, parts = self.found, self._parts
-        if len(known.amounts) * len(more.amounts) > _MOST_PAIRS:
-            raise TooManyStatesError
-        mine, theirs = self._mentioned(known.rows), self._mentioned(more.rows)
-        rows, amounts, places = [], [], []
-        size = 0
-        self.found, self._parts = Outcomes(known.rows[:, :0], known.amounts[:0]), parts[:, :0]
-        self._parts = np.concatenate([self._parts, self._parts[:1]])
-        for i, amount in enumerate(known.amounts):
-            self._deadline.tick()
-            fits = more.amounts + amount < self._most
-            for word, row in enumerate(theirs):
-                fits &= (row & mine[word, i]) == 0
-            chosen = fits.nonzero()[0]
-            rows.append(more.rows[:, chosen] | known.rows[:, i : i + 1])
-            amounts.append(more.amounts[chosen] + amount)
-            places.append(np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [chosen]]))
-            size += len(chosen)
-            if size > _AT_ONCE:
-                self._add(rows, amounts, places)
-                rows, amounts, places, size = [], [], [], 0
-        self._add(rows, amounts, places)
+    def _keep(self, chosen: NDArray[Any]) -> None:
+        """Leave out all others."""
+        found = self.found
+        self.found, self._parts = (
+            Outcomes(found.rows[:, chosen], found.amounts[chosen]),
+            self._parts[:, chosen],
+        )
+        self._nets = self._nets[chosen]
 
-    def _add(self, rows: list[Rows], amounts: list[Amounts], places: list[Parts]) -> None:
-        every = np.concatenate([self.found.rows, *rows], axis=1)
-        paid = np.concatenate([self.found.amounts, *amounts])
-        parts = np.concatenate([self._parts, *places], axis=1)
+    def _join(self, more: Outcomes, nets: Amounts, most: int) -> None:
+        """One more robot; ``most``: where the sum of nets is as much, outcomes are left out."""
+        order = nets.argsort(kind="stable")
+        nets, rows = nets[order], more.rows[:, order]
+        known, parts, known_nets = self.found, self._parts, self._nets
+        ends = np.searchsorted(nets, most - known_nets)
+        if int(ends.sum()) > _MOST_PAIRS:
+            raise TooManyStatesError
+        mine, theirs = self._mentioned(known.rows), self._mentioned(rows)
+        self._keep(np.zeros(0, dtype=np.intp))
+        self._parts = np.concatenate([self._parts, self._parts[:1]])
+        batch = _Batch()
+        for i in ends.nonzero()[0]:
+            self._deadline.tick()
+            end = int(ends[i])
+            chosen = np.flatnonzero(~(theirs[:, :end] & mine[:, i : i + 1]).any(axis=0))
+            places = order[chosen]
+            batch.rows.append(rows[:, chosen] | known.rows[:, i : i + 1])
+            batch.amounts.append(more.amounts[places] + known.amounts[i])
+            batch.nets.append(nets[chosen] + known_nets[i])
+            batch.parts.append(
+                np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [places]])
+            )
+            batch.size += len(chosen)
+            if batch.size > _AT_ONCE:
+                self._add(batch)
+                batch = _Batch()
+        self._add(batch)
+
+    def _add(self, batch: "_Batch") -> None:
+        every = np.concatenate([self.found.rows, *batch.rows], axis=1)
+        paid = np.concatenate([self.found.amounts, *batch.amounts])
+        parts = np.concatenate([self._parts, *batch.parts], axis=1)
+        nets = np.concatenate([self._nets, *batch.nets])
         self._deadline.require(3 * every.nbytes)
         kept = cheapest(every, paid)
         if len(kept) > MOST_OUTCOMES:
             raise TooManyStatesError
         self.found, self._parts = Outcomes(every[:, kept], paid[kept]), parts[:, kept].astype(np.int32)
+        self._nets = nets[kept]
 
     def _mentioned(self, rows: Rows) -> Rows:
         """The fields in which outcomes differ from what is there without any robot, whole."""
@@ -146,3 +170,14 @@ def _least(rows: Rows, amounts: Amounts) -> Outcomes:
 
 def _only(outcomes: Outcomes) -> tuple[Outcomes, Parts]:
     return outcomes, np.arange(len(outcomes.amounts), dtype=np.int32).reshape(1, -1)
+
+
+class _Batch:
+    """What is put together before it is compared with what was found."""
+
+    def __init__(self) -> None:
+        self.rows: list[Rows] = []
+        self.amounts: list[Amounts] = []
+        self.nets: list[Amounts] = []
+        self.parts: list[Parts] = []
+        self.size = 0

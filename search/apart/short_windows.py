@@ -6,25 +6,28 @@ together in every way, and what the human pays from there on their own, exactly.
 another, each may help itself to what others can have provided by then, for nothing: then it is a lower bound.
 """
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Final
 
 from search.apart.conditions import are_apart, lost_values
-from search.apart.outcomes import Outcomes, Together, outcomes
-from search.apart.provision import by_others, provisions
-from search.apart.rows import states
-from search.apart.timeline import Timeline
+from search.apart.landmarks import FAR, Landmarks
+from search.apart.one_window import ACTION, OneWindow, amount_from
+from search.apart.provision import Provision, by_others, provisions
+from search.apart.timeline import Timeline, TooManyStatesError
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Operator
+from search.packed.operators import Operator, split
+from search.packed.packed_task import PackedTask
 from search.spaces.from_composite import Suggestions
+from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.task import HumanPlan
 
-_ACTION: Final = 1 << 24
-"""Amounts are costs in these units, and a number of actions."""
-
 _MOST_AMOUNT: Final = 1 << 62
+
+_SOON: Final = 0.3
+"""What of the time that is left robots may take who don't rely on one another."""
 
 _TRIALS: Final = 20
 """Of what costs least in an epoch so many are tried out, until one can be done."""
@@ -38,9 +41,6 @@ class ShortWindows:
         plan: ``pi_H``.
         horizon: ``T``.
         best: the call's incumbent, which is made better.
-
-    Attributes:
-        bound: no plan with a window of one epoch has a smaller key, but the incumbent.
     """
 
     def __init__(self, context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent) -> None:
@@ -48,155 +48,149 @@ class ShortWindows:
         self._plan = plan
         self._horizon = horizon
         self._best = best
-        self._steps = [context.packed.op(action) for action in plan]
-        packed = context.packed
-        self._robots = sorted({op.agents for op in packed.others})
-        self.bound = 0
+        self._pass: _Pass | None = None
+
+    @property
+    def bound(self) -> int:
+        """No plan with a window of one epoch has a smaller key, but the incumbent."""
+        return 0 if self._pass is None else self._pass.bound
 
     def answers(self) -> Iterator[None]:
         """Yield whenever the incumbent has become better; in the end the bound is as good as it gets.
+
+        What robots come to who don't rely on one another comes first: most of that can be done.
 
         Raises:
             LimitReachedError: the deadline came, or there are too many states; what is known by then is kept.
         """
         context, packed = self._context, self._context.packed
-        base, spent, least = packed.init, context.keys.epoch_weight, INFINITE_KEY
-        lost, timelines = lost_values(packed), self._timelines()
-        for epoch, step in enumerate(self._steps, 1):
-            self.bound = min(least, spent)
-            if spent >= self._best.key:
-                return
-            found = _Epoch(context, timelines, lost, base, self._best.key - spent)
-            start = context.keys.of_start(epoch, self._horizon)
-            cheap = found.cheapest(self._best.key - spent - start)
-            least = min(least, spent + start + cheap[-1][0] if cheap else INFINITE_KEY)
-            for _, place in cheap[: -_TRIALS - 1 : -1]:
-                if self._try(found.ways(place)):
-                    yield
-                    break
-            if epoch < len(self._steps):
-                for timeline in timelines:
-                    timeline.follow()
-            base = base & step.keep | step.put
-            spent += context.weights.team(step)
-        self.bound = least
-
-    def _timelines(self) -> list[Timeline]:
-        context, packed = self._context, self._context.packed
-        strict, deadline = context.options.strict, context.deadline
-        provided = provisions(packed, self._steps, len(self._steps), deadline)
-        return [
-            Timeline(
-                packed,
-                robot,
-                self._steps,
-                by_others(provided, robot),
-                self._amount,
-                strict=strict,
-                deadline=deadline,
-            )
-            for robot in self._robots
-        ]
-
-    def _amount(self, op: Operator) -> int:
-        return self._context.weights.scaled_cost(op) * _ACTION + 1
-
-    def _try(self, epochs: Sequence[Sequence[Operator]]) -> bool:
-        """Whether robots can do this together, and it is the best so far."""
-        best = self._best
-        suggestions = Suggestions(self._context, self._plan, self._horizon, None, best.key)
-        improved = False
-        for found in suggestions.on_time(epochs):
-            best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
-            improved = True
-        return improved
+        steps = [packed.op(action) for action in self._plan]
+        provided = provisions(packed, steps, len(steps), context.deadline)
+        robots = sorted({op.agents for op in packed.others})
+        others = {robot: by_others(provided, robot) for robot in robots}
+        if any(_relies(packed, robot, others[robot]) for robot in robots):
+            soon = context.under(context.deadline.part(_SOON))
+            with suppress(LimitReachedError):
+                nobody = dict.fromkeys(robots, Provision())
+                yield from _Pass(soon, self._plan, self._horizon, self._best, nobody).answers()
+            context.deadline.check()
+        self._pass = _Pass(context, self._plan, self._horizon, self._best, others)
+        yield from self._pass.answers()
 
 
-class _Epoch:
-    """What robots can have left behind if the window is in the next epoch.
+def _relies(packed: PackedTask, robot: int, others: Provision) -> bool:
+    """Whether a robot could make use of what others can provide."""
+    fields = {field & -field: field for field in packed.fields}
+    for op in packed.others:
+        if op.agents == robot:
+            needs = ((field, op.need & field) for field in split(op.need_mask, fields))
+            if any(value in others for value in needs):
+                return True
+            if any(field == other for field, _ in op.forbidden for other, _ in others):
+                return True
+    return False
+
+
+class _Pass:
+    """Windows of one epoch, one after another; arguments as above.
 
     Args:
-        context: of the call.
-        timelines: robots, up to the window.
-        lost: by field the values from which the human can't get to their goal.
-        base: the packed state before it without them.
-        limit: key from which on what they pay is too much.
+        others: per robot what it takes from others for nothing.
     """
 
     def __init__(
         self,
         context: SearchContext,
-        timelines: Sequence[Timeline],
-        lost: Mapping[int, Collection[int]],
-        base: int,
-        limit: int,
+        plan: HumanPlan,
+        horizon: int,
+        best: Incumbent,
+        others: Mapping[int, Provision],
     ) -> None:
         self._context = context
-        self._timelines = timelines
-        self._base = base
-        deadline, fields = context.deadline, context.packed.fields
-        relevant = context.relevant
-        self._apart: list[Outcomes] = []
-        self._shared: list[int] = []
-        for timeline in timelines:
-            others = 0
-            for other in timelines:
-                others |= 0 if other is timeline else other.changes
-            own = [field for field in fields if field & timeline.changes & relevant]
-            self._shared.append(others & sum(own))
-            self._apart.append(outcomes(timeline.ends(), base, own, others, lost))
-        most = _amount_of(context, limit)
-        self._together = Together(self._apart, fields, most, deadline)
+        self._plan = plan
+        self._horizon = horizon
+        self._best = best
+        self._others = others
+        self._windows: list[OneWindow] = []
+        self._ahead = 0
 
-    def cheapest(self, limit: int) -> list[tuple[int, int]]:
-        """Keys and places of what costs less than a limit, and than all before it.
+    @property
+    def bound(self) -> int:
+        """No plan has a smaller key, but the incumbent, if robots take nothing else from others."""
+        return min([self._ahead, *(window.bound for window in self._windows)])
 
-        Args:
-            limit: key that robots' costs and the rest of the human's have to stay below.
+    def answers(self) -> Iterator[None]:
+        """See :meth:`ShortWindows.answers`.
+
+        All windows are looked at before any of them is gone through: a good incumbent saves most of that.
         """
-        context, alone = self._context, self._context.alone
-        found: list[tuple[int, int]] = []
-        amounts = self._together.found.amounts
-        order = amounts.argsort(kind="stable")
-        left = states(self._together.found.rows)
-        for place in order:
-            context.deadline.tick()
-            paid = context.amount_key(int(amounts[place]))
-            if paid >= limit:
-                break
-            state = self._base ^ left[place]
-            if paid + alone.least(state) < limit:
-                rest = alone.key(state, limit - paid)
-                if paid + rest < limit:
-                    limit = paid + rest
-                    found.append((limit, int(place)))
-        return found
+        best = self._best
+        with suppress(TooManyStatesError):
+            for window in self._each():
+                if window.is_open(best.key) and self._tries(window, window.look(best.key)):
+                    yield
+        for window in sorted(self._windows, key=lambda window: window.bound):
+            trials = 0
+            while trials < _TRIALS and window.is_open(best.key):
+                place = window.look(best.key)
+                if self._tries(window, place):
+                    yield
+                elif place is not None:
+                    trials += 1
 
-    def ways(self, place: int) -> list[list[Operator]]:
-        """What robots do epoch by epoch for something that they leave behind."""
-        epochs: list[list[Operator]] = [[] for _ in range(self._timelines[0].epochs + 1)]
-        parts = self._together.parts(place)
-        for timeline, apart, shared, part in zip(
-            self._timelines, self._apart, self._shared, parts, strict=True
-        ):
-            change = states(apart.rows[:, part : part + 1])[0]
-            mask = 0
-            for field in self._context.packed.fields:
-                if field & timeline.changes & self._context.relevant and (
-                    change & field or not field & shared
-                ):
-                    mask |= field
-            for epoch, op in enumerate(
-                timeline.way(mask, (self._base ^ change) & mask, int(apart.amounts[part]))
-            ):
-                if op is not None:
-                    epochs[epoch].append(op)
-        return epochs
+    def _each(self) -> Iterator[OneWindow]:
+        """Windows of one epoch, the earliest first."""
+        context, packed, best = self._context, self._context.packed, self._best
+        steps = [packed.op(action) for action in self._plan]
+        base, spent = packed.init, context.keys.epoch_weight
+        lost, timelines = lost_values(packed), self._timelines(steps)
+        landmarks = Landmarks(packed, self._amount, context.deadline)
+        for epoch, step in enumerate(steps, 1):
+            self._ahead = spent
+            if spent >= best.key:
+                return
+            start = spent + context.keys.of_start(epoch, self._horizon)
+            self._windows.append(OneWindow(context, timelines, landmarks, lost, base, start, best.key))
+            yield self._windows[-1]
+            spent += context.weights.team(step)
+            if epoch < len(steps) and spent < best.key:
+                self._ahead = spent
+                most = amount_from(context, best.key - spent)
+                for timeline in timelines:
+                    timeline.follow(most)
+            base = base & step.keep | step.put
+        self._ahead = INFINITE_KEY
 
+    def _timelines(self, steps: Sequence[Operator]) -> list[Timeline]:
+        context = self._context
+        return [
+            Timeline(
+                context.packed,
+                robot,
+                steps,
+                others,
+                context.relevant,
+                self._amount,
+                strict=context.options.strict,
+                deadline=context.deadline,
+            )
+            for robot, others in self._others.items()
+        ]
 
-def _amount_of(context: SearchContext, key: int) -> int:
-    """An amount from which on no key is below one."""
-    return min((context.keys.scaled_cost(key) + 1) * _ACTION, _MOST_AMOUNT)
+    def _amount(self, op: Operator) -> int:
+        return self._context.weights.scaled_cost(op) * ACTION + 1
+
+    def _tries(self, window: OneWindow, place: int | None) -> bool:
+        """Whether robots can leave something behind together, and it is the best so far."""
+        best = self._best
+        if place is None:
+            return False
+        suggestions = Suggestions(self._context, self._plan, self._horizon, None, best.key)
+        improved = False
+        for found in suggestions.on_time(window.ways(place)):
+            best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
+            improved = True
+        return improved
 
 
 def short_windows(
@@ -220,6 +214,8 @@ def short_windows(
     if context.weights.announces or not are_apart(packed, context.deadline, strict=options.strict):
         return None
     dearest = max(map(context.weights.scaled_cost, packed.others))
-    if dearest * _ACTION * len(plan) * len(context.task.robots) >= _MOST_AMOUNT:
+    if dearest * ACTION * len(plan) * len(context.task.robots) >= _MOST_AMOUNT:
+        return None
+    if sum(map(context.weights.scaled_cost, packed.own)) * ACTION + len(packed.own) >= FAR:
         return None
     return ShortWindows(context, plan, horizon, best)

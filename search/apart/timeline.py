@@ -78,6 +78,7 @@ class Timeline:
         robot: bit of the robot.
         steps: the human's plan, an action an epoch.
         others: what other robots can set, and after how many epochs.
+        relevant: the fields that matter to the human, or to a goal.
         amount: of an operator of the robot's.
         strict: strict interference.
         deadline: polled; asked for memory.
@@ -92,6 +93,7 @@ class Timeline:
         robot: int,
         steps: Sequence[Operator],
         others: Provision,
+        relevant: int,
         amount: Callable[[Operator], int],
         *,
         strict: bool,
@@ -118,9 +120,13 @@ class Timeline:
             self._asked |= op.need_mask
             for field, _ in op.forbidden:
                 self._asked |= field
+        self._relevant = relevant
+        self._every = self._acts, self._local
+        """What the robot can do and the fields that matter, before any of them was forgotten."""
         self._changing = {n.epoch for act in self._acts for n in (*act.needs, *act.forbids)}
         start = column(packed.init & self._local, self._words)
-        self._layers = [Layer(start, np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.bool_))]
+        self._last = Layer(start, np.zeros(1, dtype=np.int64), np.ones(1, dtype=np.bool_))
+        self._layers = [self._last]
         self._free: Layer | None = None
 
     def _act(self, op: Operator, amount: int) -> _Act:
@@ -141,23 +147,74 @@ class Timeline:
         """How many epochs of the human's plan have been followed."""
         return len(self._layers) - 1
 
+    @property
+    def is_exact(self) -> bool:
+        """Whether no field has been forgotten."""
+        return self._local == self._every[1]
+
     def ends(self) -> Layer:
         """States after one more epoch in which the human waits.
 
         Raises:
             LimitReachedError: there are too many, or the deadline came.
         """
-        if self._free is None:
-            self._free = self._moved(self._layers[-1], None)
+        while self._free is None:
+            try:
+                self._free = self._moved(self._last, None)
+            except TooManyStatesError:
+                self._forget()
         return self._free
 
-    def follow(self) -> None:
+    def _forget(self) -> None:
+        """Look no longer at a field of the robot's own: from now on it has whatever value is asked for.
+
+        Of those without which at most half of the states are left it is the one that the fewest ask for.
+
+        Raises:
+            TooManyStatesError: there is no such field.
+        """
+        rows, best = self._last.rows, None
+        for field in split(self.changes & self._local & ~self._relevant, self._fields):
+            kept = cheapest(rows & column(~field & self._local, self._words), self._last.amounts)
+            askers = sum(bool(field & act.op.need_mask) for act in self._acts)
+            if 2 * len(kept) <= rows.shape[1] and (best is None or askers < best[0]):
+                best = askers, field
+        if best is None:
+            raise TooManyStatesError
+        forgotten = best[1]
+        self._local &= ~forgotten
+        self._asked &= ~forgotten
+        self._acts = [
+            act._replace(
+                needs=[literal for literal in act.needs if literal.field != forgotten],
+                forbids=[literal for literal in act.forbids if literal.field != forgotten],
+            )
+            for act in self._acts
+        ]
+        fresh = np.ones(rows.shape[1], dtype=np.bool_)
+        self._free = None
+        self._last = _distinct(rows & column(self._local, self._words), self._last.amounts, fresh)
+
+    def follow(self, most: int) -> None:
         """One more epoch of the human's plan.
+
+        Args:
+            most: states that cost as much are left out.
 
         Raises:
             LimitReachedError: there are too many states, or the deadline came.
         """
-        epoch, step, layer = len(self._layers), self._steps[len(self._layers) - 1], self._layers[-1]
+        while True:
+            try:
+                self._last = self._followed(self._steps[self.epochs], most)
+                break
+            except TooManyStatesError:
+                self._forget()
+        self._layers.append(self._last)
+        self._free = None
+
+    def _followed(self, step: Operator, most: int) -> Layer:
+        epoch, layer = len(self._layers), self._last
         fits = self._allows(step, layer.rows, epoch)
         in_the_way = any(not self._beside(act, step) for act in self._acts)
         if in_the_way or not fits.all():
@@ -166,8 +223,8 @@ class Timeline:
             layer = self.ends()
         rows = self._after(layer.rows, step)
         fresh = layer.fresh | (in_the_way or epoch in self._changing or self._stirs(step))
-        self._layers.append(_distinct(rows, layer.amounts, fresh))
-        self._free = None
+        kept = layer.amounts < most
+        return _distinct(rows[:, kept], layer.amounts[kept], fresh[kept])
 
     def _allows(self, step: Operator, rows: Rows, epoch: int) -> Flags:
         """After which states the human can go on with their plan, unless others see to what is missing."""
@@ -238,18 +295,23 @@ class Timeline:
 
     # -- the way back
 
-    def way(self, mask: int, end: int, amount: int) -> list[Operator | None]:
+    def way(self, epochs: int, mask: int, end: int, amount: int) -> list[Operator | None]:
         """What the robot does epoch by epoch, at a cost, to a state at the end of :meth:`ends`.
 
         Args:
+            epochs: how many of the human's plan had been followed then; no field had been forgotten.
             mask: the fields that are asked about.
             end: their values.
             amount: what it has paid.
         """
         found: list[Operator | None] = []
-        for epoch in range(len(self._layers), 0, -1):
-            op, mask, end, amount = self._before(epoch, mask, end, amount, last=not found)
-            found.append(op)
+        now, (self._acts, self._local) = (self._acts, self._local), self._every
+        try:
+            for epoch in range(epochs + 1, 0, -1):
+                op, mask, end, amount = self._before(epoch, mask, end, amount, last=not found)
+                found.append(op)
+        finally:
+            self._acts, self._local = now
         found.reverse()
         return found
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import search.planner
 import serendipity
+from search.apart import timeline
 from search.apart.short_windows import ShortWindows, short_windows
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
@@ -66,6 +67,27 @@ def test_no_bound_is_above_the_optimum() -> None:
             asked, exact = asked + 1, exact + (found[0] == optimum)
     assert asked > 40
     assert exact > asked * 3 / 4
+
+
+@pytest.mark.parametrize("most", [1, 4])
+def test_bounds_where_robots_have_too_many_states(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
+    """Then what they have for themselves is forgotten, or nothing is said of later windows."""
+    forgotten = []
+    forget = timeline.Timeline._forget
+    monkeypatch.setattr(timeline, "MOST_STATES", most)
+    monkeypatch.setattr(timeline.Timeline, "_forget", lambda self: forget(self) or forgotten.append(self))
+    for seed in range(40):
+        task = _errands(1 + seed % 2, 3)
+        if seed > 1:
+            family = sorted(FAMILIES)[seed % len(FAMILIES)]
+            size, agents = SMALL[family][seed % len(SMALL[family])]
+            task = FAMILIES[family](Random(seed), size, AGENTS[:agents])
+        found = _bound_and_cost(task, ONE_EPOCH.but(discount="9/10"))
+        if found is not None:
+            optimum = best(task, ONE_EPOCH.but(discount="9/10")).cost
+            assert optimum is not None
+            assert found[0] <= optimum <= found[1]
+    assert forgotten or most == 1
 
 
 def test_answers_equal_brute_force(monkeypatch: pytest.MonkeyPatch) -> None:
