@@ -144,5 +144,6 @@ class Stage:
             window=None,
             changes=(),
             result=nothing,
-            vehicles=self._places.vehicles,
+            vehicles=frozenset() if self._places.towers else self._places.vehicles,
+            towers=self._places.towers,
         )

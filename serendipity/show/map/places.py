@@ -4,7 +4,8 @@ An agent's own *moves* take away one fact and add another of the same predicate:
 hall1``, ``at commx hall2``.  Facts that moves connect, of which at most one is true initially
 and whose common words speak of the agent or of nobody in particular, tell its position;
 what differs between them is the place.  What agents move that is none of them (``at van hall1``),
-by facts of the same predicate, is a vehicle: where it gets is a place, too.
+by facts of the same predicate, is a vehicle: where it gets is a place, too.  Where nobody goes anywhere,
+and things stand on each other, there is one place with towers in it.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -14,6 +15,7 @@ import networkx as nx
 
 from serendipity.model import Task
 from serendipity.show.map.names import Parts, common_ends, find, natural, parts, spellings, without
+from serendipity.show.map.stacks import Stacks
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +46,9 @@ class Places:
         objects: for each object, what each fact id says about it.
         riding: for agents that can be in or on an object instead, the object by fact id; who alone
             moves an object and has no position of their own is always where that is.
-        stations: agents that are places themselves.
+        stations: agents that are always in one place: they are one themselves, or nobody goes anywhere.
+        still: objects that are always in one place, and which.
+        towers: whether what is on an object stands on it, and is shown above it.
         marks: facts true or false by themselves that name a place: the place by fact id.
     """
 
@@ -55,6 +59,8 @@ class Places:
     riding: dict[int, dict[int, str]] = field(default_factory=dict)
     marks: dict[int, str] = field(default_factory=dict)
     stations: dict[int, str] = field(default_factory=dict)
+    still: dict[str, str] = field(default_factory=dict)
+    towers: bool = False
 
     @property
     def vehicles(self) -> frozenset[str]:
@@ -81,7 +87,7 @@ def find_places(task: Task) -> Places:
         links |= _links(every.subgraph(facts), places)
     names = sorted(driven.union(*(told.values() for told in positions.values())), key=natural)
     if not names:
-        return Places()
+        return _towers(task)
     told_by = {parts(task.facts[f])[0] for facts in (*positions.values(), *vehicles) for f in facts}
     finder = _PlaceFinder(task, names, told_by)
     finder.add_stops(positions)
@@ -110,6 +116,30 @@ def find_places(task: Task) -> Places:
         riding=riding,
         marks=marks,
         stations={agent: name for agent, name in enumerate(task.agents) if name in set(names)},
+    )
+
+
+def _towers(task: Task) -> Places:
+    """One place with all things that stand on each other in it, and all agents; empty without such."""
+    stacks = Stacks(task)
+    if not stacks.on:
+        return Places()
+    ground = next((parts(task.facts[fact])[0] for fact in stacks.ground), "")
+    place = ground or parts(task.facts[next(iter(stacks.on))])[0]
+    objects: dict[str, dict[int, Whereabouts]] = {name: {} for name in sorted(stacks.things, key=natural)}
+    for fact, (upper, lower) in stacks.on.items():
+        objects[upper][fact] = Whereabouts(carrier=lower)
+    for fact, name in stacks.ground.items():
+        objects[name][fact] = Whereabouts(place=place)
+    for fact, (name, agent) in stacks.held.items():
+        objects[name][fact] = Whereabouts(holder=agent)
+    fixed = objects.keys() - {upper for upper, _ in stacks.on.values()}
+    return Places(
+        names=(place,),
+        objects=objects,
+        stations=dict.fromkeys(range(len(task.agents)), place),
+        still=dict.fromkeys(fixed, place),
+        towers=True,
     )
 
 

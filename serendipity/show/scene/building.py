@@ -53,7 +53,8 @@ def build_scene(task: Task, result: Result) -> Scene:
         window=result.window,
         changes=find_changes(task, [moment.state for moment in moments], last, hidden),
         result=result,
-        vehicles=places.vehicles,
+        vehicles=frozenset() if places.towers else places.vehicles,
+        towers=places.towers,
     )
     return replace(scene, layout=lay_out(places, cell_size(scene, places.names))) if places.names else scene
 

@@ -41,7 +41,7 @@ class Finder:
     def objects(self, state: State) -> dict[str, Whereabouts]:
         """Where each object is, who rides it, and who holds or rides what carries it."""
         told = {
-            name: next((where for f, where in of.items() if f in state), NOWHERE)
+            name: next((where for f, where in of.items() if f in state), self._otherwise(name))
             for name, of in self._places.objects.items()
         }
         riders: dict[str, tuple[int, ...]] = defaultdict(tuple)
@@ -50,6 +50,10 @@ class Finder:
             if vehicle is not None:
                 riders[vehicle] += (agent,)
         return {name: self._resolved(name, told, riders) for name in told}
+
+    def _otherwise(self, name: str) -> Whereabouts:
+        """Where an object is of which nothing is told."""
+        return Whereabouts(self._places.still[name]) if name in self._places.still else NOWHERE
 
     def _resolved(
         self, name: str, told: dict[str, Whereabouts], riders: Mapping[str, tuple[int, ...]]

@@ -92,6 +92,7 @@ class Scene:
         changes: facts that change, for the lanes below the timeline.
         result: what is shown.
         vehicles: objects that others can be in or on.
+        towers: whether what is on an object is shown above it.
     """
 
     name: str
@@ -107,6 +108,7 @@ class Scene:
     changes: tuple[Change, ...]
     result: Result
     vehicles: frozenset[str] = frozenset()
+    towers: bool = False
 
     @property
     def lanes(self) -> tuple[int, ...]:
