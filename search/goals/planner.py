@@ -129,7 +129,7 @@ class _Search:
         self._offer({}, self._acting)
         for i, candidate in enumerate(self._candidates):
             outcome = self._alone_known(candidate)
-            self._floors[i] = self._floor(candidate, outcome)
+            self._floors[i] = self._floor(outcome)
             self._offer(self._own_actions(outcome), self._acting)
 
     def _over_one_packing(self) -> list[PreparedTask]:
@@ -151,7 +151,7 @@ class _Search:
         self._generated += last.generated or 0
         return last
 
-    def _floor(self, candidate: Candidate, outcome: Answer) -> _Rank:
+    def _floor(self, outcome: Answer) -> _Rank:
         """No timeline of the candidate ranks below this: committed robots can do no better."""
         self._deadline.check()
         window = self._options.window_weight

@@ -104,7 +104,7 @@ class GoalTimeline:
         ended = None if robots.actions else now.ended
         for node in self._open(now):
             self.deadline.tick()
-            for child in self._play(node, epoch, robots, acting, limit):
+            for child in self._play(node, robots, acting, limit):
                 place = self._place(child)
                 known = inside.get(place)
                 if known is None or child.key < known.key:
@@ -149,9 +149,7 @@ class GoalTimeline:
             nodes.append(at._replace(key=key, phase=WINDOW, start=start))
         return nodes
 
-    def _play(
-        self, node: Node, epoch: int, robots: JointAction, acting: Successors, limit: int
-    ) -> list[Node]:
+    def _play(self, node: Node, robots: JointAction, acting: Successors, limit: int) -> list[Node]:
         """Rule 2: the human is free, and robots that are idle in their own plan can join them."""
         found = []
         for part in (NOTHING, *acting.human(node.state), *acting.joint(node.state)):

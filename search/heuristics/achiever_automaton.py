@@ -192,16 +192,14 @@ class AchieverAutomaton:
             for other, field in self._places.field.items():
                 if op.agents & other:
                     here = place if other == robot else -1
-                    edges += [
-                        (weight, (after, op.agents, other, p)) for p in self._after(op, other, field, here)
-                    ]
+                    edges += [(weight, (after, op.agents, other, p)) for p in self._after(op, field, here)]
         for op in self._flips.at(value):
             edges.append((0, (op.put & self._field, team, robot, place)))
         if robot and team and len(self._places.field) > 1:
             edges.append((0, (value, team, 0, 0)))
         return edges
 
-    def _after(self, op: Operator, robot: int, field: int, place: int) -> list[int]:
+    def _after(self, op: Operator, field: int, place: int) -> list[int]:
         """Where a robot can be after an op: known, set by it, asked for by it, or anywhere."""
         if field & ~op.keep:
             return [op.put & field]

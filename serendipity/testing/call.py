@@ -1,6 +1,7 @@
 """One planning call as a value."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from serendipity.model import HumanPlan, Options, Task
 
@@ -19,3 +20,7 @@ class Call:
         if self.human_plan is None:
             return None
         return [self.task.actions[i].name for i in self.human_plan]
+
+    def keywords(self, **changes: Any) -> dict[str, Any]:
+        """The options as the facade takes them, each of them, with some changed."""
+        return {name: getattr(self.options, name) for name in self.options.to_dict()} | changes

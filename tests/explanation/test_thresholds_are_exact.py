@@ -18,19 +18,15 @@ WEIGHTS = st.fractions(0, 6, max_denominator=12)
 def explained(call: Call) -> Explanation | None:
     """The explanation of a call; None where it is an error, as planning is."""
     try:
-        return serendipity.explain(call.task, human_plan=call.human_plan_names, **_keywords(call))
+        return serendipity.explain(call.task, human_plan=call.human_plan_names, **call.keywords())
     except UsageError:
         with pytest.raises(UsageError):
-            serendipity.plan(call.task, human_plan=call.human_plan_names, **_keywords(call))
+            serendipity.plan(call.task, human_plan=call.human_plan_names, **call.keywords())
         return None
 
 
-def _keywords(call: Call, **changes: object) -> dict[str, object]:
-    return {name: getattr(call.options, name) for name in call.options.to_dict()} | changes
-
-
 def helped(call: Call, **changes: object) -> bool:
-    keywords = _keywords(call, **changes)
+    keywords = call.keywords(**changes)
     return serendipity.plan(call.task, human_plan=call.human_plan_names, **keywords).opportunity
 
 
@@ -68,7 +64,7 @@ def test_relaxed_rules_give_what_is_said(call: Call) -> None:
             # All others are options, and the default is the loosest.
             or {miss.rule: getattr(Options(), miss.rule)}
         )
-        keywords = _keywords(call, **changes)
+        keywords = call.keywords(**changes)
         answer = serendipity.plan(call.task, human_plan=call.human_plan_names, **keywords)
         assert (answer.cost, answer.saving) == (miss.cost, miss.saving)
         assert answer.opportunity

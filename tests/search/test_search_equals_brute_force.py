@@ -14,12 +14,7 @@ from serendipity.testing.strategies import Call, calls, family_tasks, tasks
 
 
 def _answer(call: Call) -> Result | str:
-    return _or_error(lambda: serendipity.plan(call.task, human_plan=call.human_plan_names, **_keywords(call)))
-
-
-def _keywords(call: Call) -> dict[str, object]:
-    options = call.options
-    return {name: getattr(options, name) for name in options.to_dict()}
+    return _or_error(lambda: serendipity.plan(call.task, human_plan=call.human_plan_names, **call.keywords()))
 
 
 def _or_error(compute: Callable[[], Result]) -> Result | str:

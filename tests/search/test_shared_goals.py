@@ -11,6 +11,7 @@ from serendipity.model import Options, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, family_tasks
+from tests.search.exact_answers import exact_and_planned
 
 
 @pytest.mark.parametrize("mode", ["individual", "serendipity", "communication", "composite"])
@@ -70,12 +71,10 @@ def test_where_the_kernel_has_no_bound_on_the_team(monkeypatch: pytest.MonkeyPat
 
     @given(calls(modes=("serendipity", "communication", "composite"), ties=False, of=family_tasks()))
     def law(call: Call) -> None:
-        try:
-            optimum = best(call.task, call.options, call.human_plan)
-        except UsageError:
+        both = exact_and_planned(call)
+        if both is None:
             return
-        options = {name: getattr(call.options, name) for name in call.options.to_dict()}
-        answer = serendipity.plan(call.task, human_plan=call.human_plan_names, **options)
+        optimum, answer = both
         expected = None if optimum.cost is None else float(optimum.cost)
         assert (answer.status, answer.cost) == (optimum.status, expected)
 
@@ -100,8 +99,8 @@ def test_with_answers_on_the_way(call: Call) -> None:
         optimum = best(call.task, call.options, call.human_plan)
     except UsageError:
         return
-    options = {name: getattr(call.options, name) for name in call.options.to_dict()} | {"time_limit": 60}
-    *early, answer = serendipity.plan_anytime(call.task, human_plan=call.human_plan_names, **options)
+    asked = call.keywords(time_limit=60)
+    *early, answer = serendipity.plan_anytime(call.task, human_plan=call.human_plan_names, **asked)
     expected = None if optimum.cost is None else float(optimum.cost)
     assert (answer.status, answer.cost) == (optimum.status, expected)
     for some in early:

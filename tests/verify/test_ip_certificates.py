@@ -128,8 +128,7 @@ def test_every_opportunity_that_is_denied_is_refuted(call: Call) -> None:
         return
     assert helped.human_plan is not None
     plan = dict(enumerate(helped.human_plan, start=1))
-    options = {name: getattr(call.options, name) for name in call.options.to_dict()}
-    denied = result(call.task, plan, human_plan=helped.human_plan, **options)
+    denied = result(call.task, plan, human_plan=helped.human_plan, **call.keywords())
     denied = replace(denied, horizon=helped.horizon, saving_alone=helped.saving_alone)
     certificate = certify(call.task, denied)
     assert certificate.verdict == "refuted"

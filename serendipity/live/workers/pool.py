@@ -93,11 +93,6 @@ class Pool:
         await asyncio.gather(*self._chores, return_exceptions=True)
         await asyncio.gather(*(worker.kill() for worker in self._all))
 
-    @property
-    def pids(self) -> list[int]:
-        """The processes."""
-        return sorted(worker.pid for worker in self._all)
-
     async def run(self, job: str, body: bytes) -> AsyncGenerator[Frame, None]:
         """The answers to a job, and what ended it: a frame ``end`` or ``error``.
 

@@ -209,14 +209,26 @@ def _varied(draw: st.DrawFn, texts: st.SearchStrategy[str], facts: list[str]) ->
 
 
 @st.composite
-def _with_goals(draw: st.DrawFn, built: Task) -> Task:
-    """A human goal that a random walk of the human's reaches (now and then any literal at all)."""
+def walks(draw: st.DrawFn, built: Task, most: int) -> frozenset[int]:
+    """The state after a random walk of the human's, alone.
+
+    Args:
+        built: the task.
+        most: actions, at least one where any changes anything.
+    """
     state, alone = built.init, Alone(built)
-    for _ in range(draw(st.integers(1, 5))):
+    for _ in range(draw(st.integers(1, most))):
         ways = [way for way in alone.successors(state) if way[1] != state]
         if not ways:
             break
         state = draw(st.sampled_from(ways))[1]
+    return state
+
+
+@st.composite
+def _with_goals(draw: st.DrawFn, built: Task) -> Task:
+    """A human goal that a random walk of the human's reaches (now and then any literal at all)."""
+    state = draw(walks(built, 5))
     changed = sorted(state ^ built.init)
     facts = changed if changed and draw(st.integers(0, 9)) > 0 else list(range(len(built.facts)))
     chosen = draw(st.lists(st.sampled_from(facts), min_size=1, max_size=2, unique=True))

@@ -14,12 +14,13 @@ from search.apart.short_windows import ShortWindows, short_windows
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.prepared_task import PreparedTask
-from serendipity.model import Options, Task, UsageError
+from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, family_tasks
+from tests.search.exact_answers import exact_and_planned
 
 ONE_EPOCH = Options(mode="serendipity", max_window=1)
 
@@ -96,12 +97,10 @@ def test_answers_equal_brute_force(monkeypatch: pytest.MonkeyPatch) -> None:
 
     @given(calls(modes=("serendipity",), of=family_tasks(), ties=False))
     def law(call: Call) -> None:
-        try:
-            optimum = best(call.task, call.options, call.human_plan)
-        except UsageError:
+        both = exact_and_planned(call)
+        if both is None:
             return
-        options = {name: getattr(call.options, name) for name in call.options.to_dict()}
-        answer = serendipity.plan(call.task, human_plan=call.human_plan_names, **options)
+        optimum, answer = both
         assert answer.status == optimum.status
         assert answer.window == optimum.window
         assert answer.objective == (None if optimum.objective is None else float(optimum.objective))

@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 
 from search.goals import Candidate
 from serendipity.model import Condition, Task
-from serendipity.testing.oracle import Alone, optimal_human_plan
+from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.strategies import tasks
+from serendipity.testing.strategies.tasks import walks
 
 WEIGHTS = (Fraction(1, 2), Fraction(1, 4), Fraction(9, 10))
 
@@ -16,12 +17,7 @@ WEIGHTS = (Fraction(1, 2), Fraction(1, 4), Fraction(9, 10))
 @st.composite
 def reachable_goals(draw: st.DrawFn, task: Task) -> Condition:
     """One literal that holds after a random walk of the human."""
-    state, alone = task.init, Alone(task)
-    for _ in range(draw(st.integers(1, 4))):
-        ways = [way for way in alone.successors(state) if way[1] != state]
-        if not ways:
-            break
-        state = draw(st.sampled_from(ways))[1]
+    state = draw(walks(task, 4))
     changed = sorted(state ^ task.init) or sorted(range(len(task.facts)))
     fact = draw(st.sampled_from(changed))
     return Condition((fact,), ()) if fact in state else Condition((), (fact,))

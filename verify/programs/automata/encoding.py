@@ -76,11 +76,6 @@ class AutomataEncoding:
             if prune(setting) if pruned else unroll(setting):
                 self.setting = setting
 
-    @property
-    def is_closed(self) -> bool:
-        """Whether pruning alone proves that there is no plan."""
-        return self.setting is None
-
     @cached_property
     def program(self) -> Program:
         """The program of the networks that pruning leaves."""

@@ -105,9 +105,9 @@ class _Providers:
                 self.his_false.update(task.actions[action].delete)
         for k in robots:
             for epoch, layer in enumerate(setting.networks[k].layers, start=1):
-                self._collect(k, epoch, layer, forward.reach[k][epoch - 1])
+                self._collect(epoch, layer, forward.reach[k][epoch - 1])
 
-    def _collect(self, k: int, epoch: int, layer: list[Arc], before: dict[int, int]) -> None:
+    def _collect(self, epoch: int, layer: list[Arc], before: dict[int, int]) -> None:
         cheapest: dict[int, int] = {}
         for source, _, action, weight, _ in self.setting.deadline.each(layer):
             if action != WAIT:
