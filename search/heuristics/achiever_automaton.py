@@ -24,9 +24,9 @@ last op on it (0 at the start).
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from itertools import chain
-from typing import NamedTuple
 
 from search.algorithms.shortest_paths import LevelQueue
+from search.heuristics.achiever_costs import AchieverCosts, Label, Node, Spot, Teams
 from search.heuristics.interactions import Need
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import by_variable
@@ -34,17 +34,6 @@ from search.packed.operators import Operator, forms_of
 from search.packed.packed_task import PackedTask
 from search.robots.transition_graphs import TransitionGraphs
 from serendipity.model.resources.deadline import Deadline
-
-Spot = tuple[int, int, int, int]
-"""Value of the field, team of the last op on it, tracked robot's bit, its place.
-Robot 0 stands for "any robot that did not take part in the last op"."""
-
-Label = tuple[int, int, int]
-"""A spot wherever the robot is."""
-
-Teams = tuple[tuple[int, tuple[int, ...], bool], ...]
-"""Teams, robots that may be tracked after them by their order among all, and whether any one of
-those will do (team 0 stands for no team)."""
 
 Edge = tuple[int, Spot]
 """Weight, and where it leads."""
@@ -93,10 +82,10 @@ class AchieverAutomaton:
         for i, need in needs:
             deadline.tick()
             self._index(i, need)
-        self._nodes: dict[Spot, _Node] = {}  # in the order in which they were met
-        self._accepted: dict[int, list[_Node]] = {}
+        self._nodes: dict[Spot, Node] = {}  # in the order in which they were met
+        self._accepted: dict[int, list[Node]] = {}
         self._open_exits: dict[Label, set[int]] = {}
-        self._stopped: dict[Label, list[_Node]] = {}
+        self._stopped: dict[Label, list[Node]] = {}
         self._too_dear = INFINITE_KEY
         self._steps: dict[Label, int] = {}
         self.cost: dict[int, int] = {}
@@ -105,7 +94,7 @@ class AchieverAutomaton:
     def explore(self, pays: Callable[[int], bool]) -> None:
         """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
         for spot in self._starts():
-            self._nodes[spot] = _Node(spot)
+            self._nodes[spot] = Node(spot)
         queue = LevelQueue((0, node) for node in self._nodes.values())
         for cost, level in queue:
             for node in level:
@@ -120,7 +109,7 @@ class AchieverAutomaton:
                 for weight, after in edges:
                     self._relax(queue, node, weight, after, pays)
 
-    def settled(self, spot: Spot) -> "_Node | None":
+    def settled(self, spot: Spot) -> Node | None:
         """What is known of a spot that was explored."""
         node = self._nodes.get(spot)
         return None if node is None or node.cost < 0 else node
@@ -132,8 +121,8 @@ class AchieverAutomaton:
 
     def _relax(
         self,
-        queue: "LevelQueue[_Node]",
-        before: "_Node",
+        queue: LevelQueue[Node],
+        before: Node,
         weight: int,
         after: Spot,
         pays: Callable[[int], bool],
@@ -141,7 +130,7 @@ class AchieverAutomaton:
         """Record an edge, and look at where it leads as long as the cost pays."""
         node = self._nodes.get(after)
         if node is None:
-            node = self._nodes[after] = _Node(after)
+            node = self._nodes[after] = Node(after)
         node.edges.append((weight, before))
         cost = before.cost + weight
         if node.cost < 0 and cost < self._too_dear:
@@ -153,7 +142,7 @@ class AchieverAutomaton:
             else:
                 self._too_dear = cost  # nor does what costs more
 
-    def _walks(self, node: "_Node") -> list[Edge]:
+    def _walks(self, node: Node) -> list[Edge]:
         """Walks of the tracked robot; only those to known spots, if there is nowhere left to go.
 
         Where else the robot may walk to is left open then (see :meth:`distances`).
@@ -252,7 +241,7 @@ class AchieverAutomaton:
         listed = chain(walks.always, *walks.by_value.values())
         return min((self._weights[index] for _, index in listed), default=0)
 
-    def _accept(self, node: "_Node") -> None:
+    def _accept(self, node: Node) -> None:
         """Note the needs that are provided at a spot."""
         value, team, robot, place = node.spot
         there: Iterable[int]
@@ -265,7 +254,7 @@ class AchieverAutomaton:
                 self._accepted.setdefault(i, []).append(node)
                 self.cost.setdefault(i, node.cost)
 
-    def distances(self, need: int, slack: int) -> "AchieverCosts":
+    def distances(self, need: int, slack: int) -> AchieverCosts:
         """Backward from a need, over what :meth:`explore` has seen.
 
         Args:
@@ -273,7 +262,7 @@ class AchieverAutomaton:
             slack: a key increment; if robots pay as much or more from the initial state on, it is too dear.
         """
         queue = LevelQueue((0, node) for node in self._accepted.get(need, ()))
-        found: dict[_Node, int] = {}
+        found: dict[Node, int] = {}
         elsewhere: dict[Label, int] = {}
         for cost, level in queue:
             latest = slack - cost
@@ -289,7 +278,9 @@ class AchieverAutomaton:
                     elsewhere[label] = cost + step
                     queue.relax(cost, ((2 * step, before) for before in self._stopped[label]), found)
                 queue.relax(cost, node.edges, found)
-        return AchieverCosts(self, self._field, self._places.field, found, elsewhere)
+        return AchieverCosts(
+            self.settled, self.teams, self.unchanged, self._field, self._places.field, found, elsewhere
+        )
 
     def teams(self, value: int) -> Teams:
         """The teams that may have been the last to act on the field, by its value.
@@ -325,99 +316,3 @@ class AchieverAutomaton:
         always = tuple(j for j, robot in robots if robot & team and all(who & robot for who in meeting))
         members = tuple(j for j, robot in robots if robot & team)
         return team, always or members, bool(always)
-
-
-class _Robot(NamedTuple):
-    """A robot's part of :class:`AchieverCosts`: bit, place, fields it depends on, what is known."""
-
-    bit: int
-    place: int
-    mask: int
-    known: dict[int, tuple[tuple[int, ...], int]]
-
-
-class AchieverCosts:
-    """Least robots' weight from a packed state to provide one need.
-
-    What :meth:`AchieverAutomaton.explore` has not reached is too dear for a state in which robots
-    have paid for getting there.  Where it stopped walking, since all that can happen to the
-    field is within reach, the least of what it knows stands for the rest.
-
-    Args:
-        provision: what was explored.
-        field: the outside field.
-        places: place field by robot's bit.
-        found: distance by spot, a key increment.
-        elsewhere: the least one by label, where walking stopped.
-    """
-
-    def __init__(
-        self,
-        provision: AchieverAutomaton,
-        field: int,
-        places: dict[int, int],
-        found: dict["_Node", int],
-        elsewhere: dict[Label, int],
-    ) -> None:
-        self._provision = provision
-        self._alone = len(places) == 1
-        self._unchanged = provision.unchanged
-        self._field = field
-        self._found = found
-        self._elsewhere = elsewhere
-        self._robots = [_Robot(robot, place, field | place, {}) for robot, place in places.items()]
-
-    def __call__(self, state: int) -> int:
-        """The bound from a packed state."""
-        value = state & self._field
-        if self._alone or value == self._unchanged:
-            best = INFINITE_KEY
-            for robot in self._robots:
-                _, least = self._at(robot, state)
-                if least < best:
-                    best = least
-            return best
-        best, rows = INFINITE_KEY, [self._at(robot, state)[0] for robot in self._robots]
-        for i, (_, members, each) in enumerate(self._provision.teams(value)):
-            weights = [rows[j][i] for j in members]
-            best = min(best, max(weights) if each else min(weights))
-        return best
-
-    def each(self, state: int) -> list[int]:
-        """The same for each robot, if it is the first to act; in the order of ``task.robots``."""
-        return [self._at(robot, state)[1] for robot in self._robots]
-
-    def _at(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
-        """The bounds if a robot is the first to act, after each team that may have acted; the least."""
-        return robot.known.get(state & robot.mask) or self._look(robot, state)
-
-    def _look(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
-        value, place = state & self._field, state & robot.place
-        teams = self._provision.teams(value)
-        row = tuple([self._after(value, team, robot.bit, place) for team, *_ in teams])
-        found = robot.known[state & robot.mask] = row, min(row, default=INFINITE_KEY)
-        return found
-
-    def _after(self, value: int, team: int, robot: int, place: int) -> int:
-        tracked = not team or bool(team & robot)
-        node = self._provision.settled((value, team, robot, place) if tracked else (value, team, 0, 0))
-        if node is not None:
-            return self._found.get(node, INFINITE_KEY)
-        return self._elsewhere.get((value, team, robot), INFINITE_KEY) if tracked else INFINITE_KEY
-
-
-class _Node:
-    """A spot that was met.
-
-    Attributes:
-        spot: which one.
-        cost: its least cost from the initial state, -1 until it has been settled.
-        edges: what leads to it, backward: weight, and from where.
-    """
-
-    __slots__ = ("cost", "edges", "spot")
-
-    def __init__(self, spot: Spot) -> None:
-        self.spot = spot
-        self.cost = -1
-        self.edges: list[tuple[int, _Node]] = []

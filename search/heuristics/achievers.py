@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 
-from search.heuristics.achiever_automaton import AchieverAutomaton, AchieverCosts
+from search.heuristics.achiever_automaton import AchieverAutomaton
+from search.heuristics.achiever_costs import AchieverCosts
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import NEVER
 from search.packed.cost_vector import INFINITE_KEY

@@ -140,10 +140,14 @@ class Suggestions:
             epoch: which it is.
             left: what robots have not done yet.
             keeps: whether the rest of ``pi_H`` stays applicable.
+
+        Raises:
+            LimitReachedError: the context's deadline came.
         """
         context, chosen = self._context, [self._plan[epoch - 1]]
         busy = chosen[0].agents
         for op in left:
+            context.deadline.check()
             if not op.agents & busy and applicable(op, state):
                 fits = all(
                     context.packed.compatible(op.action, other.action, context.options.strict)

@@ -19,6 +19,9 @@ ROOT = Path(__file__).resolve().parents[2]
 WRITTEN = Path(__file__).parent / "surface.txt"
 MODULES = ("serendipity", "serendipity.up", "serendipity.testing")
 
+PARTS = {"serendipity.Deadline": {"check", "elapsed", "left", "reached", "within"}}
+"""Classes of which only these methods are public; the others are for loops and tables of our own."""
+
 _SCHEMA = re.compile(r'"(serendipity\.[a-z-]+/[0-9]+)"')
 _MOVED = (("pathlib._local.", "pathlib."), ("collections.abc.", ""), ("fractions.", ""), ("typing.", ""))
 """What signatures say otherwise in other versions of Python, or at greater length than is needed."""
@@ -45,7 +48,8 @@ def _class(path: str, kind: type) -> Iterator[str]:
     bases = ", ".join(base.__name__ for base in kind.__bases__ if base is not object)
     yield f"{path}{f' < {bases}' if bases else ''}: {_signature(kind)}"
     ours = [base for base in kind.__mro__ if base.__module__.startswith("serendipity")]
-    for name in sorted({name for base in ours for name in vars(base) if not name.startswith("_")}):
+    names = {name for base in ours for name in vars(base) if not name.startswith("_")}
+    for name in sorted(names & PARTS.get(path, names)):
         value = inspect.getattr_static(kind, name)
         if isinstance(value, staticmethod | classmethod):
             value = value.__func__

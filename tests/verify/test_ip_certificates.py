@@ -11,7 +11,8 @@ from serendipity.model import Certificate, Claim, InputError, LimitReachedError,
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8, case_10
 from serendipity.testing.strategies import Call, calls
-from tests.verify.doctored import ANOTHER_TASK, DOCTORED, dearer, solved
+from tests.verify.doctored import ANOTHER_TASK, DOCTORED
+from tests.verify.untrue import dearer, solved
 from tests.verify.valid import CASE_4_PI_H
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.solve import solve

@@ -10,7 +10,7 @@ import serendipity
 from serendipity.model import Claim, Options, Result, Task, UsageError
 from serendipity.testing.cases import case_1, case_4, case_8, case_10
 from serendipity.testing.strategies import Call, calls
-from tests.verify.doctored import dearer
+from tests.verify.untrue import dearer
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs import effort

@@ -76,16 +76,25 @@ class PackedPlaces:
         fields: masks of the fields that a state consists of.
         values: all values of each field.
         start: a state; only combinations that may come up from there have a place.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came first.
     """
 
     def __init__(
-        self, arcs: Sequence[Arc], fields: Sequence[int], values: Sequence[Sequence[int]], start: int
+        self,
+        arcs: Sequence[Arc],
+        fields: Sequence[int],
+        values: Sequence[Sequence[int]],
+        start: int,
+        deadline: Deadline,
     ) -> None:
         self._arcs = arcs
         self._start = start
         alone = dict(zip(fields, values, strict=True))
         parts: list[tuple[int, list[int]]] = []
-        for group in _changed_together(arcs, fields):
+        for group in _changed_together(arcs, fields, deadline):
             found = None if group in alone else self._in_reach(group)
             if found is None:
                 parts += [(field, list(alone[field])) for field in fields if field & group]
@@ -185,10 +194,11 @@ def _pairs(axis: _PerimeterAxis, condition: PackedGoal, keep: int, put: int) -> 
                 yield axis.at[value], after
 
 
-def _changed_together(arcs: Sequence[Arc], fields: Sequence[int]) -> list[int]:
+def _changed_together(arcs: Sequence[Arc], fields: Sequence[int], deadline: Deadline) -> list[int]:
     """Masks of fields, those together that are linked by arcs that change two of them."""
     groups = list(fields)
-    for changed in {sum(field for field in fields if field & ~keep) for keep in {arc.keep for arc in arcs}}:
+    kept = deadline.each({arc.keep for arc in arcs})
+    for changed in {sum(field for field in fields if field & ~keep) for keep in kept}:
         linked = [group for group in groups if group & changed]
         if len(linked) > 1:
             groups = [group for group in groups if not group & changed]
@@ -342,7 +352,7 @@ def ball_around(
     """
     if not fields or not all(arc.weight for arc in arcs):
         return None  # a step that costs nothing at all may go round for ever
-    places = PackedPlaces(arcs, fields, values, start)
+    places = PackedPlaces(arcs, fields, values, start, deadline)
     deadline.check()
     if places.bits > MAX_BITS or places.steps(arcs) > _MOST_STEPS:
         return None

@@ -54,7 +54,7 @@ def test_a_ball_asks_for_all_it_may_touch() -> None:
     values = [list(range(40))]
     assert ball_around(arcs, goal, [mask], values, 0, Deadline()) is not None
     assert ball_around(arcs, goal, [mask], values, 0, Full()) is None
-    assert PackedPlaces(arcs, [mask], values, 0).item == np.dtype(np.uint32).itemsize
+    assert PackedPlaces(arcs, [mask], values, 0, Deadline()).item == np.dtype(np.uint32).itemsize
 
 
 def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:

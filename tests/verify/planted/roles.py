@@ -74,7 +74,7 @@ PLACES = {
     "epochs that a cost takes": "search.heuristics.achievers:Achievers.epochs",
     "achievers of a need": "search.heuristics.achievers:Achievers.provided",
     "phases of pi_H": "search.heuristics.achievers:Achievers.phases",
-    "cost to achieve a need": "search.heuristics.achiever_automaton:AchieverCosts.__call__",
+    "cost to achieve a need": "search.heuristics.achiever_costs:AchieverCosts.__call__",
     "edges of the achiever automaton": "search.heuristics.achiever_automaton:AchieverAutomaton._changes",
     "what pi_H changes in the achiever automaton": (
         "search.heuristics.achiever_automaton:AchieverAutomaton.__init__"

@@ -21,9 +21,9 @@ from serendipity.model import Deadline, Options, Result, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_1, case_4, case_8, case_10
 from serendipity.testing.strategies import Call, calls
-from tests.verify.doctored import dearer
 from tests.verify.proofs.samples import covering, entry, optimum
 from tests.verify.test_ip_parts import DETOUR
+from tests.verify.untrue import dearer
 from verify.base.undecided import UndecidedError
 from verify.calls.solve import solve
 from verify.proofs.checker import RejectedProofError, program, refute

@@ -1,7 +1,8 @@
 """What a program is taught about a suffix that is not the human's optimal plan."""
 
 from verify.programs.automata.control import INSIDE, SUFFIX
-from verify.programs.automata.program import Program, plus
+from verify.programs.automata.linear import plus
+from verify.programs.automata.program import Program
 
 
 def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int | None) -> None:
@@ -19,7 +20,7 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
     for f in program.deadline.each(
         sorted(program.setting.part.facts - program.setting.human.automaton.facts)
     ):
-        terms, fixed = program.truth(f, xi2 - 1)
+        terms, fixed = program.facts.truth(f, xi2 - 1)
         sign = 1 if f in state else -1
         literals = plus(literals, terms, sign)
         constant += fixed - 1 if f in state else -fixed
@@ -34,7 +35,7 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
 def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[dict[int, int], int]:
     """Minus 1 unless the suffix starts at ``xi2`` with the human's private facts as in ``state``."""
     network = program.setting.human
-    layer, columns = network.layers[xi2 - 1], program.columns[program.task.human][xi2 - 1]
+    layer, columns = network.layers[xi2 - 1], program.flows.columns[program.task.human][xi2 - 1]
     starts: dict[int, int] = {}
     for (source, target, *_), x in zip(program.deadline.each(layer), columns, strict=True):
         begins = network.controls[source][0] == INSIDE and network.controls[target][0] == SUFFIX
@@ -45,7 +46,9 @@ def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[d
 
 def _suffix_weights(program: Program) -> dict[int, int]:
     weights: dict[int, int] = {}
-    for layer, columns in zip(program.setting.human.layers, program.columns[program.task.human], strict=True):
+    for layer, columns in zip(
+        program.setting.human.layers, program.flows.columns[program.task.human], strict=True
+    ):
         for (_, target, _, weight, _), x in zip(program.deadline.each(layer), columns, strict=True):
             if weight and program.setting.human.controls[target][0] == SUFFIX:
                 weights[x] = weight
