@@ -2,12 +2,14 @@
 
     python -m benchmarks.proofs ANSWERS [--buildings 84x3,84x3x2,210x6] [--seeds 5] [--suite FOLDER]
         [--stride N] [--domains NAME,...] [--modes NAME,...] [--discount D] [--plan-limit SECONDS]
-        [--time-limit SECONDS] [--method NAME] [--only WORD] [--csv FILE]
+        [--time-limit SECONDS] [--method NAME] [--only WORD] [--plan-only] [--again] [--csv FILE]
 
 A building is named by its rooms, medkits and robots.  Each task is planned in each mode; answers stand
 in the folder ANSWERS, and a later run with the same folder plans only what is missing.  Then each
 answer that was proved by the search is read and verified in a process of its own, which gives seconds
-by the clock for reading and for the certificate, and the most memory that it had.
+by the clock for reading and for the certificate, and the most memory that it had.  What comes of it
+stands in ANSWERS at once, so that a run that was ended goes on where it was; ``--again`` verifies anew.
+The last line says how many of the answers are proved.
 """
 
 import argparse
@@ -17,7 +19,7 @@ import resource
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from multiprocessing import get_context
 from pathlib import Path
 from statistics import median
@@ -121,6 +123,8 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--time-limit", type=float, default=30.0, help="seconds for a certificate")
     parser.add_argument("--method", default=None, help="of verify")
     parser.add_argument("--only", default="", help="answers with this word in their name")
+    parser.add_argument("--plan-only", action="store_true", help="make answers, verify none")
+    parser.add_argument("--again", action="store_true", help="verify what was verified before")
     parser.add_argument("--verbose", action="store_true", help="also what the search did not settle")
     parser.add_argument("--csv", type=Path, default=None, help="rows go here")
     return parser.parse_args()
@@ -160,9 +164,10 @@ def _may_alone(problem: Problem, who: Roles) -> bool:
 def _measured(asked: Asked, arguments: argparse.Namespace) -> Row:
     file = arguments.answers / f"{asked.name}-{arguments.discount}.json"
     if not file.exists():
-        file.write_text(json.dumps(_apart(_planned, asked, arguments)))
+        file.write_text(json.dumps({**_apart(_planned, asked, arguments), "source": asked.source}))
     answer = json.loads(file.read_text())
     result = answer["result"]
+    asked = replace(asked, source=tuple(answer.get("source", asked.source)))
     row = {
         "group": asked.group,
         "task": asked.task,
@@ -171,9 +176,21 @@ def _measured(asked: Asked, arguments: argparse.Namespace) -> Row:
         "objective": str(result.get("objective", "")),
         "plan_seconds": answer["seconds"],
     }
-    if row["status"] not in _SETTLED:
+    if row["status"] not in _SETTLED or arguments.plan_only:
         return Row(**row)
-    return Row(**row, **_apart(_verified, asked, result, arguments))
+    return Row(**row, **_verdict(asked, result, arguments))
+
+
+def _verdict(asked: Asked, result: dict[str, Any], arguments: argparse.Namespace) -> dict[str, Any]:
+    """What came of verifying an answer under these settings, now or in an earlier run."""
+    settings = {"time_limit": arguments.time_limit, "method": arguments.method}
+    file = arguments.answers / f"{asked.name}-{arguments.discount}.verdict.json"
+    known = json.loads(file.read_text()) if file.exists() and not arguments.again else {}
+    if known.get("settings") != settings or known.get("result") != result:
+        found = _apart(_verified, asked, result, arguments)
+        known = {"settings": settings, "result": result, "found": found}
+        file.write_text(json.dumps(known))
+    return dict(known["found"])
 
 
 def _planned(asked: Asked, arguments: argparse.Namespace) -> dict[str, Any]:
@@ -230,6 +247,16 @@ def _table(rows: list[Row]) -> None:
     settled = [row for row in rows if row.status in _SETTLED]
     if settled:
         print(f"{'all':<31}{_summary(settled)}")
+        print(_said(settled))
+
+
+def _said(rows: list[Row]) -> str:
+    """How many answers are proved, in a line."""
+    verdicts = [row.verdict for row in rows]
+    proved, refuted = verdicts.count("proved"), verdicts.count("refuted")
+    rest = len(rows) - proved - refuted
+    share = 100 * proved / len(rows)
+    return f"proved {proved} of {len(rows)} ({share:.1f} %), undecided {rest}, refuted {refuted}"
 
 
 def _summary(rows: list[Row]) -> str:

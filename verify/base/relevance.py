@@ -54,7 +54,7 @@ def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant |
     for i in forced:
         seeds.update(task.actions[i].pre, task.actions[i].neg)
     changing = true & false
-    kept, facts = _closure(task.actions, usable, seeds & changing, changing, deadline)
+    kept, facts = closure(task.actions, usable, seeds & changing, changing, deadline)
     kept |= set(forced)
     return Relevant(
         tuple(sorted(kept)),
@@ -107,7 +107,7 @@ def _reachable(task: Task, allowed: Sequence[int], deadline: Deadline) -> tuple[
     return true, false, usable
 
 
-def _closure(
+def closure(
     actions: Sequence[GroundAction],
     usable: Iterable[int],
     seeds: set[int],

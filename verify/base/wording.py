@@ -179,6 +179,16 @@ def walked(states: int) -> str:
     return f"; {states:,} joint states of what reachability and shortest paths leave searched"
 
 
+def apart(states: int) -> str:
+    """Robots were looked at one by one."""
+    return f"; robots looked at one by one, {states:,} states that they leave behind or lead to"
+
+
+def counted(landmarks: int) -> str:
+    """How often each action occurs was looked at, not when."""
+    return f"; balance of facts and {landmarks:,} landmarks leave no numbers of actions"
+
+
 def searched(states: int) -> str:
     """What an exhaustive search looked at."""
     return f"; {states:,} states searched exhaustively"

@@ -9,9 +9,11 @@ from serendipity.model import Window
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import FREE, WINDOW, Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
+from verify.beside.short_windows import is_short, no_short_window
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
 from verify.exhaustive.team import MOST_ACTIONS
 from verify.exhaustive.uniform_cost import cheapest
+from verify.packed.mutexes import MOST_ACTIONS as MOST_PACKED
 from verify.packed.mutexes import MOST_FACTS
 from verify.programs.effort import Attempt, Effort, Minimum
 from verify.programs.minimise import minimise
@@ -20,6 +22,9 @@ _TURNS: Final = (0.4, 4.0, 4.0, 40.0, 40.0)
 """Seconds of the first turns, of programs and exhaustive search; the last two go on, longer and longer."""
 
 _LONGER: Final = 10
+
+_EASIER: Final = 60.0
+"""Seconds for an easier question at most."""
 
 _FEW_STATES: Final = 64.0
 """Bits of a state: with more of them programs begin with a long turn."""
@@ -47,15 +52,17 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
         return found if found.found is None else replace(found, found=_throughout(question, found.found))
     if effort.method == "exhaustive" and question.horizon > 0:
         return _exhaustively(question, effort, plans)
-    if effort.method != "auto" or effort.encoding != "automata" or not _searchable(question):
+    if effort.method != "auto" or effort.encoding != "automata" or not question.horizon:
         return minimise(question, effort, plans)
-    return _in_turns(question, effort, plans)
+    return _relaxed(question, effort, plans) or _in_turns(question, effort, plans)
 
 
 def decide_without_horizon(question: Subproblem, effort: Effort) -> Minimum:
     """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does."""
-    found = cheapest(question, bounded=effort.method != "exhaustive")
-    effort.attempts.append(Attempt("exhaustive", found.status != "undecided", found.states))
+    attempts = len(effort.attempts)
+    found = cheapest(question, effort)
+    if len(effort.attempts) == attempts:  # numbers of actions did not decide it
+        effort.attempts.append(Attempt("exhaustive", found.status != "undecided", found.states))
     return found
 
 
@@ -83,12 +90,49 @@ def _throughout(question: Subproblem, found: Solution) -> Solution:
 def _searchable(question: Subproblem) -> bool:
     task = question.task
     small = len(task.facts) <= MOST_FACTS and len(task.actions) <= MOST_ACTIONS
-    return small and question.horizon > 0 and answers(question)
+    return small and answers(question)
+
+
+def _relaxed(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum | None:
+    """The answer as far as an easier question tells, after a moment for programs; None: it does not."""
+    task = question.task
+    if question.most is None or len(task.facts) > MOST_FACTS or len(task.actions) > MOST_PACKED:
+        return None
+    easier = _one_by_one if is_short(question) else _without_epochs if question.rule == FREE else None
+    if easier is None:
+        return None
+    moment = effort.deadline.part(_SHARE).within(_TURNS[0])
+    found = minimise(question.but(deadline=moment), replace(effort, deadline=moment), plans)
+    if found.status == "undecided" and effort.deadline.reached() is None:
+        part = effort.deadline.part(_SHARE).within(_EASIER)
+        found = easier(question.but(deadline=part), replace(effort, deadline=part))
+    return None if found.status == "undecided" and effort.deadline.reached() is None else found
+
+
+def _one_by_one(question: Subproblem, effort: Effort) -> Minimum:
+    """Whether robots one by one, and then the human alone, leave no plan."""
+    found, states = no_short_window(question)
+    if found.status == "none":
+        effort.attempts.append(Attempt("exhaustive", decided=True, states=states, apart=True))
+    return found
+
+
+def _without_epochs(question: Subproblem, effort: Effort) -> Minimum:
+    """Whether there is no plan even if epochs did not count."""
+    given = replace(effort, attempts=[])
+    try:
+        found = decide_without_horizon(question, given)
+    except UNDECIDED as error:
+        return Minimum("undecided", reason=why(error))
+    if found.status != "none":
+        return Minimum("undecided", bound=found.bound, reason=found.reason)
+    effort.attempts.extend(given.attempts)
+    return found
 
 
 def _in_turns(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
     bounds: list[int] = []
-    asked = [minimise, _exhaustively]
+    asked = [minimise, _exhaustively] if _searchable(question) else [minimise]
     long_first = _bits(question) > _FEW_STATES
     for turn in count():
         seconds = _length(turn + 2 * long_first)

@@ -1,7 +1,8 @@
 """The whole team as a problem over packed states: one action after the other, circles of actions as one."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
@@ -13,7 +14,12 @@ from verify.exhaustive.circles import circles
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.operators import Operator
 from verify.packed.problem import Problem, StateSpace
-from verify.programs.effort import Minimum
+from verify.programs.counts import least_weight
+from verify.programs.effort import Attempt, Effort, Minimum
+from verify.solvers.mip import LARGEST_COEFFICIENT
+
+_SHARE: Final = 0.4
+"""What of the time that is left numbers of actions may take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,12 +31,14 @@ class TeamProblem:
         problem: cheapest ways to all goals.
         singles: the relevant actions as operators, in their order.
         sets: the actions that each operator of the problem stands for.
+        wanted: facts that have to be true in the end.
     """
 
     space: StateSpace
     problem: Problem
     singles: list[Operator]
     sets: list[tuple[int, ...]]
+    wanted: tuple[int, ...]
 
 
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> TeamProblem:
@@ -55,7 +63,7 @@ def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> Team
     goal = [f for c in conditions for f in c.positive], [f for c in conditions for f in c.negative]
     problem = Problem(space, part.facts, operators, goal, deadline, bounded=bounded)
     kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
-    return TeamProblem(space, problem, operators[: len(part.actions)], kept)
+    return TeamProblem(space, problem, operators[: len(part.actions)], kept, tuple(goal[0]))
 
 
 def as_operator(together: Iterable[GroundAction], weight: int) -> Operator:
@@ -74,22 +82,28 @@ def as_operator(together: Iterable[GroundAction], weight: int) -> Operator:
     )
 
 
-def cheapest_without_epochs(question: Subproblem, team: TeamProblem) -> Minimum:
-    """The cheapest plan with any number of epochs, within the question's limits."""
+def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Effort | None = None) -> Minimum:
+    """The cheapest plan with any number of epochs, within the question's limits.
+
+    Args:
+        question: its deadline is polled.
+        team: what the team may do.
+        effort: where it is given, numbers of actions are asked first whether there is a plan at all.
+    """
     problem = team.problem
     start = problem.pack([question.task.init])
     assert start is not None, "the initial state is reached"
     limits = [limit for limit in (question.most, question.most_cost) if limit is not None]
     below = min(limits) + 1 if limits else None
-    least = None
+    counts = _Counts(question, team, below, effort)
     try:
-        least = int(problem.bounds(start)[0])
-        search, found = problem.search(start, np.zeros(1, np.int64), below)
+        counts.least = int(problem.bounds(start)[0])
+        search, found = problem.search(start, np.zeros(1, np.int64), below, counts.say_no)
     except LIMITS as limit:
         reason = str(LimitReachedError(limit_reason(limit), "searching joint plans"))
-        return Minimum("undecided", bound=least, reason=reason)
+        return Minimum("undecided", bound=counts.least, reason=reason)
     except TooManyStatesError:
-        return Minimum("undecided", bound=least, reason="there are too many joint states")
+        return Minimum("undecided", bound=counts.least, reason="there are too many joint states")
     if found is None:
         return Minimum("none", states=search.states)
     _, path = search.path(found)
@@ -97,3 +111,36 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem) -> Minimum:
     steps = tuple(Step(epoch, i) for epoch, chosen in sets for i in chosen)
     cost = search.paid(found)
     return Minimum("found", Solution(steps, None, cost, cost), cost, states=search.states)
+
+
+class _Counts:
+    """What numbers of actions say, in the share of the time that it may take.
+
+    Attributes:
+        least: no plan costs less; None: nothing is known.
+    """
+
+    def __init__(
+        self, question: Subproblem, team: TeamProblem, below: int | None, effort: Effort | None
+    ) -> None:
+        self._question, self._team, self._below, self._effort = question, team, below, effort
+        self.least: int | None = None
+
+    def say_no(self) -> bool:
+        """Whether there is no plan within the limits."""
+        effort, table, below = self._effort, self._team.problem.table, self._below
+        if effort is None or below is None or not table.weight.all() or below > LARGEST_COEFFICIENT:
+            return False
+        deadline = self._question.deadline.part(_SHARE)
+        given = replace(effort, deadline=deadline)
+        task = self._question.task
+        try:
+            bound = least_weight(table, task.init, self._team.wanted, below, given)
+        except LIMITS:
+            self._question.deadline.check()
+            return False
+        self.least = max(self.least or 0, bound.least)
+        if self.least < below:
+            return False
+        effort.attempts.append(Attempt("program", decided=True, landmarks=bound.landmarks))
+        return True

@@ -23,7 +23,7 @@ from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
 from verify.packed.problem import TooLargeError
 from verify.programs.agents.product import automata
 from verify.programs.automata.network import FAR, distances, goal_states
-from verify.programs.effort import Minimum
+from verify.programs.effort import Effort, Minimum
 
 MOST_STATES: Final = 500_000
 
@@ -43,16 +43,17 @@ class Bundle:
     cost: int
 
 
-def cheapest(question: Subproblem, *, bounded: bool = True) -> Minimum:
+def cheapest(question: Subproblem, effort: Effort) -> Minimum:
     """The least cost of a plan with any number of epochs, within the question's limits.
 
     Args:
         question: its horizon is not looked at; its rule is ``free``.
-        bounded: whether estimates of what is left may spare states.
+        effort: its method says whether estimates of what is left may spare states, and a solver be asked.
 
     Raises:
         LimitReachedError: the deadline came before the search began.
     """
+    bounded = effort.method != "exhaustive"
     with during("preparing the search for joint plans"):
         part = relevant_part(question)
         if part is None:
@@ -68,7 +69,7 @@ def cheapest(question: Subproblem, *, bounded: bool = True) -> Minimum:
         except TooLargeError:
             team = None
     if team is not None:
-        return cheapest_without_epochs(question, team)
+        return cheapest_without_epochs(question, team, effort if bounded else None)
     found = search.run()
     return replace(found, states=search.closed)
 

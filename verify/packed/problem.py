@@ -1,6 +1,6 @@
 """One goal, many questions: layout, operators and bounds that all of them share."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 import numpy as np
@@ -121,13 +121,20 @@ class Problem:
             return None
         return self.layout.pack(states)
 
-    def search(self, starts: Words, paid: Ints, below: int | None = None) -> tuple[PathSearch, int | None]:
+    def search(
+        self,
+        starts: Words,
+        paid: Ints,
+        below: int | None = None,
+        hopeless: Callable[[], bool] | None = None,
+    ) -> tuple[PathSearch, int | None]:
         """A search from some states with what was paid so far, and the goal state that it ends in.
 
         Args:
             starts: the states.
             paid: for each of them.
             below: paths of this weight or more don't count; None: all do.
+            hopeless: asked once few states have not been enough: whether there is known to be no such path.
 
         Returns:
             The search, and the state's number in it; None: there is no way for less than ``below``.
@@ -139,14 +146,20 @@ class Problem:
         if self._bounds is None and self._bounded:
             self._bounds = self._made(starts, LITTLE)
         if not self._careful:
+            quick = self._search(below, _FEW)
             try:
-                return self._run(starts, paid, below, _FEW)
+                quick.add(starts, paid)
+                return quick, quick.run()
             except TooManyStatesError:
+                if hopeless is not None and hopeless():
+                    return quick, None
                 found = self._with_cuts(starts, paid, below)
                 if found is not None:
                     return found
                 self._bounds, self._careful = self._made(starts, MUCH), True
-        return self._run(starts, paid, below, _MOST)
+        search = self._search(below, _MOST)
+        search.add(starts, paid)
+        return search, search.run()
 
     def _with_cuts(
         self, starts: Words, paid: Ints, below: int | None
@@ -177,12 +190,8 @@ class Problem:
             self._bounds = self._made(states, LITTLE)
         return self._bounds(states)
 
-    def _run(
-        self, starts: Words, paid: Ints, below: int | None, most_states: int
-    ) -> tuple[PathSearch, int | None]:
-        search = PathSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
-        search.add(starts, paid)
-        return search, search.run()
+    def _search(self, below: int | None, most_states: int) -> PathSearch:
+        return PathSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
 
     def _made(self, start: Words, care: Care) -> Bounds:
         other = self._space.other_layout(self._facts)

@@ -73,12 +73,16 @@ class Attempt:
         decided: whether that was the answer.
         states: how many an exhaustive search looked at.
         paths: joint states in the search of what pruning leaves of a program, where that decided.
+        landmarks: rows of them, where numbers of actions decided.
+        apart: whether robots were looked at one by one.
     """
 
     method: str
     decided: bool
     states: int = 0
     paths: int = 0
+    landmarks: int = 0
+    apart: bool = False
 
 
 class NoProgramError(UsageError):

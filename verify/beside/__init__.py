@@ -1,0 +1,1 @@
+"""What robots can do each on its own while the human follows ``pi_H``."""

@@ -1,0 +1,207 @@
+"""One robot beside the human's timetable: what it can have made of the world after each epoch, at what cost.
+
+Other robots are left out, but for this: a fact that one of them can add is taken for true where the robot
+needs it, one that they can delete for false where the robot forbids it.  Then whatever the robot does in a
+plan of all, it can do here, at the same cost.  For let a fact that nobody else can add be true there: who
+changed it last is the robot or the human, or it was true at first, so that it is true here, too.  In the same
+way the fact has the same value at the end, if the robot was the last of the robots to change it.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from serendipity.model import GroundAction
+from verify.base.execution import conflicting
+from verify.base.relevance import Relevant
+from verify.base.subproblem import Subproblem
+from verify.beside.rows import Bools, Layer, cheapest
+from verify.packed.cheapest_path import TooManyStatesError
+from verify.packed.layout import Layout, Words
+from verify.packed.operators import Operator, OperatorTable
+
+MOST_STATES: Final = 400_000
+"""Of a robot after an epoch."""
+
+_AT_ONCE: Final = 16_384
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """What a robot has to do with the world.
+
+    Attributes:
+        actions: ids of what it may do.
+        added: facts that other robots can add.
+        deleted: facts that other robots can delete.
+        changed: facts that it can change and that matter to the human.
+        facts: those that have to be followed: these, and what its actions and ``pi_H`` look at.
+    """
+
+    actions: tuple[int, ...]
+    added: frozenset[int]
+    deleted: frozenset[int]
+    changed: frozenset[int]
+    facts: frozenset[int]
+
+
+def parts(question: Subproblem, relevant: Relevant, matters: frozenset[int]) -> list[Part]:
+    """The robots' parts.
+
+    Args:
+        question: each of its actions has one participant.
+        relevant: its actions and facts.
+        matters: facts that the human looks at when they go on alone.
+    """
+    task = question.task
+    by_robot: dict[int, list[int]] = {}
+    for i in relevant.actions:
+        (who,) = task.actions[i].participants
+        if who != task.human:
+            by_robot.setdefault(who, []).append(i)
+    adds = {who: _union(task.actions[i].add for i in own) for who, own in by_robot.items()}
+    deletes = {who: _union(task.actions[i].delete for i in own) for who, own in by_robot.items()}
+    planned = _union((*relevant.pre[i], *relevant.neg[i]) for i in question.human_plan if i in relevant.pre)
+    found = []
+    for who, own in by_robot.items():
+        added = _union(facts for other, facts in adds.items() if other != who)
+        deleted = _union(facts for other, facts in deletes.items() if other != who)
+        asked = _union(relevant.pre[i] for i in own) - added | _union(relevant.neg[i] for i in own) - deleted
+        changed = (adds[who] | deletes[who]) & relevant.facts
+        followed = asked | changed & (matters | planned)
+        found.append(Part(tuple(own), added, deleted, changed & matters, followed))
+    return found
+
+
+def _union(sets: Iterable[Iterable[int]]) -> frozenset[int]:
+    return frozenset(fact for facts in sets for fact in facts)
+
+
+class Timeline:
+    """A robot's states, epoch by epoch.
+
+    Args:
+        question: whose human plan is followed.
+        relevant: its actions and facts.
+        part: the robot's.
+        layout: a bit for each fact that some robot follows.
+
+    Attributes:
+        part: the robot's.
+        layout: as it was given.
+        layer: its states after the epochs that were followed.
+    """
+
+    def __init__(self, question: Subproblem, relevant: Relevant, part: Part, layout: Layout) -> None:
+        self.part = part
+        self._question, self._relevant, self.layout = question, relevant, layout
+        self._deadline = question.deadline
+        self._table = OperatorTable(layout, [self._operator(i) for i in self._deadline.each(part.actions)])
+        self._mentioning: dict[int, list[int]] = {}
+        for number, i in enumerate(part.actions):
+            action = question.task.actions[i]
+            for fact in {*action.pre, *action.neg, *action.add, *action.delete}:
+                self._mentioning.setdefault(fact, []).append(number)
+        start = layout.pack([question.task.init & part.facts])
+        self.layer = Layer(start, np.zeros(1, np.int64), np.ones(1, bool))
+        self._free: Layer | None = None
+
+    def _operator(self, i: int) -> Operator:
+        action, facts = self._question.task.actions[i], self.part.facts
+        return Operator(
+            tuple(f for f in self._relevant.pre[i] if f not in self.part.added),
+            tuple(f for f in self._relevant.neg[i] if f not in self.part.deleted),
+            tuple(f for f in action.add if f in facts),
+            tuple(f for f in action.delete if f in facts),
+            self._question.prices.team[i],
+        )
+
+    def ends(self) -> Layer:
+        """The states after one more epoch, beside nothing.
+
+        Raises:
+            TooManyStatesError: there are too many.
+            LimitReachedError: the deadline came first.
+        """
+        if self._free is None:
+            self._free = self._moved(self.layer, None)
+        return self._free
+
+    def follow(self, step: int) -> None:
+        """One more epoch, beside an action of the human's.
+
+        Raises:
+            TooManyStatesError: there are too many.
+            LimitReachedError: the deadline came first.
+        """
+        human = self._question.task.actions[step]
+        in_the_way, apart = self._beside(human)
+        layer = self.ends() if apart else self._moved(self.layer.only(self._allow(step)), ~in_the_way)
+        add, delete = self._bits(human.add), self._bits(human.delete)
+        fresh = layer.fresh if apart else np.ones(len(layer.fresh), bool)
+        self.layer = cheapest((layer.rows & ~delete) | add, layer.paid, fresh)
+        self._free = None
+
+    def _bits(self, facts: Sequence[int]) -> Words:
+        return self.layout.pack([self.part.facts.intersection(facts)])
+
+    def _allow(self, step: int) -> Bools:
+        """After which states the human can go on, unless others see to what is missing."""
+        facts, part = self.part.facts, self.part
+        needs = [f for f in self._relevant.pre.get(step, ()) if f in facts and f not in part.added]
+        forbids = [f for f in self._relevant.neg.get(step, ()) if f in facts and f not in part.deleted]
+        need, forbid = self.layout.pack([frozenset(needs)]), self.layout.pack([frozenset(forbids)])
+        rows = self.layer.rows
+        allowed: Bools = ((rows & need) == need).all(axis=1) & ((rows & forbid) == 0).all(axis=1)
+        return allowed
+
+    def _beside(self, human: GroundAction) -> tuple[Bools, bool]:
+        """What can't be done beside an action of the human's; and whether nothing has to do with it.
+
+        Then it makes no difference which of the two comes first, so that what could be done before it
+        brings about nothing new after it.
+        """
+        task, strict = self._question.task, self._question.options.strict
+        touched = {*human.pre, *human.neg, *human.add, *human.delete}
+        numbers = {number for fact in touched for number in self._mentioning.get(fact, ())}
+        in_the_way, apart = np.zeros(len(self.part.actions), bool), True
+        for number in numbers:
+            own = task.actions[self.part.actions[number]]
+            in_the_way[number] = conflicting(own, human, strict=strict)
+            apart = (
+                apart and not in_the_way[number] and not _looks_at(own, human) and not _looks_at(human, own)
+            )
+        return in_the_way, apart
+
+    def _moved(self, layer: Layer, allowed: Bools | None) -> Layer:
+        """The states after the robot's part of an epoch."""
+        begin = np.flatnonzero(layer.fresh)
+        found, paid = [layer.rows], [layer.paid]
+        size = 0
+        for first in range(0, len(begin), _AT_ONCE):
+            self._deadline.check()
+            some = begin[first : first + _AT_ONCE]
+            rows, chosen = self._table.applicable(layer.rows[some])
+            if allowed is not None:
+                rows, chosen = rows[allowed[chosen]], chosen[allowed[chosen]]
+            after = self._table.after(layer.rows[some[rows]], chosen)
+            cost = layer.paid[some[rows]] + self._table.weight[chosen]
+            new = cheapest(after, cost, np.ones(len(cost), bool))
+            found.append(new.rows)
+            paid.append(new.paid)
+            size += len(new.paid)
+            if size > 20 * MOST_STATES:
+                raise TooManyStatesError
+        fresh = np.ones(len(layer.paid) + size, bool)
+        fresh[: len(layer.paid)] = False
+        moved = cheapest(np.concatenate(found), np.concatenate(paid), fresh)
+        if len(moved.paid) > MOST_STATES:
+            raise TooManyStatesError
+        return moved
+
+
+def _looks_at(one: GroundAction, other: GroundAction) -> bool:
+    """Whether an action asks about a fact that another changes."""
+    return not {*one.pre, *one.neg}.isdisjoint((*other.add, *other.delete))
