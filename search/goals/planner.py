@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import count
-from math import lcm
 
 from search.context import SearchContext
 from search.engine.paths import path_steps, plan_steps
 from search.goals.candidate import Candidate
+from search.goals.expectation import Expectation, Rank
 from search.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packings import human_facts
@@ -34,9 +34,6 @@ from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import common_horizon
 from serendipity.model.task.plans import Step, Window
-
-_Rank = tuple[int, ...]
-"""Objective and cost, then window length, lateness and number of actions, weighted sums of each."""
 
 _SAME = 2
 """How many components of a rank decide; later ones only choose among what was met first."""
@@ -87,7 +84,7 @@ class _Node:
 class _Best:
     """A complete robots' plan."""
 
-    rank: _Rank
+    rank: Rank
     ends: tuple[Ended, ...]
     robots: tuple[Step, ...]
 
@@ -103,12 +100,10 @@ class _Search:
         self._horizon = common_horizon(options, [candidate.plan for candidate in candidates])
         self._options = options.but(horizon=self._horizon, time_limit=None)
         self._deadline = deadline
-        self._scale = lcm(*(candidate.weight.denominator for candidate in candidates))
-        self._shares = [int(candidate.weight * self._scale) for candidate in candidates]
-        self._floors: list[_Rank] = [(0, 0)] * len(candidates)
+        self._floors: list[Rank] = [(0, 0)] * len(candidates)
         self._idle: _Best | None = None
         self._best: _Best | None = None
-        self._bound: _Rank = (0, 0)
+        self._bound: Rank = (0, 0)
         self._expanded = self._generated = 0
 
     # -- what the search starts from
@@ -117,6 +112,7 @@ class _Search:
         """Tables, incumbents and floors: what each candidate alone would allow."""
         context = [SearchContext(own, self._options, self._deadline) for own in self._over_one_packing()]
         self._keys = context[0].keys
+        self._expected = Expectation([candidate.weight for candidate in self._candidates], self._keys)
         self._team = context[0].weights.team
         self._packed = context[0].packed
         self._acting = context[0].successors()
@@ -151,20 +147,17 @@ class _Search:
         self._generated += last.generated or 0
         return last
 
-    def _floor(self, outcome: Answer) -> _Rank:
+    def _floor(self, outcome: Answer) -> Rank:
         """No timeline of the candidate ranks below this: committed robots can do no better."""
         self._deadline.check()
         window = self._options.window_weight
         if outcome.status != "optimal" or outcome.cost is None or outcome.objective is None:
             return (0, 0)
         if outcome.opportunity:
-            return self._scaled(outcome.objective), self._scaled(outcome.cost)
+            return self._expected.scaled(outcome.objective), self._expected.scaled(outcome.cost)
         if outcome.saving_alone:  # not the best with idle robots: the answer bounds nothing
             return (0, 0)
-        return self._scaled(outcome.cost + window), self._scaled(outcome.cost)
-
-    def _scaled(self, cost: Fraction) -> int:
-        return int(cost * self._keys.scale)
+        return self._expected.scaled(outcome.cost + window), self._expected.scaled(outcome.cost)
 
     def _own_actions(self, outcome: Answer) -> dict[int, JointAction]:
         """What robots do by themselves in an answer, by epoch."""
@@ -247,10 +240,10 @@ class _Search:
             return INFINITE_KEY
         others = sum(
             share * floor[0]
-            for i, (share, floor) in enumerate(zip(self._shares, self._floors, strict=True))
+            for i, (share, floor) in enumerate(zip(self._expected.shares, self._floors, strict=True))
             if i != candidate
         )
-        most = (self._best.rank[0] - others) // self._shares[candidate]
+        most = (self._best.rank[0] - others) // self._expected.shares[candidate]
         return (most + 1) << self._keys.objective_shift
 
     def _complete(self, node: _Node) -> None:
@@ -260,33 +253,15 @@ class _Search:
             if end is None:
                 return
             ends.append(end)
-        rank = self._weighted([self._rank(end.key) for end in ends])
+        rank = self._expected.weighted([self._expected.rank(end.key) for end in ends])
         if self._best is None or rank < self._best.rank:
             self._best = _Best(rank, tuple(ends), _robots_steps(node))
 
-    # -- ranks
+    def _rank_bound(self, node: _Node) -> Rank:
+        ranks = [self._expected.rank(now.bound)[:_SAME] for now in node.situations]
+        return self._expected.weighted([max(pair) for pair in zip(ranks, self._floors, strict=True)])
 
-    def _rank(self, key: int) -> _Rank:
-        keys = self._keys
-        return (
-            key >> keys.objective_shift,
-            keys.scaled_cost(key),
-            keys.length(key),
-            keys.start_field(key),
-            keys.actions(key),
-        )
-
-    def _weighted(self, ranks: Sequence[_Rank]) -> _Rank:
-        return tuple(
-            sum(share * part for share, part in zip(self._shares, parts, strict=True))
-            for parts in zip(*ranks, strict=True)
-        )
-
-    def _rank_bound(self, node: _Node) -> _Rank:
-        ranks = [self._rank(now.bound)[:_SAME] for now in node.situations]
-        return self._weighted([max(pair) for pair in zip(ranks, self._floors, strict=True)])
-
-    def _decisive(self) -> _Rank:
+    def _decisive(self) -> Rank:
         assert self._best is not None, "leaving the human alone is always possible"
         return self._best.rank[:_SAME]
 
@@ -298,12 +273,14 @@ class _Search:
         baseline = sum((weight * cost for weight, cost in plans), Fraction(0))
         best = self._best
         helps = best is not None and self._idle is not None and best.rank[1] < self._idle.rank[1]
-        saving_alone = Fraction(0) if self._idle is None else baseline - self._unscaled(self._idle.rank[1])
+        saving_alone = (
+            Fraction(0) if self._idle is None else baseline - self._expected.unscaled(self._idle.rank[1])
+        )
         if helps:
             assert best is not None
             served = tuple(map(self._served, self._candidates, best.ends))
-            cost, objective = self._unscaled(best.rank[1]), self._unscaled(best.rank[0])
-            bound = objective if status == "optimal" else self._unscaled(self._bound[0])
+            cost, objective = self._expected.unscaled(best.rank[1]), self._expected.unscaled(best.rank[0])
+            bound = objective if status == "optimal" else self._expected.unscaled(self._bound[0])
         else:
             served = tuple(
                 ServedGoal(c.name, c.weight, c.plan, plan_steps(c.plan), None, cost)
@@ -330,10 +307,7 @@ class _Search:
         )
 
     def _lower(self) -> Fraction:
-        return Fraction(0) if self._best is None else self._unscaled(self._bound[0])
-
-    def _unscaled(self, value: int) -> Fraction:
-        return Fraction(value, self._scale * self._keys.scale)
+        return Fraction(0) if self._best is None else self._expected.unscaled(self._bound[0])
 
     def _served(self, candidate: Candidate, end: Ended) -> ServedGoal:
         window = Window(end.node.start, end.end) if end.end else None

@@ -55,7 +55,7 @@ def _scatter(axes: "Axes", timings: Sequence[Timing]) -> None:
             if chosen:
                 xs, ys = zip(*chosen, strict=True)
                 label = name if solved else f"{name}, at the limit"
-                axes.scatter(xs, ys, s=14, c=colour, marker=shape, label=label, alpha=0.7)
+                axes.scatter(xs, ys, s=14, c=colour, marker=shape, label=label, alpha=0.7, clip_on=False)
     if names:
         axes.legend(fontsize=8, loc="upper left")
     others = [t.seconds * 1000 for _, t in points if t.contender in names]

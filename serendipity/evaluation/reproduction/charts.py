@@ -76,13 +76,15 @@ class _Axis:
 
     @classmethod
     def of(cls, values: Sequence[float], start: float, end: float, *, logarithmic: bool = False) -> "_Axis":
-        """An axis from pixel ``start`` to ``end`` that covers the values."""
+        """An axis from pixel ``start`` to ``end`` that covers the values; counts have whole ticks."""
         low, high = min(values, default=0.0), max(values, default=1.0)
         if logarithmic:
             first, last = floor(log10(low)), ceil(log10(high))
             ticks = tuple(10.0**power for power in range(first, max(last, first + 1) + 1))
             return cls(ticks[0], ticks[-1], start, end, ticks, logarithmic=True)
         step = _step((high - low) or 1.0)
+        if all(isinstance(value, int) for value in values):  # nobody has half a task
+            step = max(step, 1.0)
         first, last = floor(low / step), max(ceil(high / step), floor(low / step) + 1)
         ticks = tuple(i * step for i in range(first, last + 1))
         return cls(ticks[0], ticks[-1], start, end, ticks)

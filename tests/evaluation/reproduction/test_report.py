@@ -47,3 +47,14 @@ def test_bars_are_as_high_as_their_values() -> None:
     root = ET.fromstring(bars(Labels("t", "x", "y"), ["g", "h"], {"a": [1, 2], "b": [0, 4]}))
     heights = [float(e.attrib["height"]) for e in root.iter() if e.tag.endswith("rect")]
     assert heights == pytest.approx([heights[3] / 4, 0, heights[3] / 2, heights[3]], abs=0.2)
+
+
+def test_counts_have_whole_ticks() -> None:
+    """Charts of one or two tasks had ticks at 0.2 and 1.5 of them."""
+    counts = {"a": [(0.0, 0), (0.5, 2)]}
+    for chart in (
+        lines(Labels("t", "x", "tasks"), counts),
+        bars(Labels("t", "x", "tasks"), ["g"], {"a": [1]}),
+    ):
+        ticks = [e.text for e in ET.fromstring(chart).iter() if e.attrib.get("text-anchor") == "end"]
+        assert ticks in (["0", "1", "2"], ["0", "1"])
