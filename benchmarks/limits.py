@@ -13,8 +13,8 @@ What is measured, unless options say otherwise:
 
 Tasks are those of ``benchmarks.limit_tasks``.
 
-A command starts when the interpreter and its modules are loaded; how long that takes is measured
-by the same command with a limit of 0, and taken off.  What is left over the limit is the *overrun*; a limit
+A command starts when the interpreter and its modules are loaded, which it tells itself (``reproduce`` does
+not, so the same command with a limit of 0 is taken off).  What is over the limit is the *overrun*; a limit
 is *kept* if that is at most 10 % of it and 50 ms.  ``reproduce`` has the limit twice: for reading,
 and for its row.  A process that is late by 15 s is killed.
 
@@ -29,10 +29,11 @@ import argparse
 import csv
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import astuple, dataclass, fields
 from functools import partial
+from itertools import count
 from pathlib import Path
 from string import Formatter
 from threading import Lock
@@ -40,7 +41,7 @@ from typing import NamedTuple
 
 from benchmarks.limit_kinds import tasks_of_all_kinds
 from benchmarks.limit_tasks import Named, own_tasks, tasks_of_suite, with_files
-from benchmarks.limited_process import PATIENT, USUAL, Ended, Runner
+from benchmarks.limited_process import Ended, Runner
 from benchmarks.problems import PROBLEMS
 
 SHARE, EXTRA = 0.1, 0.05
@@ -188,7 +189,6 @@ def main() -> int:
     commands = study.commands
     if arguments.commands:
         commands = {name: COMMANDS[name] for name in arguments.commands.split(",")}
-    words = {word for command in commands.values() for _, word, *_ in Formatter().parse(command) if word}
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch if arguments.csv is None else arguments.csv.absolute().with_suffix(".files"))
         folder.mkdir(parents=True, exist_ok=True)
@@ -197,13 +197,13 @@ def main() -> int:
         memory = study.memory if arguments.memory is None else arguments.memory
         if memory:
             tasks = sorted(tasks, key=lambda task: task.size)[-LARGEST:]
+        print(f"{len(tasks)} tasks, {len(commands)} commands", file=sys.stderr, flush=True)
+        choose = partial(_jobs, commands=commands, most=arguments.rotate, folder=folder)
         with ThreadPoolExecutor(arguments.jobs) as threads:
-            tasks = list(threads.map(partial(with_files, wanted=words, folder=folder), tasks))
-        print(f"{len(tasks)} tasks, {len(commands)} commands", file=sys.stderr)
-        jobs = list(_jobs(commands, tasks, arguments.rotate))
-        runner = Runner(PATIENT if arguments.fair else USUAL, folder)
+            jobs = [job for found in threads.map(choose, tasks, count()) for job in found]
+        print(f"{len(jobs)} commands on tasks", file=sys.stderr, flush=True)
         seconds = [float(limit) for limit in limits.split(",") if limit]
-        measuring = Measuring(runner, seconds, memory, fair=arguments.fair)
+        measuring = Measuring(Runner(folder, arguments.fair), seconds, memory)
         rows = _measured(measuring, jobs, arguments.csv, arguments.jobs)
     _table_of_times(rows)
     _table_of_memory(rows)
@@ -255,16 +255,25 @@ class Job(NamedTuple):
     line: list[str]
 
 
-def _jobs(commands: dict[str, str], tasks: list[Named], rotate: int | None) -> Iterator[Job]:
-    """Every command on every task where its words are known, or so many of them, in turn."""
-    for number, task in enumerate(tasks):
-        there = [
-            Job(name, task.name, words.format(**task.words).split())
-            for name, words in commands.items()
-            if task.words.keys() >= {word for _, word, *_ in Formatter().parse(words) if word}
+def _words(command: str) -> set[str]:
+    return {word for _, word, *_ in Formatter().parse(command) if word}
+
+
+def _jobs(task: Named, turn: int, commands: dict[str, str], most: int | None, folder: Path) -> list[Job]:
+    """Every command on a task where its words are known, or so many of them, in turn."""
+    number = len(commands) if most is None else min(most, len(commands))
+    names = [*commands]
+    names = [names[(turn * number + i) % len(names)] for i in range(len(names))]
+    found: list[Job] = []
+    while names and len(found) < number:
+        some, names = names[: number - len(found)], names[number - len(found) :]
+        task = with_files(task, set().union(*(_words(commands[name]) for name in some)), folder)
+        found += [
+            Job(name, task.name, commands[name].format(**task.words).split())
+            for name in some
+            if task.words.keys() >= _words(commands[name])
         ]
-        count = len(there) if rotate is None else min(rotate, len(there))
-        yield from (there[(number * count + i) % len(there)] for i in range(count))
+    return found
 
 
 class Measuring:
@@ -274,11 +283,10 @@ class Measuring:
         run: runs them.
         seconds: limits on time.
         memory: MiB; None for little, above what a process starts with; 0 for no limit on memory.
-        fair: whether what a process waits for a processor does not count.
     """
 
-    def __init__(self, run: Runner, seconds: list[float], memory: float | None, *, fair: bool) -> None:
-        self._run, self._seconds, self._memory, self._fair = run, seconds, memory, fair
+    def __init__(self, run: Runner, seconds: list[float], memory: float | None) -> None:
+        self._run, self._seconds, self._memory = run, seconds, memory
         self._started: dict[str, Ended] = {}
         self._starting = Lock()
 
@@ -303,18 +311,17 @@ class Measuring:
             return self._started[job.command]
 
     def _timed(self, job: Job, limit: float) -> Row:
-        start = self._start(job)
         allowed = limit * (2 if job.command in READ_FIRST else 1)
-        patience = allowed * (10 if self._fair else 1) + PATIENCE
-        ended = self._run([*job.line, "--time-limit", f"{limit:g}"], patience)
-        over = ended.seconds - start.seconds - allowed
-        if self._fair:
-            over -= ended.waited - start.waited
+        ended = self._run([*job.line, "--time-limit", f"{limit:g}"], self._patience(allowed))
+        over = ended.seconds - allowed - (0.0 if ended.begun else self._start(job).seconds)
         return Row(job.command, job.task, limit, None, ended.code, over, ended.waited, ended.peak)
+
+    def _patience(self, limit: float) -> float:
+        return limit * (10 if self._run.fair else 1) + PATIENCE
 
     def _confined(self, job: Job, most: float) -> Row:
         words = [*job.line, "--time-limit", f"{CONFINED_FOR:g}", "--memory-limit", f"{most:g}"]
-        ended = self._run(words, 2 * CONFINED_FOR + PATIENCE)
+        ended = self._run(words, self._patience(CONFINED_FOR))
         return Row(job.command, job.task, CONFINED_FOR, most, ended.code, 0.0, ended.waited, ended.peak)
 
 

@@ -38,8 +38,9 @@ CHECKING: Final = (
     "highspy",
     "numpy.ma",
     "numpy.random",
+    "email.parser",
 )
-"""What certificates load as claims turn out to be hard: arrays, and a solver."""
+"""What certificates load as claims turn out to be hard: arrays, a solver, and what reads its version."""
 
 
 def begin(time_limit: str | None, memory_limit: str | None, *modules: str) -> Deadline:
