@@ -6,7 +6,7 @@ Where epochs don't count, every other set of actions can be done one after anoth
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from search.packed.operators import Operator
+from search.packed.operators import Operator, forms_of
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 
@@ -15,6 +15,10 @@ _MOST: Final = 20_000
 
 _MOST_PAIRS: Final = 5_000_000
 """Pairs that it may start from."""
+
+
+_MOST_FORMS: Final = 2_000
+"""Forms of operators that are compared with each other."""
 
 
 class TooManyError(Exception):
@@ -34,6 +38,7 @@ def circles(
     Raises:
         TooManyError: they are too many to be looked for.
     """
+    operators = _suspects(packed, operators, deadline)
     disabled = _in_turn(_disabled(packed, operators, deadline), deadline)
     steps = 0
     for first in sorted(disabled):
@@ -49,6 +54,26 @@ def circles(
                     yield tuple(operators[i] for i in way)
                 elif after > first and after not in way and _fits(packed, operators, way, after):
                     ways.append((*way, after))
+
+
+def _suspects(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> list[Operator]:
+    """The operators that may be in circles as far as their forms tell."""
+    forms = forms_of(operators, packed.all_ones, deadline)
+    if len(forms) > _MOST_FORMS:
+        return list(operators)
+    # Two that set one variable of many values undo each other, so they don't share an epoch.
+    wide = sum(field for field in packed.fields if len(packed.values(field)) > 2)
+    disabled: dict[int, list[int]] = {}
+    for number, a in enumerate(forms):
+        deadline.tick()
+        for other, b in enumerate(forms):
+            if a.agents & b.agents or a.sets & b.sets & wide:
+                continue
+            if a.sets & (b.need_mask | b.forbids):
+                disabled.setdefault(number, []).append(other)
+    left = _in_turn(disabled, deadline)
+    found = {id(op) for number in left for op in forms[number].ops}
+    return [op for op in operators if id(op) in found]
 
 
 def _in_turn(disabled: dict[int, list[int]], deadline: Deadline) -> dict[int, list[int]]:
