@@ -9,6 +9,7 @@ import threading
 from typing import Final
 
 from search import PreparedTask
+from serendipity.model.errors import UsageError
 from serendipity.model.task.task import Task
 
 _MOST: Final = 8
@@ -35,10 +36,16 @@ class LastPrepared:
         self._held: tuple[PreparedTask, ...] = ()
 
     def of(self, task: Task) -> PreparedTask:
-        """The prepared task of a task: the one that is held, or else one that is held from now on."""
+        """The prepared task of a task: the one that is held, or else one that is held from now on.
+
+        Raises:
+            UsageError: it is no task.
+        """
         held = self._held
         if held and held[0].task is task:
             return held[0]
+        if not isinstance(task, Task):
+            raise UsageError(f"task: expected a Task, such as serendipity.load gives, got {task!r:.50}")
         with self._lock:
             known = next((prepared for prepared in self._held if prepared.task is task), None)
             return self._hold(known or PreparedTask(task))

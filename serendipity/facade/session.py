@@ -11,7 +11,7 @@ from serendipity.facade.prepared import HELD
 from serendipity.model.answers.result import Result
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
-from serendipity.model.task.task import HumanPlan, Task, canonical_name
+from serendipity.model.task.task import HumanPlan, Task, canonical_name, several
 
 
 class Session:
@@ -95,7 +95,7 @@ class Session:
         Raises:
             UsageError: an action is unknown or not applicable, or two of them conflict.
         """
-        chosen = [self._action(name) for name in actions]
+        chosen = [self._action(name) for name in several(actions, "actions")]
         for i, action in enumerate(chosen):
             for other in chosen[:i]:
                 if conflicting(action, other, strict=False):
@@ -121,7 +121,7 @@ class Session:
 
         The next call replays it, and raises :class:`serendipity.PlanError` where it can't be executed.
         """
-        self._human_plan, self._given = None, None if names is None else tuple(names)
+        self._human_plan, self._given = None, None if names is None else several(names, "human plan")
 
     def set_goal(self, goal: Iterable[str]) -> None:
         """Give the human another goal: literals, ``!`` in front of those to be false.
@@ -129,7 +129,7 @@ class Session:
         Raises:
             UsageError: there is no such fact.
         """
-        literals = list(goal)
+        literals = several(goal, "goal")
         positive = sorted(self._fact(name) for name in literals if not name.startswith("!"))
         negative = sorted(self._fact(name[1:]) for name in literals if name.startswith("!"))
         self._prepared = self._prepared.with_goal(Condition(tuple(positive), tuple(negative)))

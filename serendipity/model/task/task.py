@@ -21,6 +21,22 @@ def canonical_name(text: str) -> str:
     return " ".join(text.lower().split())
 
 
+def several(names: Iterable[str], what: str) -> tuple[str, ...]:
+    """The names of a list; a text by itself, whose letters would be taken for names, is refused.
+
+    Args:
+        names: a list, or whatever can be gone through.
+        what: how an error calls it.
+
+    Raises:
+        UsageError: it is a text, or has something else than texts in it.
+    """
+    found = () if isinstance(names, str) else tuple(names)
+    if isinstance(names, str) or not all(isinstance(name, str) for name in found):
+        raise UsageError(f"{what}: expected a list of names, got {names!r:.50}")
+    return found
+
+
 @dataclass(frozen=True)
 class Task:
     """A multi-agent planning task with one human (Def. 1.0, 1.1; semantics 1).
@@ -129,10 +145,11 @@ class Task:
         Raises:
             PlanError: naming the first step that is unknown, not theirs, or not applicable,
                 or saying that the goal is missed.
+            UsageError: they are no list of names.
         """
         plan: list[int] = []
         state = self.init
-        for step, text in enumerate(names, start=1):
+        for step, text in enumerate(several(names, "human plan"), start=1):
             name = canonical_name(text)
             ids = self.named.get(name, ())
             chosen = next((i for i in ids if self.actions[i].applicable(state)), None)
