@@ -5,7 +5,8 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 """
 
 from search.human.plan_graph import PlanGraph
-from search.planner import optimal_human_plans, solve
+from search.planner import solve
+from search.prediction import optimal_human_plans
 from search.prepared_task import PreparedTask, prepare
 from search.tie_bound import least_over_ties
 

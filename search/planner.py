@@ -13,7 +13,6 @@ from search.engine.best_first import Incumbent, Node, Progress, Space, Ties, bes
 from search.engine.few import EnoughError, Few
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.heuristics.first_interaction import no_team_bound
-from search.human.plan_graph import PlanGraph
 from search.joint_plans import JointPlans
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
@@ -73,25 +72,6 @@ def solve(
     except LIMITS as limit:
         answers = iter((Answer("unknown", reason=limit_reason(limit)),))
     yield from answers
-
-
-def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
-    """All optimal plans of the human alone, or None where they have none.
-
-    Raises:
-        LimitReachedError: the deadline ran out.
-    """
-    return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
-
-
-def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPlan | None:
-    """The canonical plan of the human alone (semantics 1), or None where they have none.
-
-    Raises:
-        LimitReachedError: the deadline ran out.
-    """
-    optimal = SearchContext(prepared, Options(), deadline).canonical_plan()
-    return None if optimal is None else optimal.actions
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,9 +7,12 @@ from typing import Final, NamedTuple
 from search.context import SearchContext
 from search.engine.paths import plan_steps
 from search.human.individual_planner import FoundPlan
+from search.human.plan_graph import PlanGraph
+from search.prepared_task import PreparedTask
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
-from serendipity.model.options import INFINITE
+from serendipity.model.options import INFINITE, Options
+from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.task import HumanPlan
 
@@ -27,6 +30,25 @@ class Prediction(NamedTuple):
 
     actions: HumanPlan
     optimal: bool
+
+
+def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
+    """All optimal plans of the human alone, or None where they have none.
+
+    Raises:
+        LimitReachedError: the deadline ran out.
+    """
+    return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
+
+
+def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPlan | None:
+    """The canonical plan of the human alone (semantics 1), or None where they have none.
+
+    Raises:
+        LimitReachedError: the deadline ran out.
+    """
+    optimal = SearchContext(prepared, Options(), deadline).canonical_plan()
+    return None if optimal is None else optimal.actions
 
 
 def plan_at_hand(context: SearchContext, given: HumanPlan | None) -> HumanPlan | None:

@@ -6,7 +6,7 @@ from fractions import Fraction
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
-from search.planner import canonical_human_plan
+from search.prediction import canonical_human_plan
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
 from search.simulation.space import Reactive, Start

@@ -8,7 +8,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any, Final
 
 from search import PreparedTask
-from search.planner import canonical_human_plan
+from search.prediction import canonical_human_plan
 from serendipity.execution.again import Again
 from serendipity.execution.crews import Crew, Maker
 from serendipity.execution.decided import Decided, event_lines

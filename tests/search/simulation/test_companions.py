@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from search import PreparedTask
-from search.planner import canonical_human_plan
+from search.prediction import canonical_human_plan
 from search.simulation.companion import Companion
 from search.simulation.space import Start
 from serendipity.model import Deadline, Options, Task
