@@ -11,7 +11,6 @@ from serendipity.model import HumanPlan, LimitReachedError, Options, Task
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.plan_graph import PlanGraph
 from verify.base.subproblem import in_plan
-from verify.base.undecided import UndecidedError
 from verify.calls.answer import answer
 from verify.calls.call import Call
 from verify.calls.methods import decide, is_free
@@ -19,10 +18,13 @@ from verify.certificate.humans import human_cost
 from verify.exhaustive.beside_plans import HelpBesidePlans, answers_all
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
 from verify.programs.effort import Attempt, Effort
+from verify.programs.recorded import BESIDE_ANY
+from verify.proofs.book import ProofReader
 
 _SECONDS: Final = 4.0
 _SECONDS_A_PLAN: Final = 0.1
 _A_MOMENT: Final = 2.0
+_A_WHILE: Final = 10.0
 _SHARE: Final = 0.4
 """Where methods take turns: what a search beside all plans may take, and a program; of the time left."""
 
@@ -147,14 +149,15 @@ class EachPlan:
     def _nobody(self, *limits: int) -> bool:
         """Whether a program allows no plan within limits on objective and cost, beside any optimal plan."""
         effort = self._effort
-        if effort.method == "auto":
-            effort = replace(effort, deadline=effort.deadline.part(_SHARE).within(_A_MOMENT), method="pruned")
+        if isinstance(effort.proof, ProofReader) and not _is_next(effort.proof):
+            return False  # it took too long when the proof was written
+        seconds = _A_MOMENT if effort.method == "auto" else _A_WHILE
+        method = "pruned" if effort.method == "auto" else effort.method
+        effort = replace(effort, deadline=effort.deadline.part(_SHARE).within(seconds), method=method)
         question = self._first.question.below(*limits).but(any_of=self.graph, deadline=effort.deadline)
         minimum = decide(question, effort, self._plans)
         if minimum.status == "undecided":
             self._effort.deadline.check()
-            if effort.proof is not None:  # what is written down has to be read in the same order
-                raise UndecidedError(minimum.reason, minimum.bound)
         return minimum.status == "none"
 
     @cached_property
@@ -208,6 +211,11 @@ def kin(call: Call) -> Hashable:
             return plan
         return in_plan(call.task, plan) if options.keep_prefix or any(call.prices.talk) else None
     return None if is_free(call.question) else plan
+
+
+def _is_next(proof: ProofReader) -> bool:
+    """Whether the next program is one of plans beside any of the human's."""
+    return bool(proof.left) and BESIDE_ANY in str(proof.left[0].get("name"))
 
 
 def _solved(call: Call) -> Solved:

@@ -18,6 +18,9 @@ from verify.solvers.mip import Model
 Cut = tuple[int, State]
 """The first epoch of a suffix, and the facts that hold at its begin."""
 
+BESIDE_ANY: Final = "beside any of"
+"""In the name of a program in which the human may be on any of their optimal plans."""
+
 _WORDS: Final = {
     FREE: "all plans",
     WINDOW: "every window",
@@ -174,7 +177,7 @@ def _found(
 def _described(question: Subproblem, model: Model) -> Entry:
     words = f"{_WORDS[question.rule]}, {question.horizon} epochs"
     if question.any_of is not None:
-        words += f", beside any of {question.any_of.count} plans"
+        words += f", {BESIDE_ANY} {question.any_of.count} plans"
     if not question.robots:
         words += ", robots idle"
     if question.most_cost is not None:

@@ -4,9 +4,9 @@ The verifier shares nothing with ``search``; what it may share is the model, so 
 model's rule for an epoch are planted for everybody, the verifier included.
 """
 
-from tests.verify.planted import actions, bounds, costs, spaces, walks
+from tests.verify.planted import actions, answers, bounds, costs, spaces, walks
 from tests.verify.planted.bug import Bug
 
-PLANTED: tuple[Bug, ...] = actions.BUGS + costs.BUGS + spaces.BUGS + bounds.BUGS + walks.BUGS
+PLANTED: tuple[Bug, ...] = actions.BUGS + costs.BUGS + spaces.BUGS + bounds.BUGS + walks.BUGS + answers.BUGS
 
 __all__ = ["PLANTED", "Bug"]

@@ -10,7 +10,7 @@ from serendipity.evaluation.crosscheck import PlanCall, random_call
 from serendipity.facade.certify import verify
 from serendipity.model import PlanError, UsageError
 from serendipity.testing.builders import task as build
-from serendipity.testing.cases import WORKED
+from serendipity.testing.cases import WORKED, case_4
 from tests.verify.planted.bug import Bug
 from tests.verify.planted.hand_made import hand_made
 
@@ -44,7 +44,7 @@ class Fate:
 
 
 def corpus(count: int) -> Iterator[PlanCall]:
-    """semantics 9, calls made by hand, ``count`` random ones, the paper's examples; tasks are made afresh."""
+    """semantics 9, calls by hand, ``count`` random ones, the paper's examples, case 4 again; tasks afresh."""
     for worked in WORKED:
         options = {name: str(value) for name, value in worked.options.items()}
         yield PlanCall(worked.task(), options, worked.human_plan)
@@ -53,6 +53,8 @@ def corpus(count: int) -> Iterator[PlanCall]:
     yield from (random_call(seed) for seed in range(count))
     for name, options in _EXAMPLES:
         yield PlanCall(serendipity.example(name), options)
+    for options in ({"ties": "expected"}, {"human_model": "local"}):
+        yield PlanCall(case_4(), {"discount": "0.9", **options})
 
 
 def _given_plans() -> Iterator[PlanCall]:

@@ -87,6 +87,13 @@ PLACES = {
     "how long robots have been idle": "search.robots.decoupled:DecoupledSuccessors.rested",
     "whether pi_H asks where robots are": "search.robots.decoupled:Decoupled.touched_by",
     "writing walks down": "search.robots.decoupled:Decoupled.steps",
+    # several plans of the human, and humans who replan
+    "which optimal plans are looked at": "serendipity.facade.ties:until_settled",
+    "which of the answers over ties counts": "serendipity.facade.ties:_extreme",
+    "the mean over ties": "serendipity.facade.ties:_mean",
+    "what a human who looks up decides": "search.simulation.human:Human._decide",
+    "whether a human takes part when asked": "search.simulation.human:Human.accepts",
+    "what a local human sees": "search.simulation.eyes:Nearby.look",
 }
 """Functions and methods that bugs replace.
 
