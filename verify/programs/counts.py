@@ -161,12 +161,17 @@ class Landmarks:
     def _others(self, reached: "_Reached") -> list[int]:
         """The operators that are left when as many as can be are allowed, short of reaching the goal."""
         left: list[int] = []
+        enough: set[int] = set()  # facts of which each alone would bring the goal into reach
         for number in self._order:
             if reached.allowed[number]:
                 continue
             self._deadline.tick()
-            if reached.missing[number] or reached.true.issuperset(self._adds[number]):
+            new = frozenset(self._adds[number]) - reached.true
+            if reached.missing[number] or not new:
                 reached.allowed[number] = True
+                continue
+            if not new.isdisjoint(enough):
+                left.append(number)
                 continue
             trial = _Reached(reached.true, reached.missing.copy(), reached.allowed)
             trial.allowed[number] = True
@@ -174,6 +179,8 @@ class Landmarks:
             if self._goal <= trial.true:
                 reached.allowed[number] = False
                 left.append(number)
+                if len(new) == 1:
+                    enough |= new
             else:
                 reached.true, reached.missing = trial.true, trial.missing
         return left
