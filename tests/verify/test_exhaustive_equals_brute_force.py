@@ -1,14 +1,12 @@
 """The exhaustive method answers what brute force answers, and so do turns of it and programs."""
 
-from fractions import Fraction
-
 import pytest
 from hypothesis import given
 
-from serendipity.model import Options, Result, UsageError
+from serendipity.model import Options
 from serendipity.testing.cases import WORKED, Worked
-from serendipity.testing.oracle import Optimum, best
 from serendipity.testing.strategies import Call, calls
+from tests.verify.exact_answers import assert_exact, exact_and_solved
 from verify.base.execution import conflicting
 from verify.calls.solve import solve
 from verify.exhaustive.team import excluding
@@ -16,33 +14,16 @@ from verify.exhaustive.team import excluding
 _NOT_ITS_OWN = "the exhaustive method replans suffixes, and preserves kernels"
 
 
-def _assert_equal(result: Result, optimum: Optimum, ties: str) -> None:
-    assert result.status == optimum.status
-    assert result.cost == _rounded(optimum.cost)
-    if ties == "expected" or optimum.cost is None:
-        return
-    assert result.opportunity == optimum.opportunity
-    assert result.objective == result.lower_bound == _rounded(optimum.objective)
-    assert result.saving == _rounded(optimum.saving)
-
-
-def _rounded(value: Fraction | None) -> float | None:
-    return None if value is None else float(value)
-
-
 def _check(call: Call, method: str) -> None:
-    try:
-        optimum = best(call.task, call.options, call.human_plan)
-    except UsageError:
-        with pytest.raises(UsageError):
-            solve(call.task, call.options, human_plan=call.human_plan_names, method=method)
+    both = exact_and_solved(call, method=method)
+    if both is None:
         return
-    result = solve(call.task, call.options, human_plan=call.human_plan_names, method=method)
+    optimum, result = both
     if result.status == "unknown":
         assert method == "exhaustive"
         assert result.reason in (_NOT_ITS_OWN, "a limit on cost, and communication that costs")
         return
-    _assert_equal(result, optimum, call.options.ties)
+    assert_exact(result, optimum, call.options.ties)
 
 
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite"])

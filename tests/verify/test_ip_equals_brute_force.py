@@ -1,42 +1,20 @@
 """Both encodings answer what brute force answers, on random small calls with every option."""
 
-from fractions import Fraction
-
 import pytest
 from hypothesis import given, settings
 
-from serendipity.model import Options, Result, UsageError
+from serendipity.model import Options
 from serendipity.testing.cases import WORKED, Worked
-from serendipity.testing.oracle import Optimum, best
 from serendipity.testing.strategies import Call, calls
+from tests.verify.exact_answers import assert_exact, exact_and_solved
 from verify.calls.solve import solve
 
 
-def _assert_equal(result: Result, optimum: Optimum, ties: str) -> None:
-    assert result.status == optimum.status
-    assert result.cost == _rounded(optimum.cost)
-    if ties == "expected" or optimum.cost is None:
-        return
-    assert result.opportunity == optimum.opportunity
-    assert result.objective == result.lower_bound == _rounded(optimum.objective)
-    assert result.saving == _rounded(optimum.saving)
-    if optimum.saving_alone is not None:
-        assert result.saving_alone == _rounded(optimum.saving_alone)
-
-
-def _rounded(value: Fraction | None) -> float | None:
-    return None if value is None else float(value)
-
-
 def _check(call: Call, **settings: str) -> None:
-    try:
-        optimum = best(call.task, call.options, call.human_plan)
-    except UsageError:
-        with pytest.raises(UsageError):
-            solve(call.task, call.options, human_plan=call.human_plan_names, **settings)
-        return
-    result = solve(call.task, call.options, human_plan=call.human_plan_names, **settings)
-    _assert_equal(result, optimum, call.options.ties)
+    both = exact_and_solved(call, **settings)
+    if both is not None:
+        optimum, result = both
+        assert_exact(result, optimum, call.options.ties)
 
 
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite", "individual"])
