@@ -20,12 +20,13 @@ def test_examples_of_help_run(run: Callable[[str], Run], tmp_path: Path) -> None
         assert done.err == ""
 
 
-def test_examples_of_servers_are_right_but_for_the_port(run: Callable[[str], Run]) -> None:
+def test_examples_of_servers_are_right_but_for_the_port(run: Callable[[str], Run], tmp_path: Path) -> None:
     for command in SERVERS:
         rest, _, port = command.split(" ", 1)[1].rpartition(" ")
         done = run(f"{rest} 70000")
         assert port.isdigit()
         assert (done.code, done.err) == (2, "Error: --port: expected a number from 0 to 65535, got 70000\n")
+    assert [path.name for path in tmp_path.iterdir()] == []  # no record of what was not played
 
 
 @pytest.mark.parametrize("command", ["", *(name for name in NAMES if name != "generate"), "generate usar"])

@@ -86,18 +86,18 @@ def play(
         raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
     how = {"discount": share, "view": view, "goals": goals, "deadline": seconds}
     host: Host
-    if study is not None:
-        with progress.working("drawing scenarios", quiet=quiet):
-            host = open_study(study, rounds, seed, **how)
-    else:
-        shown = example if named else _EXAMPLE
-        task = naming.load(files, human, robot, agent, team, shown, quiet=quiet)
-        with progress.working("getting ready", quiet=quiet):
-            file = record_in(records)
-            host = open_table(shown or task.name, task, file, condition=robots, **how)
-    listener = addresses.listening("127.0.0.1", port)
-    if not quiet:
-        where = study if study is not None else file
-        output.say(f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n")
-    run(application(host, addresses.hosts("127.0.0.1")), listener)
+    shown = example if named else _EXAMPLE
+    task = None if study is not None else naming.load(files, human, robot, agent, team, shown, quiet=quiet)
+    with addresses.listening("127.0.0.1", port) as listener:  # first, or a port in use leaves an empty record
+        if task is None:
+            assert study is not None
+            with progress.working("drawing scenarios", quiet=quiet):
+                where, host = study, open_study(study, rounds, seed, **how)
+        else:
+            with progress.working("getting ready", quiet=quiet):
+                where = record_in(records)
+                host = open_table(shown or task.name, task, where, condition=robots, **how)
+        if not quiet:
+            output.say(f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n")
+        run(application(host, addresses.hosts("127.0.0.1")), listener)
     return ExitCode.ANSWERED
