@@ -83,6 +83,7 @@ def verify(
     limits = limits_from(time_limit, memory_limit, deadline)
     from serendipity.facade.proofs import write_proof
     from verify.certificate.certify import certify  # loads the solvers
+    from verify.programs.effort import NoProgramError
     from verify.proofs.book import ProofWriter
 
     writer = None if proof is None else ProofWriter()
@@ -90,5 +91,7 @@ def verify(
         task, result, encoding=encoding, solver=solver, method=method, proof=writer, deadline=limits
     )
     if writer is not None and proof is not None:
+        if certificate.verdict == "proved" and not writer.programs:
+            raise NoProgramError("an answer that rules alone decide")
         write_proof(Path(proof), writer, certificate, result)
     return certificate

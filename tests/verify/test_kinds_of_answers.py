@@ -102,6 +102,14 @@ def test_a_proof_is_of_its_own_answer(task: Any, asked: Any, other: Any, tmp_pat
     assert not serendipity.check_proof(file, given, serendipity.plan(given, **other)).accepted
 
 
+def test_what_rules_alone_decide_has_no_file(tmp_path: Path) -> None:
+    """It was not written, and nobody said so."""
+    nothing = kinds()["goals, none"]
+    with pytest.raises(UsageError, match="no programs for an answer that rules alone decide"):
+        serendipity.verify(nothing.task, nothing.result, proof=tmp_path / "proof.json")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_one_program_stands_for_all_plans_that_nothing_helps(tmp_path: Path) -> None:
     """24 optimal plans of the human, and robots of no use beside any of them."""
     file, task = tmp_path / "proof.json", errands(4)
