@@ -23,6 +23,9 @@ STATES_A_VALUE: Final = 24
 _SMALL: Final = 4
 """States of a small automaton for each fact of its largest group."""
 
+_LARGE: Final = 100_000
+"""Moves of an automaton that is large enough: once a fact does not fit, no other is tried."""
+
 _MANY: Final = 500_000
 """Moves from which on there may be no memory for more."""
 
@@ -101,43 +104,77 @@ def automata(
     return tuple(result)
 
 
-def small_automata(
-    task: Task,
-    part: Relevant,
-    units: Iterable[frozenset[int]],
-    deadline: Deadline,
-    owner: Mapping[int, int],
-) -> tuple[Automaton, ...]:
-    """Automata of all agents over few facts: their largest group, and what most of their actions need.
+class SmallAutomata:
+    """Automata over few facts: each agent's largest group, and what many of their actions need.
 
     Args:
         task: the task.
-        part: what of it matters.
         units: groups of facts of which exactly one is true.
         deadline: polled.
         owner: whose facts are whose.
     """
-    groups = sorted(deadline.each(units), key=lambda unit: (-len(unit), min(unit)))
-    result = []
-    for agent in range(len(task.agents)):
-        mine = {f for f, a in deadline.each(owner.items()) if a == agent}
-        actions = {
-            i: task.actions[i] for i in deadline.each(part.actions) if agent in task.actions[i].participants
-        }
-        facts = next((unit for unit in groups if unit <= mine), frozenset())
-        asked = Counter(
-            f for i in deadline.each(actions) for f in part.pre[i] if f in mine and f not in facts
-        )
-        goal = [f for f in (*task.goal.positive, *task.goal.negative) if f in mine - facts]
+
+    def __init__(
+        self, task: Task, units: Iterable[frozenset[int]], deadline: Deadline, owner: Mapping[int, int]
+    ) -> None:
+        self._task, self._deadline = task, deadline
+        groups = sorted(deadline.each(units), key=lambda unit: (-len(unit), min(unit)))
+        self._mine: list[set[int]] = [set() for _ in task.agents]
+        for f, agent in deadline.each(owner.items()):
+            self._mine[agent].add(f)
+        self._group = [next((unit for unit in groups if unit <= mine), frozenset()) for mine in self._mine]
+        self._had: set[int] = set()
+
+    def turn(self, part: Relevant) -> tuple[Automaton, ...] | None:
+        """The automata of all agents with one more fact each; None: there is none left for the human.
+
+        The human's is the one that most of their actions need, and each robot's the one that most of
+        the actions need by which the human gets it; no turn before had it.
+
+        Args:
+            part: what of the task matters.
+        """
+        human, first = self._task.human, not self._had
+        fact = self._next(self._asked(part, human, part.actions))
+        if fact is None and not first:
+            return None
+        givers = [i for i in part.actions if fact in self._task.actions[i].add]
+        result = []
+        for agent in range(len(self._task.agents)):
+            if agent != human:
+                asked = self._asked(part, agent, givers) or self._asked(part, agent, part.actions)
+                fact = self._next(asked)
+            result.append(self._small(part, agent, () if fact is None else (fact,)))
+        return tuple(result)
+
+    def _next(self, asked: list[int]) -> int | None:
+        """The first of some facts that no turn has had."""
+        fact = next((f for f in asked if f not in self._had), None)
+        self._had.add(-1 if fact is None else fact)
+        return fact
+
+    def _asked(self, part: Relevant, agent: int, actions: Iterable[int]) -> list[int]:
+        """An agent's facts outside of their group that some of their actions need, the most wanted first."""
+        facts = self._mine[agent] - self._group[agent]
+        taking = (i for i in self._deadline.each(actions) if agent in self._task.actions[i].participants)
+        count = Counter(f for i in taking for f in part.pre[i] if f in facts)
+        return [f for f, _ in count.most_common()]
+
+    def _small(self, part: Relevant, agent: int, others: tuple[int, ...]) -> Automaton:
+        task, facts = self._task, self._group[agent]
+        each = self._deadline.each
+        actions = {i: task.actions[i] for i in each(part.actions) if agent in task.actions[i].participants}
+        goals = (*task.goal.positive, *task.goal.negative)
+        goal = [f for f in goals if f in self._mine[agent] and f not in facts]
         most = max(MOST_STATES, _SMALL * len(facts))
-        explorer = _Explorer(task, part, agent, actions, most, deadline)
-        others = (*goal[:1], *(f for f, _ in asked.most_common(1) if f not in goal[:1]))
+        explorer = _Explorer(task, part, agent, actions, most, self._deadline)
         found = (
-            explorer.explore(facts.union(others)) or explorer.explore(facts) or explorer.explore(frozenset())
+            explorer.explore(facts.union(goal[:1], others))
+            or explorer.explore(facts)
+            or explorer.explore(frozenset())
         )
         assert found is not None
-        result.append(found)
-    return tuple(result)
+        return found
 
 
 class _Explorer:
@@ -170,7 +207,10 @@ class _Explorer:
         best = self.explore(frozenset())
         assert best is not None
         for piece in sorted(pieces, key=lambda piece: (-len(piece), min(piece))):
-            best = self.explore(best.facts | piece) or best
+            larger = self.explore(best.facts | piece)
+            if larger is None and sum(map(len, best.moves)) > _LARGE:
+                break
+            best = larger or best
         return best
 
     def explore(self, facts: frozenset[int]) -> Automaton | None:

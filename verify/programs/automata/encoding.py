@@ -1,5 +1,6 @@
 """The strong encoding of a question, from its task to a program that a solver can take."""
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Final
 
@@ -7,7 +8,7 @@ from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
-from verify.programs.agents.product import Automaton, automata, private_facts, small_automata
+from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
 from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
     FAR,
@@ -21,11 +22,18 @@ from verify.programs.automata.program import BYTES_AN_ARC, Program
 from verify.programs.automata.pruning import prune, unroll
 from verify.programs.automata.setting import Setting, outer_needs
 from verify.programs.automata.suffixes import bound_suffix
+from verify.programs.automata.windows import keep_within_windows
 from verify.programs.promising import OfState, Team, keep_promising
 from verify.solvers.mip import Model
 
 MANY_ACTIONS: Final = 5_000
 """Actions from which on small automata go before the large ones."""
+
+_WORTH: Final = 0.9
+"""A turn of small automata that leaves more than this share of the actions was idle."""
+
+_IDLE_TURNS: Final = 2
+"""Idle turns in a row after which there is no other."""
 
 
 class AutomataEncoding:
@@ -60,11 +68,11 @@ class AutomataEncoding:
         self._groups = [group for group in groups if _moves_by_value(question, part, group)]
         with during("building the agents' automata"):
             owner = private_facts(question.task, part, self.deadline)
-            if pruned and len(part.actions) > MANY_ACTIONS:
-                small = small_automata(question.task, part, self._groups, self.deadline, owner)
-                if not self._keep_promising(part, small, expected):
+            if pruned:
+                few = self._with_few_facts(part, owner, expected)
+                if few is None:
                     return
-                part = part.only(_offered(question.task, small, self.deadline))
+                part = few
             machines = automata(question.task, part, self._groups, self.deadline, owner)
         if pruned and not self._keep_promising(part, machines, expected):
             return
@@ -75,6 +83,28 @@ class AutomataEncoding:
         ):
             if prune(setting) if pruned else unroll(setting):
                 self.setting = setting
+
+    def _with_few_facts(
+        self, part: Relevant, owner: Mapping[int, int], expected: tuple[frozenset[int], ...]
+    ) -> Relevant | None:
+        """What small automata leave of many actions; None if there is no plan within the limits."""
+        if len(part.actions) <= MANY_ACTIONS:
+            return part
+        task, idle = self.question.task, 0
+        small = SmallAutomata(task, self._groups, self.deadline, owner)
+        while len(part.actions) > MANY_ACTIONS and idle < _IDLE_TURNS:
+            machines = small.turn(part)
+            if machines is None:
+                break
+            if not self._keep_promising(part, machines, expected):
+                return None
+            left = part.only(_offered(task, machines, self.deadline))
+            worth = any(
+                after < before * _WORTH
+                for before, after in zip(_sizes(task, part), _sizes(task, left), strict=True)
+            )
+            part, idle = left, 0 if worth else idle + 1
+        return part
 
     @cached_property
     def program(self) -> Program:
@@ -172,6 +202,7 @@ class AutomataEncoding:
         going_on = [m.agent for m in machines if self._goes_on(part, m, wanted_true | wanted_false)]
         window = prices.epoch if question.rule == WINDOW else 0
         with during("looking for moves of the agents that may pay"):
+            keep_within_windows(question, machines[question.task.human])
             pre, neg = outer_needs(question.task, part, machines, self.deadline)
             team = Team(
                 task=question.task,
@@ -221,6 +252,11 @@ class AutomataEncoding:
             payer = task.human if task.human in action.participants else action.participants[0]
             weights[payer][i] = question.prices.team[i] + question.prices.talk[i]
         return weights
+
+
+def _sizes(task: Task, part: Relevant) -> tuple[int, int]:
+    """How many actions there are, and in how many the human takes part."""
+    return len(part.actions), sum(task.human in task.actions[i].participants for i in part.actions)
 
 
 def _offered(task: Task, machines: tuple[Automaton, ...], deadline: Deadline) -> set[int]:

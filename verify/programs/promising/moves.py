@@ -17,6 +17,9 @@ from verify.programs.promising.spending import Spending
 from verify.programs.promising.team import FAR, Team
 from verify.programs.promising.use import Use
 
+MANY_MOVES: Final = 10_000
+"""Moves from which on arrays are worth their while."""
+
 _MOST_ROUNDS: Final = 6
 
 Price = Callable[[int], int]
@@ -32,14 +35,25 @@ def keep_promising(team: Team) -> bool:
     Args:
         team: its ``moves`` are replaced.
     """
-    count = team.count()
+    if team.count() < MANY_MOVES:
+        return _rounds(team.count, lambda: _round(team))
+    from verify.programs.promising.many_moves import ManyMoves  # loads numpy, which few calls need
+
+    many = ManyMoves(team)
+    promising = _rounds(many.count, many.round)
+    many.write()
+    return promising
+
+
+def _rounds(count: Callable[[], int], one_round: Callable[[], bool]) -> bool:
+    before = count()
     for _ in range(_MOST_ROUNDS):
-        if not _round(team):
+        if not one_round():
             return False
-        left = team.count()
-        if left > count * _WORTH:
+        left = count()
+        if left > before * _WORTH:
             break
-        count = left
+        before = left
     return True
 
 

@@ -5,7 +5,7 @@ at most ``s``, and costs that path and ``s``, at least.  So paths are looked at 
 limit on what its actions' needs may cost, and adds the least that a path pays which is on no lower level.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import pairwise
@@ -44,19 +44,24 @@ def levels(team: Team, needs: Mapping[int, int]) -> list[Level]:
         needs: what robots have spent at least when each of the human's actions takes place.
     """
     values = sorted({value for value in team.deadline.each(needs.values()) if value <= team.most} | {0})
-    count = min(_LEVELS, len(values))
-    cuts = [len(values) * k // count for k in range(count)] + [len(values)]
-    if values[0] == 0 and len(values) > 1 and count > 1:
-        cuts[1] = 1  # without any help
     backward = team.backward(team.task.human)
     found = []
-    for low, high in pairwise(cuts):
+    for low, high in pairwise(cuts(values)):
         if low >= high:
             continue
         least, most = values[low], values[high - 1]
         level = _level(team, backward, needs, least, most)
         if level.total + least <= team.most:
             found.append(level)
+    return found
+
+
+def cuts(values: Sequence[int]) -> list[int]:
+    """Where to divide ascending values into levels, as positions; the first level is without any help."""
+    count = min(_LEVELS, len(values))
+    found = [len(values) * k // count for k in range(count)] + [len(values)]
+    if values[0] == 0 and len(values) > 1 and count > 1:
+        found[1] = 1
     return found
 
 

@@ -1,0 +1,113 @@
+"""Bounds on moves drop the same ones move by move and on arrays; windows drop joint moves out of reach."""
+
+from copy import copy
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+
+from serendipity.model import Options, Task
+from serendipity.testing.builders import task
+from serendipity.testing.strategies import Call, calls
+from tests.verify.test_pruning_keeps_plans import _check
+from verify.base.relevance import relevant_part
+from verify.base.subproblem import WINDOW, Subproblem, prices
+from verify.programs.agents.product import Automaton, automata, private_facts
+from verify.programs.automata import encoding
+from verify.programs.automata.windows import keep_within_windows, longest_window
+from verify.programs.promising import Team, keep_promising, moves
+
+
+def _both(team: Team) -> bool:
+    """The bounds, held to what arrays say."""
+    other = copy(team)
+    other.moves = [list(each) for each in team.moves]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(moves, "MANY_MOVES", 0)
+        at_once = keep_promising(other)
+    one_by_one = keep_promising(team)
+    assert at_once == one_by_one
+    assert other.moves == team.moves
+    for bound, known in ((other.spare, team.spare), (other.latest, team.latest)):
+        assert (bound is None) == (known is None)
+        if bound is not None and known is not None:
+            states = [(k, state) for k in team.robots for state in range(len(team.moves[k]))]
+            assert [bound(*each) for each in states] == [known(*each) for each in states]
+    return one_by_one
+
+
+@settings(max_examples=20)
+@given(calls())
+def test_arrays_leave_the_same_moves(call: Call) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(encoding, "MANY_ACTIONS", 0)
+        patch.setattr(encoding, "keep_promising", _both)
+        _check(call)
+
+
+@settings(max_examples=15)
+@given(calls(modes=("serendipity",)))
+def test_arrays_and_turns_of_small_automata_drop_no_plan(call: Call) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(encoding, "MANY_ACTIONS", 0)
+        patch.setattr(moves, "MANY_MOVES", 0)
+        _check(call)
+
+
+# -- windows
+
+
+_WAY = {
+    "go-1 h": "p0 -> p1 !p0",
+    "go-2 h": "p1 -> p2 !p1",
+    "go-3 h": "p2 -> p3 !p2",
+    "stray-1 h": "p0 -> q1 !p0",
+    "stray-2 h": "q1 -> q2 !q1",
+    "back h": "q2 -> p3 !q2",
+    **{f"meet-{place} h r": f"{place} -> ready" for place in ("p0", "p1", "p2", "p3", "q1", "q2")},
+    "done h": "ready -> goal",
+    "slow h": "p3 -> goal @ 9",
+}
+
+
+def _meeting_places(way: Task, longest: int | None, **options: object) -> set[str]:
+    """Where the human's automaton lets them meet the robot, with windows of that length."""
+    names = ("go-1 h", "go-2 h", "go-3 h", "slow h")
+    plan = way.plan_from_names(names)
+    asked = Options(max_window=longest, **options)  # type: ignore[arg-type]
+    question = Subproblem(way, asked, WINDOW, plan, len(plan), prices(way, asked, plan))
+    part = relevant_part(question)
+    assert part is not None
+    groups = [frozenset(variable.facts) for variable in way.variables]
+    owner = private_facts(way, part, question.deadline)
+    machine: Automaton = automata(way, part, groups, question.deadline, owner)[0]
+    keep_within_windows(question, machine)
+    return {
+        way.actions[i].name.split()[0].removeprefix("meet-")
+        for each in machine.moves
+        for i, _ in each
+        if len(way.actions[i].participants) > 1
+    }
+
+
+def test_one_meets_no_further_from_the_plan_than_a_window_is_long() -> None:
+    way = task(init="p0", goal="goal", actions=_WAY)
+    plan = {"p0", "p1", "p2", "p3"}
+    assert _meeting_places(way, 1) == plan
+    assert _meeting_places(way, 2) == plan | {"q1"}
+    assert _meeting_places(way, 3) == _meeting_places(way, None) == plan | {"q1", "q2"}
+
+
+def test_a_prefix_in_any_order_leads_anywhere() -> None:
+    way = task(init="p0", goal="goal", actions=_WAY)
+    everywhere = _meeting_places(way, None)
+    assert _meeting_places(way, 1, mode="communication", keep_prefix=True) == everywhere
+
+
+def test_a_price_of_epochs_limits_windows() -> None:
+    way = task(init="p0", goal="goal", actions=_WAY)
+    plan = way.plan_from_names(("go-1 h", "go-2 h", "go-3 h", "slow h"))
+    options = Options(window_weight=Fraction(10))
+    question = Subproblem(way, options, WINDOW, plan, len(plan), prices(way, options, plan))
+    found = {most: longest_window(question.but(most=most)) for most in (9, 19, 29, None)}
+    assert found == {9: 0, 19: 1, 29: 2, None: 4}

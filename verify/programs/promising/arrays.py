@@ -1,0 +1,213 @@
+"""Teams with many moves as arrays: what :mod:`.moves` computes move by move, thousands at once.
+
+Moves of all agents are numbered through, ordered by agent and state; states are numbered through, too.
+Literals are numbers: ``f`` says that a fact is true, ``f`` plus the number of facts that it is false.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import chain, pairwise
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from serendipity.model import Deadline
+from verify.programs.agents.product import Move
+from verify.programs.promising.team import FAR, Team
+
+Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_NOTHING: Final[Ints] = np.zeros(0, np.int64)
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """Lists of different lengths, one after the other.
+
+    Attributes:
+        start: where each list starts, and where the last one ends.
+        items: what is in them.
+    """
+
+    start: Ints
+    items: Ints
+
+    @classmethod
+    def of(cls, lists: Sequence[Sequence[int]]) -> "Rows":
+        """From lists."""
+        sizes = np.fromiter(map(len, lists), np.int64, len(lists))
+        items = np.fromiter(chain.from_iterable(lists), np.int64, int(sizes.sum()))
+        return cls(np.concatenate(([0], np.cumsum(sizes))), items)
+
+    @classmethod
+    def by(cls, keys: Ints, count: int, items: Ints | None = None) -> "Rows":
+        """From pairs of a key below ``count`` and an item; without items these are the pairs' numbers."""
+        order = np.argsort(keys, kind="stable")
+        start = np.concatenate(([0], np.cumsum(np.bincount(keys, minlength=count))))
+        return cls(start, order if items is None else items[order])
+
+    def keys(self) -> Ints:
+        """The list that each item is in."""
+        return np.repeat(np.arange(len(self.start) - 1), np.diff(self.start))
+
+    def at(self, keys: Ints) -> Ints:
+        """The items of some lists, one after the other."""
+        first = self.start[keys]
+        sizes = self.start[keys + 1] - first
+        total = int(sizes.sum())
+        if not total:
+            return _NOTHING
+        ends = np.cumsum(sizes)
+        return self.items[np.repeat(first - ends + sizes, sizes) + np.arange(total)]
+
+    def most(self, values: Ints) -> Ints:
+        """For each list the largest of its items' values; 0 for an empty one."""
+        found = np.zeros(len(self.start) - 1, np.int64)
+        some = np.flatnonzero(np.diff(self.start))
+        if len(some):
+            found[some] = np.maximum.reduceat(values[self.items], self.start[some])
+        return found
+
+
+class Actions:
+    """What a team's actions need and change, by id.
+
+    Args:
+        team: its task, needs and prices.
+
+    Attributes:
+        price: what each adds to the objective.
+        needs: literals outside of its participants' automata.
+        changes: literals that it makes true.
+        participants: ids of agents.
+        joint: whether several agents take part.
+        initially: whether a literal is true initially.
+        needed: whether some action needs a literal of its fact.
+    """
+
+    def __init__(self, team: Team) -> None:
+        task, each = team.task, team.deadline.each
+        self._count, self.facts = len(task.actions), len(task.facts)
+        self._ids = np.fromiter(team.pre, np.int64, len(team.pre))
+        self.price = np.array(team.price, np.int64)
+        ground = [task.actions[i] for i in each(team.pre)]
+        self.needs = self._literals(list(team.pre.values()), [team.neg[i] for i in team.pre])
+        self.changes = self._literals([each.add for each in ground], [each.delete for each in ground])
+        self.participants = self._rows([each.participants for each in ground])
+        self.joint: Mask = np.diff(self.participants.start) > 1
+        true = np.zeros(self.facts, bool)
+        true[list(task.init)] = True
+        self.initially: Mask = np.concatenate((true, ~true))
+        needed = np.zeros(self.facts, bool)
+        needed[list(team.needed)] = True
+        self.needed: Mask = np.concatenate((needed, needed))
+
+    def _rows(self, lists: Sequence[Sequence[int]]) -> Rows:
+        """Lists of the actions that matter, as rows of all actions."""
+        rows = Rows.of(lists)
+        return Rows.by(self._ids[rows.keys()], self._count, rows.items)
+
+    def _literals(self, true: Sequence[Sequence[int]], false: Sequence[Sequence[int]]) -> Rows:
+        positive, negative = Rows.of(true), Rows.of(false)
+        keys = np.concatenate((self._ids[positive.keys()], self._ids[negative.keys()]))
+        items = np.concatenate((positive.items, negative.items + self.facts))
+        return Rows.by(keys, self._count, items)
+
+
+class Arcs:
+    """The moves that are left, as arrays.
+
+    Args:
+        first: for each agent the number of their state 0; then the number of all states.
+        source: where each move starts.
+        action: its action.
+        target: where it leads.
+        agent: whose it is.
+    """
+
+    def __init__(self, first: Ints, source: Ints, action: Ints, target: Ints, agent: Ints) -> None:
+        self.first, self.agent = first, agent
+        self.source, self.action, self.target = source, action, target
+
+    @classmethod
+    def of(cls, team: Team) -> "Arcs":
+        """All moves of a team."""
+        first = np.concatenate(([0], np.cumsum([len(moves) for moves in team.moves])))
+        sources, actions, targets, agents = [], [], [], []
+        for k, moves in enumerate(team.moves):
+            sizes = np.fromiter(map(len, team.deadline.each(moves)), np.int64, len(moves))
+            pairs = chain.from_iterable(chain.from_iterable(team.deadline.each(moves)))
+            both = np.fromiter(pairs, np.int64, 2 * int(sizes.sum())).reshape(-1, 2)
+            sources.append(np.repeat(np.arange(len(moves)) + first[k], sizes))
+            actions.append(both[:, 0])
+            targets.append(both[:, 1] + first[k])
+            agents.append(np.full(len(both), k))
+        return cls(first, *map(np.concatenate, (sources, actions, targets, agents)))
+
+    @property
+    def states(self) -> int:
+        """How many states there are."""
+        return int(self.first[-1])
+
+    def only(self, mask: Mask) -> "Arcs":
+        """Some of them."""
+        chosen = self.source[mask], self.action[mask], self.target[mask], self.agent[mask]
+        return Arcs(self.first, *chosen)
+
+    def lists(self, agent: int) -> list[list[Move]]:
+        """An agent's moves, state by state."""
+        mine = self.only(self.agent == agent)
+        first, end = int(self.first[agent]), int(self.first[agent + 1])
+        moves = list(zip(mine.action.tolist(), (mine.target - first).tolist(), strict=True))
+        start = np.searchsorted(mine.source, np.arange(first, end + 1)).tolist()
+        return [moves[a:b] for a, b in pairwise(start)]
+
+
+def distances(
+    edges: tuple[Ints, Ints, Ints],
+    values: Ints,
+    deadline: Deadline,
+    limit: int = FAR - 1,
+    rest: Ints | None = None,
+) -> Ints:
+    """Least distances in a graph, from nodes that have one; all nodes of one distance are looked at at once.
+
+    Args:
+        edges: where each starts, where it leads, and what it weighs.
+        values: for each node the distance that it starts with, or ``FAR``.
+        deadline: polled.
+        limit: a node whose distance and rest exceed it is not looked at.
+        rest: what is left from each node, or None for nothing.
+    """
+    values = values.copy()
+    source, target, weight = edges
+    leaving = Rows.by(source, len(values))
+    seen = np.zeros(len(values), bool)
+    most = np.full(len(values), limit) if rest is None else limit - rest
+    while True:
+        deadline.check()
+        now = _least(values, seen)
+        if not len(now):
+            return values
+        seen[now] = True
+        out = leaving.at(now)
+        after = target[out]
+        total = values[now[0]] + weight[out]
+        kept = total <= most[after]
+        np.minimum.at(values, after[kept], total[kept])
+
+
+def _least(values: Ints, seen: Mask) -> Ints:
+    """The nodes of least value that have not been seen."""
+    open_values = np.where(seen, FAR, values)
+    least = open_values.min(initial=FAR)
+    return _NOTHING if least >= FAR else np.flatnonzero(open_values == least)
+
+
+def which(ids: Iterable[int], count: int) -> Mask:
+    """A mask of some numbers below ``count``."""
+    mask = np.zeros(count, bool)
+    mask[list(ids)] = True
+    return mask

@@ -1,0 +1,196 @@
+"""The bounds of :mod:`.spending` and :mod:`.use` on arrays: all that comes at the same value at once."""
+
+import numpy as np
+
+from serendipity.model import Deadline
+from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Rows
+from verify.programs.promising.team import FAR
+from verify.programs.promising.use import NEVER
+
+
+class SpendingAtOnce:
+    """What :class:`.spending.Spending` says.
+
+    Args:
+        actions: what they need and change.
+        arcs: all moves that are left.
+        counted: whether an agent's spending counts, by id.
+        price: of each action.
+        offered: the actions in which those take part who are left out; what they change is free.
+        deadline: polled.
+
+    Attributes:
+        states: for each state what was spent on the way there; ``FAR``: it is not reached.
+        ready: for each action what was spent before it could take place; ``FAR``: it can't.
+        parts: by agent and action, what was spent before the agent is where it starts.
+    """
+
+    def __init__(
+        self, actions: Actions, arcs: Arcs, counted: Mask, price: Ints, offered: Mask, deadline: Deadline
+    ) -> None:
+        self._actions, self._arcs, self._price, self._counted = actions, arcs, price, counted
+        count = len(price)
+        self._mine = np.flatnonzero(counted[arcs.agent])
+        self._leaving = Rows.by(arcs.source[self._mine], arcs.states, self._mine)
+        self._of_action = Rows.by(arcs.action[self._mine], count, self._mine)
+        self.free = actions.initially.copy()
+        self.free[actions.changes.at(np.flatnonzero(offered))] = True
+        literals = len(actions.initially)
+        self.literals = np.where(self.free, 0, FAR)
+        self.states = np.full(arcs.states, FAR)
+        self.ready = np.full(count, FAR)
+        self.parts = np.full((len(counted), count), FAR)
+        keys, needs = actions.needs.keys(), actions.needs.items
+        lacking = ~self.free[needs]
+        self._waiting = Rows.by(needs[lacking], literals, keys[lacking])
+        missing = np.bincount(keys[lacking], minlength=count)
+        takers, owners = actions.participants.keys(), actions.participants.items
+        alone = counted[owners] | ~offered[takers]
+        self._missing = missing + np.bincount(takers[alone], minlength=count)
+        self._run(deadline)
+
+    def facts(self) -> Ints:
+        """For each action what was spent before the facts are there that it needs outside of automata."""
+        return self._actions.needs.most(self.literals)
+
+    def partners(self, but: int) -> Ints:
+        """For each action what was spent before all who take part, without one, are where it starts."""
+        taking, owner = self._actions.participants.keys(), self._actions.participants.items
+        others = self._counted[owner] & (owner != but)
+        least = np.zeros(len(self.ready), np.int64)
+        np.maximum.at(least, taking[others], self.parts[owner[others], taking[others]])
+        return least
+
+    def arcs(self) -> Ints:
+        """For each move what was spent once it is done."""
+        arcs = self._arcs
+        before = np.maximum(self.states[arcs.source], self.ready[arcs.action])
+        return np.where(before >= FAR, FAR, before + self._price[arcs.action])
+
+    def _run(self, deadline: Deadline) -> None:
+        first = self._arcs.first
+        self.states[first[:-1][self._counted]] = 0
+        seen_states = np.zeros(len(self.states), bool)
+        seen_literals = self.free.copy()
+        while True:
+            deadline.check()
+            states, literals = (
+                np.where(seen_states, FAR, self.states),
+                np.where(seen_literals, FAR, self.literals),
+            )
+            value = min(states.min(initial=FAR), literals.min(initial=FAR))
+            if value >= FAR:
+                return
+            here, known = np.flatnonzero(states == value), np.flatnonzero(literals == value)
+            seen_states[here] = True
+            seen_literals[known] = True
+            self._settle(int(value), self._leaving.at(here), self._waiting.at(known), seen_states)
+
+    def _settle(self, value: int, leaving: Ints, lacked: Ints, seen: Mask) -> None:
+        """Moves that start now, and actions whose needs are there now, once for each need."""
+        arcs, count = self._arcs, len(self.ready)
+        parts = np.unique(arcs.agent[leaving] * count + arcs.action[leaving])
+        agent, action = np.divmod(parts, count)
+        new = self.parts[agent, action] == FAR
+        self.parts[agent[new], action[new]] = value
+        there = np.concatenate((action[new], lacked))
+        np.subtract.at(self._missing, there, 1)
+        there = np.unique(there)
+        ready = there[(self._missing[there] == 0) & (self.ready[there] == FAR)]
+        self.ready[ready] = value
+        possible = leaving[self.ready[arcs.action[leaving]] < FAR]
+        blocked = self._of_action.at(ready)
+        going = np.concatenate((possible, blocked[seen[arcs.source[blocked]]]))
+        np.minimum.at(self.states, arcs.target[going], value + self._price[arcs.action[going]])
+        makers = np.repeat(ready, np.diff(self._actions.changes.start)[ready])
+        made = self._actions.changes.at(ready)
+        wanted = self._actions.needed[made]
+        np.minimum.at(self.literals, made[wanted], value + self._price[makers[wanted]])
+
+
+class UseAtOnce:
+    """What :class:`.use.Use` says.
+
+    Args:
+        actions: what they need and change.
+        arcs: all moves that are left.
+        robots: whether an agent is a robot, by id.
+        watched: whether an agent goes on to the end, by id.
+        price: what an action takes of what may be spent.
+        literals: by literal, what may have been spent when it becomes true.
+        joint: by action the same afterwards, for the human's joint actions; :data:`NEVER` elsewhere.
+        end: what may have been spent at the end.
+        deadline: polled.
+    """
+
+    def __init__(
+        self,
+        actions: Actions,
+        arcs: Arcs,
+        robots: Mask,
+        watched: Mask,
+        price: Ints,
+        literals: Ints,
+        joint: Ints,
+        end: int,
+        deadline: Deadline,
+    ) -> None:
+        self._actions, self._arcs, self._price, self._end = actions, arcs, price, end
+        self._watched = watched
+        mine = np.flatnonzero(robots[arcs.agent])
+        count = len(price)
+        self._into = Rows.by(arcs.target[mine], arcs.states, mine)
+        self._of_action = Rows.by(arcs.action[mine], count, mine)
+        done = np.diff(self._of_action.start) > 0
+        makers = actions.changes.keys()
+        robots_make = done[makers]
+        self._makers = Rows.by(actions.changes.items[robots_make], len(literals), makers[robots_make])
+        self.states = np.full(arcs.states, NEVER)
+        self._literals = literals.copy()
+        self._used = np.where(done, joint, NEVER)
+        seen_to = arcs.action[mine[watched[arcs.agent[mine]]]]
+        self._used[seen_to] = np.maximum(self._used[seen_to], end)
+        self._run(deadline)
+
+    def arcs(self) -> Ints:
+        """For each move what may have been spent once it is done; :data:`NEVER`: it is of no use."""
+        arcs = self._arcs
+        use = np.maximum(self._used[arcs.action], self.states[arcs.target])
+        return np.where(self._watched[arcs.agent], self._end, use)
+
+    def state(self, agent: int, state: int) -> int:
+        """What may have been spent when an agent is in a state and goes on; :data:`NEVER`: it needn't."""
+        return self._end if self._watched[agent] else int(self.states[self._arcs.first[agent] + state])
+
+    def _run(self, deadline: Deadline) -> None:
+        kinds = self.states, self._literals, self._used
+        seen = [np.zeros(len(values), bool) for values in kinds]
+        moved = np.zeros(len(self._used), bool)
+        while True:
+            deadline.check()
+            opened = [np.where(done, NEVER, values) for done, values in zip(seen, kinds, strict=True)]
+            value = max(int(values.max(initial=NEVER)) for values in opened)
+            if value == NEVER:
+                return
+            states, literals, used = (np.flatnonzero(values == value) for values in opened)
+            for done, now in zip(seen, (states, literals, used), strict=True):
+                done[now] = True
+            self._offer(self._used, self._makers.at(literals), value)
+            arcs = np.concatenate((self._into.at(states), self._of_action.at(used)))
+            self._before(value, arcs, moved)
+
+    def _before(self, value: int, arcs: Ints, moved: Mask) -> None:
+        """Moves are of use: so is what they need."""
+        action = self._arcs.action[arcs]
+        np.maximum.at(self.states, self._arcs.source[arcs], np.maximum(value - self._price[action], NEVER))
+        new = np.unique(action[~moved[action]])
+        moved[new] = True
+        needs = self._actions.needs
+        left = np.repeat(value - self._price[new], np.diff(needs.start)[new])
+        np.maximum.at(self._literals, needs.at(new), np.maximum(left, NEVER))
+        joint = new[self._actions.joint[new]]
+        self._offer(self._used, joint, value)
+
+    @staticmethod
+    def _offer(values: Ints, keys: Ints, value: int) -> None:
+        values[keys] = np.maximum(values[keys], value)
