@@ -101,13 +101,22 @@ class OneWindow:
         finite = [landmark for landmark in found if landmark.cost < FAR]
         own = sum(landmark.cost for landmark in finite)
         nets = [apart.amounts - self._saved(apart, finite, own) for apart in self._apart]
+        deadline = self._context.deadline
         try:
-            self._together = Together(self._apart, nets, self._fields, most - own, self._context.deadline)
+            self._together = Together(
+                self._apart, nets, self._fields, most - own, self._most_paid(), deadline
+            )
         except TooManyStatesError:
             self._least = max(0, own + sum(int(net.min(initial=0)) for net in nets))
             return
         self._remaining = Remaining(self._together.found, self._base)
         self._remaining.learn(found)
+
+    def _most_paid(self) -> int:
+        """An amount that robots together can't pay, as each does at most one thing an epoch."""
+        context = self._context
+        dearest = max(map(context.weights.scaled_cost, context.packed.others))
+        return (dearest * len(self._timelines) * (self._epochs + 1) + 1) * ACTION
 
     def _saved(self, apart: Outcomes, landmarks: Sequence[Landmark], own: int) -> Amounts:
         """What of landmarks the human need not pay for after each of a robot's outcomes."""

@@ -75,6 +75,7 @@ class Together:
         nets: per robot and outcome what it costs, less the most that it saves the human.
         fields: those that they set and that matter to the human.
         most: where the sum of nets is as much, outcomes are left out.
+        most_paid: the same for the sum of what they cost.
         deadline: polled; asked for memory.
 
     Attributes:
@@ -90,9 +91,11 @@ class Together:
         nets: Sequence[Amounts],
         fields: Sequence[int],
         most: int,
+        most_paid: int,
         deadline: Deadline,
     ) -> None:
         self._deadline = deadline
+        self._most_paid = most_paid
         self._fields = [column(field, apart[0].rows.shape[0]) for field in fields]
         best = [int(net.min(initial=0)) for net in nets]
         self.found, self._parts = _only(apart[0])
@@ -117,7 +120,8 @@ class Together:
     def _join(self, more: Outcomes, nets: Amounts, most: int) -> None:
         """One more robot; ``most``: where the sum of nets is as much, outcomes are left out."""
         order = nets.argsort(kind="stable")
-        nets, rows = nets[order], more.rows[:, order]
+        nets, rows, paid = nets[order], more.rows[:, order], more.amounts[order]
+        most_paid = self._most_paid
         known, parts, known_nets = self.found, self._parts, self._nets
         ends = np.searchsorted(nets, most - known_nets)
         if int(ends.sum()) > _MOST_PAIRS:
@@ -129,7 +133,9 @@ class Together:
         for i in ends.nonzero()[0]:
             self._deadline.tick()
             end = int(ends[i])
-            chosen = np.flatnonzero(~(theirs[:, :end] & mine[:, i : i + 1]).any(axis=0))
+            fits = ~(theirs[:, :end] & mine[:, i : i + 1]).any(axis=0)
+            fits &= paid[:end] < most_paid - known.amounts[i]
+            chosen = np.flatnonzero(fits)
             places = order[chosen]
             batch.rows.append(rows[:, chosen] | known.rows[:, i : i + 1])
             batch.amounts.append(more.amounts[places] + known.amounts[i])

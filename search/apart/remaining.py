@@ -9,21 +9,10 @@ from numpy.typing import NDArray
 from search.apart.landmarks import FAR, Landmark
 from search.apart.outcomes import Outcomes
 from search.apart.provision import Value
-from search.apart.rows import Amounts, Rows, column, states
+from search.apart.rows import Amounts, Rows, codes, column, states
 
 _AT_ONCE: Final = 8
 """Landmarks that are looked up together, by the bits of a byte."""
-
-
-def codes(rows: Rows, field: int) -> NDArray[np.intp]:
-    """Values of a field in packed states, moved down to the lowest bits."""
-    word, bit = divmod((field & -field).bit_length() - 1, 64)
-    width = field.bit_count()
-    found = rows[word] >> np.uint64(bit)
-    if bit + width > 64:
-        found = found | rows[word + 1] << np.uint64(64 - bit)
-    code: NDArray[np.intp] = (found & np.uint64((1 << width) - 1)).astype(np.intp)
-    return code
 
 
 def values(rows: Rows, fields: Collection[int]) -> set[Value]:

@@ -35,6 +35,17 @@ def agree(rows: Rows, mask: int, value: int) -> Flags:
     return found
 
 
+def codes(rows: Rows, field: int) -> NDArray[np.intp]:
+    """Values of a field in packed states, moved down to the lowest bits."""
+    word, bit = divmod((field & -field).bit_length() - 1, 64)
+    width = field.bit_count()
+    found = rows[word] >> np.uint64(bit)
+    if bit + width > 64:
+        found = found | rows[word + 1] << np.uint64(64 - bit)
+    code: NDArray[np.intp] = (found & np.uint64((1 << width) - 1)).astype(np.intp)
+    return code
+
+
 def cheapest(rows: Rows, amounts: Amounts, last: NDArray[Any] | None = None) -> NDArray[np.int64]:
     """Places of a cheapest one of each different column, in the order of columns.
 

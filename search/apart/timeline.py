@@ -1,9 +1,9 @@
 """One robot beside the human's timetable: what it can have made of the world by each epoch, and at what cost.
 
 The other robots are left out, but for this: what one of them can have provided by then (:mod:`.provision`)
-may be asked for as if it had.  Whatever a robot does in a plan of all, it does here too, and what it was the
-last to set has the same value; so the costs are lower bounds, and exact where robots have nothing to do with
-each other.
+may be asked for as if it had, at the cost of what it does to no other end (:mod:`.detours`).  Whatever a
+robot does in a plan of all, it does here too, and what it was the last to set has the same value; so the
+costs are lower bounds, and exact where robots have nothing to do with each other.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -11,8 +11,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from search.apart.detours import NEVER, detours, leaves
 from search.apart.provision import Provision
-from search.apart.rows import Amounts, Flags, Rows, agree, cheapest, column
+from search.apart.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
 from search.packed.operators import Operator, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.errors import LimitReachedError
@@ -121,6 +122,12 @@ class Timeline:
             for field, _ in op.forbidden:
                 self._asked |= field
         self._relevant = relevant
+        lent = {field for field, _ in others}
+        self._detours = {
+            field: detours(packed, field, robot, amount)
+            for field in leaves(packed)
+            if field in lent & set(packed.fields)
+        }
         self._every = self._acts, self._local
         """What the robot can do and the fields that matter, before any of them was forgotten."""
         self._changing = {n.epoch for act in self._acts for n in (*act.needs, *act.forbids)}
@@ -264,8 +271,10 @@ class Timeline:
                 continue
             able = self._able(act, rows)
             if able.any():
-                found.append(self._after(rows[:, able], act.op))
-                paid.append(amounts[able] + act.amount)
+                spent = amounts[able] + self._paid(act, rows[:, able], len(self._layers))
+                can = spent < NEVER
+                found.append(self._after(rows[:, able][:, can], act.op))
+                paid.append(spent[can])
                 size += found[-1].shape[1]
                 if size > 20 * MOST_STATES:
                     raise TooManyStatesError
@@ -276,6 +285,15 @@ class Timeline:
         if moved.rows.shape[1] > MOST_STATES:
             raise TooManyStatesError
         return moved
+
+    def _paid(self, act: _Act, rows: Rows, epoch: int) -> Amounts:
+        """What an act costs after states, with what others pay for what it takes from them."""
+        paid = np.full(rows.shape[1], act.amount, dtype=np.int64)
+        for field, value, soonest in act.needs:
+            if soonest < epoch and field in self._detours:
+                there = value >> (field & -field).bit_length() - 1
+                paid += self._detours[field][codes(rows, field), there]
+        return paid
 
     def _able(self, act: _Act, rows: Rows) -> Flags:
         """After which states the robot can do something in the next epoch."""
@@ -342,9 +360,12 @@ class Timeline:
         for act in self._acts:
             self._deadline.tick()
             if step is None or self._beside(act, step):
-                before = amount - act.amount
-                rows = layer.rows[:, fits & (layer.amounts == before)]
-                yield act.op, before, rows[:, self._able_in(act, rows, epoch)]
+                known = np.flatnonzero(fits & (layer.amounts + act.amount <= amount))
+                known = known[self._able_in(act, layer.rows[:, known], epoch)]
+                paid = self._paid(act, layer.rows[:, known], epoch)
+                known = known[layer.amounts[known] + paid == amount]
+                for before in np.unique(layer.amounts[known]):
+                    yield act.op, int(before), layer.rows[:, known[layer.amounts[known] == before]]
 
 
 def _distinct(rows: Rows, amounts: Amounts, fresh: Flags) -> Layer:

@@ -38,7 +38,7 @@ def _asked(task: Task, options: Options) -> tuple[SearchContext, ShortWindows, I
     return None if windows is None else (context, windows, incumbent)
 
 
-def _bound_and_cost(task: Task, options: Options) -> tuple[Fraction, Fraction] | None:
+def bound_and_cost(task: Task, options: Options) -> tuple[Fraction, Fraction] | None:
     """The least that a plan with a window of one epoch may cost, and what the best that was found does."""
     asked = _asked(task, options)
     if asked is None:
@@ -60,7 +60,7 @@ def test_no_bound_is_above_the_optimum() -> None:
         options = ONE_EPOCH.but(
             discount=dice.choice(["0", "1/2", "9/10", "1"]), interference=dice.choice(["paper", "strict"])
         )
-        found = _bound_and_cost(task, options)
+        found = bound_and_cost(task, options)
         if found is not None:
             optimum = best(task, options).cost
             assert optimum is not None
@@ -83,7 +83,7 @@ def test_bounds_where_robots_have_too_many_states(monkeypatch: pytest.MonkeyPatc
             family = sorted(FAMILIES)[seed % len(FAMILIES)]
             size, agents = SMALL[family][seed % len(SMALL[family])]
             task = FAMILIES[family](Random(seed), size, AGENTS[:agents])
-        found = _bound_and_cost(task, ONE_EPOCH.but(discount="9/10"))
+        found = bound_and_cost(task, ONE_EPOCH.but(discount="9/10"))
         if found is not None:
             optimum = best(task, ONE_EPOCH.but(discount="9/10")).cost
             assert optimum is not None
@@ -133,7 +133,7 @@ def _errands(robots: int, places: int) -> Task:
 )
 def test_robots_who_do_not_need_one_another(robots: int, places: int, cost: str) -> None:
     """Then the bound is what the best answer costs; brute force says the same of the first three."""
-    found = _bound_and_cost(_errands(robots, places), ONE_EPOCH.but(discount="9/10"))
+    found = bound_and_cost(_errands(robots, places), ONE_EPOCH.but(discount="9/10"))
     assert found is not None
     assert found[0] == found[1] == Fraction(cost)
 
@@ -162,7 +162,7 @@ def test_what_another_robot_has_to_do_first() -> None:
     )
     options = ONE_EPOCH.but(discount="9/10")
     assert best(task, options).cost == Fraction("3.2")
-    found = _bound_and_cost(task, options)
+    found = bound_and_cost(task, options)
     assert found is not None
     assert found[0] == Fraction("3.1")
 
