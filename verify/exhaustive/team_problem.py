@@ -18,7 +18,7 @@ from verify.programs.counts import least_weight
 from verify.programs.effort import Attempt, Effort, Minimum
 from verify.solvers.mip import LARGEST_COEFFICIENT
 
-_SHARE: Final = 0.4
+_SHARE: Final = 0.15
 """What of the time that is left numbers of actions may take."""
 
 
