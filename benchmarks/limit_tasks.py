@@ -9,19 +9,18 @@ import argparse
 import json
 import re
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
 from pathlib import Path
-from typing import Final, ParamSpec, TypeVar
+from typing import Final, TypeVar
 
 import serendipity
 from serendipity import Task
 from serendipity.evaluation.benchmark.coverage import Problem, Roles, problems
 from serendipity.evaluation.benchmark.coverage.suite import roles
+from serendipity.model.resources.processes import in_processes
 
-P = ParamSpec("P")
 T = TypeVar("T")
 
 _SECONDS: Final = 1.0
@@ -116,10 +115,14 @@ def _read(problem: Problem, who: Roles) -> Task:
     return serendipity.load_pddl(problem.domain_file, problem.problem_file, who.human, who.robots)
 
 
-def _apart(work: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T:
+def _apart(work: Callable[..., T], *given: object) -> T:
     """Do something in a process of its own: what a process has at most counts from what its parent has."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as apart:
-        return apart.submit(work, *arguments, **named).result()
+    (found,) = in_processes(partial(_done, work), [given], 1)
+    return found
+
+
+def _done(work: Callable[..., T], given: tuple[object, ...]) -> T:
+    return work(*given)
 
 
 def _large(folder: Path) -> str:
