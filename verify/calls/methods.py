@@ -101,7 +101,10 @@ def _relaxed(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
     easier = _one_by_one if is_short(question) else _without_epochs if question.rule == FREE else None
     if easier is None:
         return None
-    moment = effort.deadline.part(_SHARE).within(_TURNS[0])
+    long = (
+        easier is _without_epochs and _bits(question) > _FEW_STATES
+    )  # buildings, say: programs are good at them
+    moment = effort.deadline.part(_SHARE).within(_length(2 * long))
     found = minimise(question.but(deadline=moment), replace(effort, deadline=moment), plans)
     if found.status == "undecided" and effort.deadline.reached() is None:
         part = effort.deadline.part(_SHARE).within(_EASIER)
