@@ -100,6 +100,7 @@ def test_a_dearer_answer_is_refuted_with_a_plan(building: Task, answer: Result) 
     assert refuted.claim == "optimal"
 
 
+@pytest.mark.slow
 def test_a_window_of_all_epochs_is_as_good_as_any(building: Task, answer: Result) -> None:
     found = solve(building, answer.options, method="auto")
     assert found.cost == answer.cost
