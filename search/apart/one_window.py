@@ -83,7 +83,8 @@ class OneWindow:
                 others |= 0 if other is timeline else other.changes
             own = [field for field in self._fields if field & timeline.changes]
             self._shared.append(others & sum(own))
-            self._apart.append(outcomes(timeline.ends(), self._base, own, others, lost))
+            deadline = self._context.deadline
+            self._apart.append(outcomes(timeline.ends(), self._base, own, others, lost, deadline))
 
     def _values(self) -> set[Value]:
         """The values that fields can have."""

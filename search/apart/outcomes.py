@@ -15,12 +15,12 @@ from search.apart.rows import Amounts, Rows, agree, cheapest, column
 from search.apart.timeline import Layer, TooManyStatesError
 from serendipity.model.resources.deadline import Deadline
 
-MOST_OUTCOMES: Final = 1_000_000
-"""Of all robots together."""
+MOST_OUTCOMES: Final = 500_000
+"""Of a robot, and of all together: sorting as many takes 0.1 s, in which nobody looks at the clock."""
 
 _MOST_PAIRS: Final = 50_000_000
 
-_AT_ONCE: Final = 2_000_000
+_AT_ONCE: Final = 500_000
 
 Parts = NDArray[np.int32]
 """Per outcome of all robots the places of those of each of them."""
@@ -39,7 +39,12 @@ class Outcomes(NamedTuple):
 
 
 def outcomes(
-    layer: Layer, base: int, fields: Sequence[int], shared: int, lost: Mapping[int, Collection[int]]
+    layer: Layer,
+    base: int,
+    fields: Sequence[int],
+    shared: int,
+    lost: Mapping[int, Collection[int]],
+    deadline: Deadline,
 ) -> Outcomes:
     """What a robot can leave behind.
 
@@ -49,6 +54,10 @@ def outcomes(
         fields: those that the robot sets and that matter to the human.
         shared: those that others set, too.
         lost: by field the values from which the human can't get to their goal.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: there are too many, or the deadline came.
     """
     words = layer.rows.shape[0]
     rows = (layer.rows ^ column(base, words)) & column(sum(fields), words)
@@ -57,6 +66,9 @@ def outcomes(
         if field & shared:
             bits = column(field, words)
             without = (found.rows & bits).any(axis=0)
+            deadline.check()
+            if len(found.amounts) + int(np.count_nonzero(without)) > MOST_OUTCOMES:
+                raise TooManyStatesError
             rows = np.concatenate([found.rows, found.rows[:, without] & ~bits], axis=1)
             found = _least(rows, np.concatenate([found.amounts, found.amounts[without]]))
     hopeful = np.ones(len(found.amounts), dtype=np.bool_)

@@ -22,6 +22,9 @@ from serendipity.model.resources.deadline import Deadline
 MOST_STATES: Final = 200_000
 """Of a robot after an epoch."""
 
+_AT_ONCE: Final = 500_000
+"""Found before they are sorted: nobody looks at the clock meanwhile."""
+
 
 class TooManyStatesError(LimitReachedError):
     """A robot can bring the world into more states than are looked at."""
@@ -263,7 +266,7 @@ class Timeline:
         """States after the robot's part of the next epoch; ``step``: what the human does in it."""
         amounts = layer.amounts[layer.fresh]
         rows = layer.rows[:, layer.fresh]
-        found, paid = [layer.rows], [layer.amounts]
+        found = [layer._replace(fresh=np.zeros_like(layer.fresh))]
         size = 0
         for act in self._acts:
             self._deadline.tick()
@@ -273,18 +276,23 @@ class Timeline:
             if able.any():
                 spent = amounts[able] + self._paid(act, rows[:, able], len(self._layers))
                 can = spent < NEVER
-                found.append(self._after(rows[:, able][:, can], act.op))
-                paid.append(spent[can])
-                size += found[-1].shape[1]
-                if size > 20 * MOST_STATES:
-                    raise TooManyStatesError
-        self._deadline.require(5 * 8 * (self._words + 1) * size)
-        fresh = np.ones(size + layer.rows.shape[1], dtype=np.bool_)
-        fresh[: layer.rows.shape[1]] = False
-        moved = _distinct(np.concatenate(found, axis=1), np.concatenate(paid), fresh)
-        if moved.rows.shape[1] > MOST_STATES:
+                after, spent = self._after(rows[:, able][:, can], act.op), spent[can]
+                found.append(Layer(after, spent, np.ones_like(spent, dtype=np.bool_)))
+                size += len(spent)
+                if size > _AT_ONCE:
+                    found, size = [self._merged(found)], 0
+        return self._merged(found)
+
+    def _merged(self, layers: Sequence[Layer]) -> Layer:
+        """Each state of some layers once."""
+        self._deadline.require(5 * sum(layer.rows.nbytes + layer.amounts.nbytes for layer in layers))
+        rows = np.concatenate([layer.rows for layer in layers], axis=1)
+        amounts = np.concatenate([layer.amounts for layer in layers])
+        merged = _distinct(rows, amounts, np.concatenate([layer.fresh for layer in layers]))
+        self._deadline.check()
+        if len(merged.amounts) > MOST_STATES:
             raise TooManyStatesError
-        return moved
+        return merged
 
     def _paid(self, act: _Act, rows: Rows, epoch: int) -> Amounts:
         """What an act costs after states, with what others pay for what it takes from them."""
