@@ -18,6 +18,8 @@ def no_collection() -> Iterator[None]:
 
     The collector would look through all of them again and again, and find nothing; nor does
     it look at them once more at the end: if they are many, they join those that have been there for long.
+    If they are not, they are looked at here, and nothing else is: it may be time to look at everything that
+    was ever made, which takes longer than a short deadline, and somebody waits for an answer.
     """
     enabled = gc.isenabled()
     gc.disable()
@@ -26,7 +28,10 @@ def no_collection() -> Iterator[None]:
     finally:
         if enabled:
             # Not where a caller has frozen something, which would thaw.
-            if gc.get_count()[0] > _MANY and gc.get_freeze_count() <= _IMMORTAL:
+            young = gc.get_count()[0]
+            if young > _MANY and gc.get_freeze_count() <= _IMMORTAL:
                 gc.freeze()
                 gc.unfreeze()
+            elif young > gc.get_threshold()[0]:
+                gc.collect(1)
             gc.enable()
