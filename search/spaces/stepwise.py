@@ -1,7 +1,9 @@
 """Composite planning within ``T``, an epoch put together agent by agent.
 
 The same plans as those of :class:`.Unrestricted`, for tasks whose goals are shared: there the bound on the
-team tells after each agent's action whether the others are worth looking at, which saves most of the sets.
+team tells after an agent's action whether the others are worth looking at, which saves most of the sets.  Not
+so where the action may take from others what they ask for: they act on the state before the epoch, and the
+bound is about what can be done after the action.
 """
 
 from collections.abc import Iterator
@@ -22,7 +24,7 @@ class PartialNode(NamedTuple):
         chosen: what they do.
         turn: whose turn it is, by the place in :meth:`.Successors.groups`; 0 where the epoch is over.
         bound: least key of a plan that goes on from here.
-        judged: whether that of the team has been asked for.
+        judged: whether that of the team has been asked for, or says nothing.
     """
 
     node: Node
@@ -64,7 +66,7 @@ class Stepwise:
         self._successors = successors
         self._bounds = bounds
         self._labels = labels
-        self._groups: dict[int, list[list[JointAction]]] = {}
+        self._groups: dict[int, tuple[list[list[JointAction]], list[int]]] = {}
 
     def roots(self) -> Iterator[tuple[int, PartialNode]]:
         """The initial state."""
@@ -91,7 +93,7 @@ class Stepwise:
             self._offer(node, best)
         if node.epoch >= self._horizon:
             return
-        groups = self._options(node.state)
+        groups, asked = self._options(node.state)
         for option in (NOTHING, *groups[turn]):
             together = self._successors.beside_others(chosen, option)
             if together is None:
@@ -103,16 +105,18 @@ class Stepwise:
                 continue
             if option.actions:
                 self._offer(Node(key, node.epoch + 1, after, 0, 0, node, together.actions), best)
+            # Waiting is the same state again.
+            again = not option.actions and not ~chosen.keep & asked[turn]
             if turn + 1 < len(groups):
-                # Waiting is the same state again.
-                yield self._ranked(PartialNode(node, together, turn + 1, bound, not option.actions))
+                done = again or bool(~together.keep & asked[turn + 1])
+                yield self._ranked(PartialNode(node, together, turn + 1, bound, done))
             elif (
                 together.actions
                 and node.epoch + 1 + self._bounds.steps(after) <= self._horizon
                 and self._labels.add(after, node.epoch + 1, key)
             ):
                 child = Node(key, node.epoch + 1, after, 0, 0, node, together.actions)
-                yield self._ranked(PartialNode(child, NOTHING, 0, bound, not option.actions))
+                yield self._ranked(PartialNode(child, NOTHING, 0, bound, again))
 
     def _ranked(self, partial: PartialNode) -> tuple[int, PartialNode]:
         spent = partial.node.key + partial.chosen.weight
@@ -124,10 +128,12 @@ class Stepwise:
         after = node.state & chosen.keep | chosen.put
         return node.key + chosen.weight + self._bounds.team(after)
 
-    def _options(self, state: int) -> list[list[JointAction]]:
+    def _options(self, state: int) -> tuple[list[list[JointAction]], list[int]]:
+        """What each agent can do, and what is asked for from its turn on."""
         found = self._groups.get(state)
         if found is None:
-            found = self._groups[state] = self._successors.groups(state)
+            groups = self._successors.groups(state)
+            found = self._groups[state] = groups, self._successors.asked_from(groups)
         return found
 
     def _offer(self, node: Node, best: Incumbent) -> None:

@@ -34,6 +34,7 @@ PLANNING: Final = (
 CHECKING: Final = (
     "serendipity.facade.proofs",
     "verify.packed.cheapest_path",
+    "verify.programs.promising.many_moves",
     "verify.policy",
     "highspy",
     "numpy.ma",
