@@ -77,13 +77,13 @@ class OneWindow:
 
     def _leave_behind(self, lost: Mapping[int, Collection[int]]) -> None:
         """What each robot can leave behind on its own."""
+        deadline = self._context.deadline
         for timeline in self._timelines:
             others = 0
             for other in self._timelines:
                 others |= 0 if other is timeline else other.changes
             own = [field for field in self._fields if field & timeline.changes]
             self._shared.append(others & sum(own))
-            deadline = self._context.deadline
             self._apart.append(outcomes(timeline.ends(), self._base, own, others, lost, deadline))
 
     def _values(self) -> set[Value]:

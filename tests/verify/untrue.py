@@ -7,7 +7,7 @@ from typing import Any
 from serendipity.model import Condition, Options, Result, Task
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import CASE_3_PLAN, case_2, case_3, case_4, case_8, case_9, case_10
-from tests.verify.valid import CASE_2_PI_H, CASE_4_PI_H
+from tests.verify.valid import CASE_2_FETCHED, CASE_2_PI_H, CASE_4_PI_H
 from verify.calls.solve import solve
 
 
@@ -18,16 +18,7 @@ def solved(task: Task, human_plan: tuple[str, ...] | None = None, **options: Any
 def dearer() -> tuple[Task, Result]:
     """The plan that K = 0 is answered, claimed optimal for K = 1000."""
     task = case_2()
-    plan = {
-        1: "move h a b; move rob s u",
-        2: "move h b c; pick_up_medkit rob k u",
-        3: "move rob u s",
-        4: "move rob s c",
-        5: "hand_over rob h k c",
-        6: "move h c g",
-        7: "conduct_triage h g",
-    }
-    return task, result(task, plan, human_plan=CASE_2_PI_H, window=(3, 6), discount="0.5")
+    return task, result(task, CASE_2_FETCHED, human_plan=CASE_2_PI_H, window=(3, 6), discount="0.5")
 
 
 def _wasteful(**options: Any) -> tuple[Task, Result]:

