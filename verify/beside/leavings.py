@@ -28,7 +28,7 @@ def least(rows: Words, paid: Ints) -> tuple[Words, Ints]:
 
 
 def differences(
-    rows: Words, paid: Ints, base: Words, changed: Words, undone: Sequence[Words]
+    rows: Words, paid: Ints, base: Words, changed: Words, undone: Sequence[Words], deadline: Deadline
 ) -> tuple[Words, Ints]:
     """What a robot leaves behind, each once at its least cost.
 
@@ -38,12 +38,15 @@ def differences(
         base: the state without any robot.
         changed: bits of the facts that it can change and that matter.
         undone: of each fact the bit that another robot can have undone.
+        deadline: polled.
 
     Raises:
         TooManyStatesError: there are too many.
+        LimitReachedError: the deadline came first.
     """
     found, cost = least((rows ^ base) & changed, paid)
     for bit in undone:
+        deadline.check()
         differs = ((found & bit) != 0).any(axis=1)
         if differs.any():
             found, cost = least(

@@ -206,4 +206,4 @@ class _Search:
         layer = timeline.ends()
         undoing = [f for f in part.changed if f in (part.added if f in state else part.deleted)]
         bits = [layout.pack([frozenset({fact})]) for fact in sorted(undoing)]
-        return differences(layer.rows, layer.paid, base, layout.pack([part.changed]), bits)
+        return differences(layer.rows, layer.paid, base, layout.pack([part.changed]), bits, self._deadline)
