@@ -69,7 +69,7 @@ class Runner:
         return min(runs, key=lambda ended: ended.seconds)
 
     def __call__(self, words: list[str], patience: float) -> Ended:
-        """A command, which is killed after some seconds."""
+        """A command, which is killed after some seconds; with a fair clock less what it waits."""
         with NamedTemporaryFile(mode="r", dir=self.folder) as said:
             started = time.perf_counter()
             process = subprocess.Popen(
@@ -79,7 +79,10 @@ class Runner:
                 stderr=subprocess.DEVNULL,
             )
             while os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
-                if time.perf_counter() - started > patience:
+                late = time.perf_counter() - started > patience
+                if late and self.fair:
+                    late = time.perf_counter() - started - _waited(process.pid) > patience
+                if late:
                     process.kill()
                     os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
                 time.sleep(0.001)

@@ -11,7 +11,7 @@ from typing import Final
 
 import serendipity
 from benchmarks.assistance import domain_of, problems
-from benchmarks.limit_tasks import Named, tasks_of_suite
+from benchmarks.limits.tasks import Named, tasks_of_suite
 from serendipity.evaluation.crosscheck import random_call
 from serendipity.pddl.write import write_pddl
 from serendipity.scenarios.examples import EXAMPLES
