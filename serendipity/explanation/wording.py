@@ -99,6 +99,9 @@ def _no_help(found: Explanation) -> Iterator[Sentence]:
     if answer.status == "feasible":
         yield "help", "No help was found so far; that there is none is not proved."
         return
+    if answer.human_plan == ():
+        yield "help", f"The goal of {answer.human} holds already, so there is nothing to help with."
+        return
     yield (
         "help",
         f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "

@@ -12,6 +12,10 @@ from serendipity.cli.text.answers import plan_report
 from serendipity.cli.text.render import Grid, Line, rendered
 from serendipity.model import Options, Result, Window
 from serendipity.model.numbers import plain
+from serendipity.model.options import CHOICES
+from serendipity.show import build_scene
+from serendipity.show.scene.headline import headline
+from serendipity.testing.builders import task
 from tests.cli.conftest import Run
 
 
@@ -132,6 +136,15 @@ def test_a_saving_is_seen_in_the_costs_beside_it(before: float, after: float, wo
     task = serendipity.example("room2")
     result = answer(human_cost=before, cost=after, saving=0.4)
     assert words in plan_report(task, result, serendipity.check(task, result)).splitlines()
+
+
+@pytest.mark.parametrize("mode", CHOICES["mode"])
+def test_a_goal_that_holds_already_is_said_to(mode: str) -> None:
+    there = task(init="g", goal="g", actions={"undo h": "g -> !g", "do r": "!g -> g"})
+    result = serendipity.plan(there, mode=mode)
+    lines = plan_report(there, result, serendipity.check(there, result)).splitlines()
+    assert "h's goal holds already, so there is nothing to help h with" in lines
+    assert headline(build_scene(there, result)) == "No help is needed: the goal of h holds already"
 
 
 def test_the_human_alone_is_a_search_too(run: Callable[[str], Run]) -> None:

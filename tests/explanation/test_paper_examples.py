@@ -7,6 +7,7 @@ import pytest
 import serendipity
 from serendipity import Explanation, UsageError
 from serendipity.testing import cases
+from serendipity.testing.builders import task
 
 
 def explained(name: str, **options: object) -> Explanation:
@@ -115,6 +116,12 @@ def test_a_human_without_a_plan() -> None:
     assert found.to_dict()["reason"] == "no-human-plan"
     together = serendipity.explain(cases.case_8(), mode="composite")
     assert "Together they can: for 2." in dict(together.sentences).values()
+
+
+def test_a_goal_that_holds_already() -> None:
+    there = task(init="g", goal="g", actions={"undo h": "g -> !g", "do r": "!g -> g"})
+    words = [text for topic, text in serendipity.explain(there).sentences if topic == "help"]
+    assert words == ["The goal of h holds already, so there is nothing to help with."]
 
 
 def test_help_that_pays_at_every_discount() -> None:

@@ -273,8 +273,10 @@ def read(path: Path) -> Any:
         _malformed("expected a whole gzip file")
     except OSError as error:
         _malformed(f"can't be read: {error.strerror or error}")
-    except (RecursionError, ValueError) as error:  # too deep; no UTF-8, no JSON, thousands of digits
-        _malformed(f"expected JSON in UTF-8: {str(error)[:80]}")
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        _malformed(f"expected JSON in UTF-8: {error}")
+    except (RecursionError, ValueError):
+        _malformed("expected JSON: it is nested too deeply, or has a number of thousands of digits")
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

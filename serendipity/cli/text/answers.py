@@ -44,6 +44,8 @@ def _headlines(task: Task, result: Result) -> Iterator[str]:
     robots = ", ".join(task.agents[i] for i in task.robots)
     yield f"{task.name}: human {result.human}, robots {robots or 'none'}"
     yield f"{', '.join(_options(result.options))}: {_summary(result)}"
+    if result.human_plan == ():
+        yield f"{result.human}'s goal holds already, so there is nothing to help {result.human} with"
     if result.mode == "assistance" and result.agent_costs:
         yield totals_line(result)
     elif result.cost is not None and result.human_cost is not None:

@@ -18,6 +18,8 @@ def headline(scene: Scene) -> str:
         return f"{_capital(first.text)} at epoch {first.epoch}: {_saved(scene)}"
     if result.opportunity:
         return f"The robots help {human}: {_saved(scene)}"
+    if result.human_plan == () and not result.plan:
+        return f"No help is needed: the goal of {human} holds already"
     if result.mode in ("serendipity", "communication"):
         return f"No help pays: {human} keeps the former plan"
     return f"A plan of cost {plain(result.cost or 0)}"
