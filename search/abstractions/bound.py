@@ -54,7 +54,7 @@ def own_bound(
     fields = [Field(f, (f & -f).bit_length() - 1, len(packed.values(f))) for f in packed.fields]
     projections: list[Projection] = []
     transitions = 0
-    for pattern in patterns(fields, operators, goal, _MOST_STATES):
+    for pattern in patterns(fields, operators, goal, _MOST_STATES, deadline):
         projections.append(Projection(pattern, operators, goal, deadline))
         transitions += projections[-1].n_transitions
         if transitions > _MOST_TRANSITIONS:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
+from serendipity.model import Deadline
 
 Neighbours = list[dict[int, int]]
 """Per field those that its changers ask for or set as well, and how many of them do."""
@@ -27,7 +28,11 @@ class Field(NamedTuple):
 
 
 def patterns(
-    fields: Sequence[Field], operators: Sequence[Operator], goal: PackedGoal, most_states: int
+    fields: Sequence[Field],
+    operators: Sequence[Operator],
+    goal: PackedGoal,
+    most_states: int,
+    deadline: Deadline,
 ) -> Iterator[tuple[Field, ...]]:
     """Sets of fields that have something to say of the goal, none twice; each is worked out when asked for.
 
@@ -39,11 +44,15 @@ def patterns(
         operators: the human's own.
         goal: what has to hold at the end.
         most_states: of a projection.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came.
     """
-    asked = _neighbours(fields, operators)
+    asked = _neighbours(fields, operators, deadline)
     goals = [i for i, field in enumerate(fields) if field.mask & goal.mask]
     grown = (_grown(start, fields, asked, most_states) for start in goals)
-    small = (chosen for chosen in _small(goals, asked) if _size(chosen, fields) <= most_states)
+    small = (chosen for chosen in _small(goals, asked, deadline) if _size(chosen, fields) <= most_states)
     seen = set()
     for chosen in chain(grown, small):
         if chosen not in seen:
@@ -51,13 +60,13 @@ def patterns(
             yield tuple(fields[i] for i in sorted(chosen))
 
 
-def _neighbours(fields: Sequence[Field], operators: Sequence[Operator]) -> Neighbours:
+def _neighbours(fields: Sequence[Field], operators: Sequence[Operator], deadline: Deadline) -> Neighbours:
     shapes: dict[tuple[int, int], int] = {}
-    for op in operators:
+    for op in deadline.each(operators):
         shape = op.need_mask, op.keep
         shapes[shape] = shapes.get(shape, 0) + 1
     found: Neighbours = [{} for _ in fields]
-    for (need_mask, keep), count in shapes.items():
+    for (need_mask, keep), count in deadline.each(shapes.items()):
         changed = [i for i, field in enumerate(fields) if field.mask & ~keep]
         asked = [i for i, field in enumerate(fields) if field.mask & need_mask]
         for i in changed:
@@ -85,12 +94,12 @@ def _grown(start: int, fields: Sequence[Field], asked: Neighbours, most_states: 
     return frozenset(chosen)
 
 
-def _small(goals: Sequence[int], asked: Neighbours) -> Iterator[frozenset[int]]:
+def _small(goals: Sequence[int], asked: Neighbours, deadline: Deadline) -> Iterator[frozenset[int]]:
     for i in goals:
         yield frozenset([i])
         for j in asked[i]:
             yield frozenset([i, j])
-    for i, j in combinations(goals, 2):
+    for i, j in deadline.each(combinations(goals, 2)):
         if asked[i].keys() & asked[j].keys():
             yield frozenset([i, j])
 

@@ -61,16 +61,16 @@ def outcomes(
     """
     words = layer.rows.shape[0]
     rows = (layer.rows ^ column(base, words)) & column(sum(fields), words)
-    found = _least(rows, layer.amounts)
+    found = _least(rows, layer.amounts, deadline)
     for field in fields:
         if field & shared:
             bits = column(field, words)
             without = (found.rows & bits).any(axis=0)
-            deadline.check()
             if len(found.amounts) + int(np.count_nonzero(without)) > MOST_OUTCOMES:
                 raise TooManyStatesError
             rows = np.concatenate([found.rows, found.rows[:, without] & ~bits], axis=1)
-            found = _least(rows, np.concatenate([found.amounts, found.amounts[without]]))
+            amounts = np.concatenate([found.amounts, found.amounts[without]])
+            found = _least(rows, amounts, deadline)
     hopeful = np.ones(len(found.amounts), dtype=np.bool_)
     for field in fields:
         for value in lost.get(field, ()):
@@ -143,7 +143,7 @@ class Together:
         self._parts = np.concatenate([self._parts, self._parts[:1]])
         batch = _Batch()
         for i in ends.nonzero()[0]:
-            self._deadline.tick()
+            self._deadline.check()
             end = int(ends[i])
             fits = ~(theirs[:, :end] & mine[:, i : i + 1]).any(axis=0)
             fits &= paid[:end] < most_paid - known.amounts[i]
@@ -167,7 +167,7 @@ class Together:
         parts = np.concatenate([self._parts, *batch.parts], axis=1)
         nets = np.concatenate([self._nets, *batch.nets])
         self._deadline.require(3 * every.nbytes)
-        kept = cheapest(every, paid)
+        kept = cheapest(every, paid, self._deadline)
         if len(kept) > MOST_OUTCOMES:
             raise TooManyStatesError
         self.found, self._parts = Outcomes(every[:, kept], paid[kept]), parts[:, kept].astype(np.int32)
@@ -181,8 +181,8 @@ class Together:
         return found
 
 
-def _least(rows: Rows, amounts: Amounts) -> Outcomes:
-    kept = cheapest(rows, amounts)
+def _least(rows: Rows, amounts: Amounts, deadline: Deadline) -> Outcomes:
+    kept = cheapest(rows, amounts, deadline)
     return Outcomes(rows[:, kept], amounts[kept])
 
 

@@ -1,9 +1,12 @@
 """Packed states as columns of 64-bit words, many at once."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from serendipity.model import Deadline
 
 Rows = NDArray[np.uint64]
 """A column for each state, a row for each of its words."""
@@ -46,17 +49,32 @@ def codes(rows: Rows, field: int) -> NDArray[np.intp]:
     return code
 
 
-def cheapest(rows: Rows, amounts: Amounts, last: NDArray[Any] | None = None) -> NDArray[np.int64]:
+def cheapest(
+    rows: Rows, amounts: Amounts, deadline: Deadline, last: NDArray[Any] | None = None
+) -> NDArray[np.int64]:
     """Places of a cheapest one of each different column, in the order of columns.
 
     Args:
         rows: the columns.
         amounts: of each.
+        deadline: polled.
         last: decides among equal amounts, the least first.
+
+    Raises:
+        LimitReachedError: the deadline came.
     """
-    keys = (amounts, *rows) if last is None else (last, amounts, *rows)
-    order = np.lexsort(keys)
+    order = _sorted((amounts, *rows) if last is None else (last, amounts, *rows), deadline)
     first = np.ones(len(order), dtype=np.bool_)
     ordered = rows[:, order]
     first[1:] = (ordered[:, 1:] != ordered[:, :-1]).any(axis=0)
     return order[first]
+
+
+def _sorted(keys: Sequence[NDArray[Any]], deadline: Deadline) -> NDArray[np.int64]:
+    """Places by the last key, then by the one before it, and so on: ``numpy.lexsort`` that can be ended."""
+    order = keys[0].argsort(kind="stable")
+    for key in keys[1:]:
+        deadline.check()
+        order = order[key[order].argsort(kind="stable")]
+    deadline.check()
+    return order

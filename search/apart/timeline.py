@@ -185,7 +185,8 @@ class Timeline:
         """
         rows, best = self._last.rows, None
         for field in split(self.changes & self._local & ~self._relevant, self._fields):
-            kept = cheapest(rows & column(~field & self._local, self._words), self._last.amounts)
+            without = rows & column(~field & self._local, self._words)
+            kept = cheapest(without, self._last.amounts, self._deadline)
             askers = sum(bool(field & act.op.need_mask) for act in self._acts)
             if 2 * len(kept) <= rows.shape[1] and (best is None or askers < best[0]):
                 best = askers, field
@@ -203,7 +204,7 @@ class Timeline:
         ]
         fresh = np.ones(rows.shape[1], dtype=np.bool_)
         self._free = None
-        self._last = _distinct(rows & column(self._local, self._words), self._last.amounts, fresh)
+        self._last = self._distinct(rows & column(self._local, self._words), self._last.amounts, fresh)
 
     def follow(self, most: int) -> None:
         """One more epoch of the human's plan.
@@ -234,7 +235,7 @@ class Timeline:
         rows = self._after(layer.rows, step)
         fresh = layer.fresh | (in_the_way or epoch in self._changing or self._stirs(step))
         kept = layer.amounts < most
-        return _distinct(rows[:, kept], layer.amounts[kept], fresh[kept])
+        return self._distinct(rows[:, kept], layer.amounts[kept], fresh[kept])
 
     def _allows(self, step: Operator, rows: Rows, epoch: int) -> Flags:
         """After which states the human can go on with their plan, unless others see to what is missing."""
@@ -269,7 +270,7 @@ class Timeline:
         found = [layer._replace(fresh=np.zeros_like(layer.fresh))]
         size = 0
         for act in self._acts:
-            self._deadline.tick()
+            self._deadline.check()
             if step is not None and not self._beside(act, step):
                 continue
             able = self._able(act, rows)
@@ -288,11 +289,14 @@ class Timeline:
         self._deadline.require(5 * sum(layer.rows.nbytes + layer.amounts.nbytes for layer in layers))
         rows = np.concatenate([layer.rows for layer in layers], axis=1)
         amounts = np.concatenate([layer.amounts for layer in layers])
-        merged = _distinct(rows, amounts, np.concatenate([layer.fresh for layer in layers]))
-        self._deadline.check()
+        merged = self._distinct(rows, amounts, np.concatenate([layer.fresh for layer in layers]))
         if len(merged.amounts) > MOST_STATES:
             raise TooManyStatesError
         return merged
+
+    def _distinct(self, rows: Rows, amounts: Amounts, fresh: Flags) -> Layer:
+        kept = cheapest(rows, amounts, self._deadline, fresh)
+        return Layer(rows[:, kept], amounts[kept], fresh[kept])
 
     def _paid(self, act: _Act, rows: Rows, epoch: int) -> Amounts:
         """What an act costs after states, with what others pay for what it takes from them."""
@@ -366,7 +370,7 @@ class Timeline:
         """Per last action what had been paid before it, and from which states it is possible."""
         yield None, amount, layer.rows[:, fits & (layer.amounts == amount)]
         for act in self._acts:
-            self._deadline.tick()
+            self._deadline.check()
             if step is None or self._beside(act, step):
                 known = np.flatnonzero(fits & (layer.amounts + act.amount <= amount))
                 known = known[self._able_in(act, layer.rows[:, known], epoch)]
@@ -374,8 +378,3 @@ class Timeline:
                 known = known[layer.amounts[known] + paid == amount]
                 for before in np.unique(layer.amounts[known]):
                     yield act.op, int(before), layer.rows[:, known[layer.amounts[known] == before]]
-
-
-def _distinct(rows: Rows, amounts: Amounts, fresh: Flags) -> Layer:
-    kept = cheapest(rows, amounts, fresh)
-    return Layer(rows[:, kept], amounts[kept], fresh[kept])

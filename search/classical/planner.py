@@ -305,7 +305,7 @@ class ClassicalPlanner:
         part = deadline.part(_SHARE)
         room, made = _MOST_TRANSITIONS, 0
         try:
-            for pattern in self._patterns():
+            for pattern in self._patterns(part):
                 part.check()
                 part.require(_MOST_TRANSITIONS)
                 numbers = array("i", pattern)
@@ -322,9 +322,9 @@ class ClassicalPlanner:
         except LimitReachedError:
             deadline.check()
 
-    def _patterns(self) -> Iterator[list[int]]:
+    def _patterns(self, deadline: Deadline) -> Iterator[list[int]]:
         problem = self.problem
         fields = [Field(field, (field & -field).bit_length() - 1, values) for field, values in problem.fields]
         places = {field: place for place, field in enumerate(fields)}
-        chosen = patterns(fields, problem.operators, problem.goal, _MOST_STATES)
+        chosen = patterns(fields, problem.operators, problem.goal, _MOST_STATES, deadline)
         return ([places[field] for field in pattern] for pattern in chosen)

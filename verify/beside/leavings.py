@@ -11,20 +11,14 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
-from verify.beside.rows import cheapest
+from verify.beside.rows import Collected, Layer, cheapest
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.layout import Words
 from verify.packed.operators import Ints
 
 _MOST: Final = 1_000_000
 _MOST_PAIRS: Final = 30_000_000
-_AT_ONCE: Final = 1_000_000
-
-
-def least(rows: Words, paid: Ints) -> tuple[Words, Ints]:
-    """Each different row once, at its least cost."""
-    found = cheapest(rows, paid, np.zeros(len(paid), bool))
-    return found.rows, found.paid
+_AT_ONCE: Final = 250_000
 
 
 def differences(
@@ -44,17 +38,15 @@ def differences(
         TooManyStatesError: there are too many.
         LimitReachedError: the deadline came first.
     """
-    found, cost = least((rows ^ base) & changed, paid)
+    found = cheapest(*_layer((rows ^ base) & changed, paid), deadline)
     for bit in undone:
         deadline.check()
-        differs = ((found & bit) != 0).any(axis=1)
-        if differs.any():
-            found, cost = least(
-                np.concatenate((found, found[differs] & ~bit)), np.concatenate((cost, cost[differs]))
-            )
-            if len(cost) > _MOST:
-                raise TooManyStatesError
-    return found, cost
+        without = found.only(((found.rows & bit) != 0).any(axis=1))
+        if len(without.paid):
+            every = Collected(found, _MOST, deadline)
+            every.add(_layer(without.rows & ~bit, without.paid))
+            found = every.layer()
+    return found.rows, found.paid
 
 
 def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline) -> tuple[Words, Ints]:
@@ -64,21 +56,24 @@ def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline)
         TooManyStatesError: there are too many.
         LimitReachedError: the deadline came first.
     """
-    rows, paid = apart[0]
-    cheap = paid <= most
-    rows, paid = rows[cheap], paid[cheap]
+    found, cost = apart[0]
+    cheap = cost <= most
+    layer = _layer(found[cheap], cost[cheap])
     for others, costs in apart[1:]:
+        rows, paid = layer.rows, layer.paid
         if len(paid) * len(costs) > _MOST_PAIRS:
             raise TooManyStatesError
-        pieces = [(rows[:0], paid[:0])]
+        joined = Collected(_layer(rows[:0], paid[:0]), _MOST, deadline)
         step = max(1, _AT_ONCE // max(1, len(costs)))
         for first in range(0, len(paid), step):
             deadline.check()
             both = (rows[first : first + step, None] | others[None]).reshape(-1, rows.shape[1])
             sums = (paid[first : first + step, None] + costs[None]).ravel()
             cheap = sums <= most
-            pieces.append(least(both[cheap], sums[cheap]))
-        rows, paid = least(np.concatenate([r for r, _ in pieces]), np.concatenate([p for _, p in pieces]))
-        if len(paid) > _MOST:
-            raise TooManyStatesError
-    return rows, paid
+            joined.add(cheapest(*_layer(both[cheap], sums[cheap]), deadline))
+        layer = joined.layer()
+    return layer.rows, layer.paid
+
+
+def _layer(rows: Words, paid: Ints) -> Layer:
+    return Layer(rows, paid, np.zeros(len(paid), bool))

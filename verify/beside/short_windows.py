@@ -83,7 +83,7 @@ class _Alone:
         found = np.zeros((len(rows), own.words), np.uint64)
         fits = np.ones(len(rows), bool)
         for fact, at in own.place.items():
-            deadline.tick()
+            deadline.check()
             field, here = own.fields[at.field], self.layout.fields[self.layout.place[fact].field]
             true = (rows[:, here.word] & np.uint64(here.mask)) != 0
             fits[true] &= (found[true, field.word] & np.uint64(field.mask)) == 0

@@ -17,8 +17,7 @@ from serendipity.model import GroundAction
 from verify.base.execution import conflicting
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
-from verify.beside.rows import Bools, Layer, cheapest
-from verify.packed.cheapest_path import TooManyStatesError
+from verify.beside.rows import Bools, Collected, Layer, cheapest
 from verify.packed.layout import Layout, Words
 from verify.packed.operators import Operator, OperatorTable
 
@@ -141,7 +140,7 @@ class Timeline:
         layer = self.ends() if apart else self._moved(self.layer.only(self._allow(step)), ~in_the_way)
         add, delete = self._bits(human.add), self._bits(human.delete)
         fresh = layer.fresh if apart else np.ones(len(layer.fresh), bool)
-        self.layer = cheapest((layer.rows & ~delete) | add, layer.paid, fresh)
+        self.layer = cheapest((layer.rows & ~delete) | add, layer.paid, fresh, self._deadline)
         self._free = None
 
     def _bits(self, facts: Sequence[int]) -> Words:
@@ -178,8 +177,7 @@ class Timeline:
     def _moved(self, layer: Layer, allowed: Bools | None) -> Layer:
         """The states after the robot's part of an epoch."""
         begin = np.flatnonzero(layer.fresh)
-        found, paid = [layer.rows], [layer.paid]
-        size = 0
+        found = Collected(layer._replace(fresh=np.zeros(len(layer.paid), bool)), MOST_STATES, self._deadline)
         for first in range(0, len(begin), _AT_ONCE):
             self._deadline.check()
             some = begin[first : first + _AT_ONCE]
@@ -188,18 +186,8 @@ class Timeline:
                 rows, chosen = rows[allowed[chosen]], chosen[allowed[chosen]]
             after = self._table.after(layer.rows[some[rows]], chosen)
             cost = layer.paid[some[rows]] + self._table.weight[chosen]
-            new = cheapest(after, cost, np.ones(len(cost), bool))
-            found.append(new.rows)
-            paid.append(new.paid)
-            size += len(new.paid)
-            if size > 20 * MOST_STATES:
-                raise TooManyStatesError
-        fresh = np.ones(len(layer.paid) + size, bool)
-        fresh[: len(layer.paid)] = False
-        moved = cheapest(np.concatenate(found), np.concatenate(paid), fresh)
-        if len(moved.paid) > MOST_STATES:
-            raise TooManyStatesError
-        return moved
+            found.add(cheapest(after, cost, np.ones(len(cost), bool), self._deadline))
+        return found.layer()
 
 
 def _looks_at(one: GroundAction, other: GroundAction) -> bool:

@@ -74,6 +74,7 @@ class Bounds:
         deadline: Deadline,
     ) -> None:
         self._table = table
+        self._deadline = deadline
         self._ways: list[list[tuple[Pattern, Ints]]] = []
         left = deadline.left()
         seconds = care.seconds if left is None else min(care.seconds, left * care.share)
@@ -89,7 +90,11 @@ class Bounds:
         self._keep_best(_walks(table, start, deadline))
 
     def __call__(self, states: Words) -> Ints:
-        """A bound for each state; ``FAR`` where no goal can be reached."""
+        """A bound for each state; ``FAR`` where no goal can be reached.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
         best: Ints = self._best(states).max(axis=0, initial=0)
         return best
 
@@ -99,6 +104,7 @@ class Bounds:
         index: dict[int, Ints] = {}
         for total, way in zip(found, self._ways, strict=True):
             for pattern, distance in way:
+                self._deadline.check()
                 if id(pattern) not in index:
                     index[id(pattern)] = pattern.index(states, self._table.layout)
                 np.minimum(total + distance[index[id(pattern)]], FAR, out=total)

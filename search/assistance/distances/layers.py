@@ -144,9 +144,11 @@ class Layers:
                     self._too_many_unless(size <= self._limit)
             self._require(_SORTING * (size + len(known)))
             after = distinct(np.concatenate(found))
+            self._deadline.check()
             frontier = after[~_contains(known, after)]
+            self._too_many_unless(len(known) + len(frontier) <= self._limit)
+            self._deadline.check()
             known = np.sort(np.concatenate([known, frontier]), kind="stable")
-            self._too_many_unless(len(known) <= self._limit)
         return known
 
     def _spread(self) -> Words:
@@ -185,10 +187,19 @@ class Layers:
         kinds = np.concatenate(
             [np.empty(0, dtype=np.int16), *(np.full(len(s), k, dtype=np.int16) for s, _, k in parts)]
         )
-        order = np.argsort(targets, kind="stable")
+        order = self._ordered(targets)
         counts = np.bincount(targets, minlength=len(self._states))
+        self._deadline.check()
         pointers = np.concatenate([np.zeros(1, dtype=np.int64), np.cumsum(counts)])
         return pointers, sources[order], kinds[order]
+
+    def _ordered(self, values: Places) -> Indices:
+        """Places in order of values, none of them negative: half by half, as numpy sorts those by radix."""
+        order = np.argsort(values.astype(np.uint16), kind="stable")
+        self._deadline.check()
+        order = order[np.argsort((values >> 16).astype(np.uint16)[order], kind="stable")]
+        self._deadline.check()
+        return order
 
     def _edges(self) -> Iterator[tuple[Places, Places, int]]:
         """For each arc the sources of its edges, their targets, its weight's index."""

@@ -11,6 +11,7 @@ from search.assistance.distances.perimeter import PackedPlaces, ball_around
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.cases import case_5
+from serendipity.testing.countdown import Countdown
 
 
 class Full(Deadline):
@@ -63,6 +64,20 @@ def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
     with pytest.raises(LimitReachedError):
         Layers(arcs, goal, [mask], 0, 1000, Full())
+
+
+def test_the_clock_is_looked_at_between_sorts() -> None:
+    _, goal, mask = line(40)
+    deadline = Countdown(100)
+    Layers([], goal, [mask], 0, 1000, deadline)
+    assert deadline.left_over[0] < 95
+
+
+def test_edges_are_in_order_of_their_targets() -> None:
+    arcs, goal, mask = line(40)
+    layers = Layers(arcs, goal, [mask], 0, 1000, Deadline())
+    values = np.random.default_rng(1).integers(0, 1 << 20, 5000).astype(np.int32)
+    assert (layers._ordered(values) == np.argsort(values, kind="stable")).all()
 
 
 @pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])

@@ -1,0 +1,79 @@
+"""However much robots leave behind, it is told apart in steps: somebody looks at the clock in between."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from serendipity.model import LimitReachedError
+from serendipity.testing.countdown import Countdown
+from verify.beside import leavings, rows
+from verify.beside.leavings import differences, together
+from verify.beside.rows import Collected, Layer, cheapest
+from verify.packed.cheapest_path import TooManyStatesError
+
+MANY = 10**9
+
+
+def drawn(seed: int, number: int = 60) -> Layer:
+    """Rows of three words, some of them alike."""
+    dice = np.random.default_rng(seed)
+    words = dice.integers(0, 3, (number, 3)).astype(np.uint64)
+    return Layer(words, dice.integers(0, 4, number), dice.integers(0, 2, number).astype(bool))
+
+
+def by_hand(layer: Layer) -> list[tuple[tuple[int, ...], int, bool]]:
+    """Each row once, at its least cost, not fresh where that is possible."""
+    found: dict[tuple[int, ...], tuple[int, bool]] = {}
+    for row, paid, fresh in entries(layer):
+        found[row] = min(found.get(row, (paid, fresh)), (paid, fresh))
+    return sorted((row, *rest) for row, rest in found.items())
+
+
+def entries(layer: Layer) -> Iterator[tuple[tuple[int, ...], int, bool]]:
+    """Its rows as Python's own."""
+    for row, paid, fresh in zip(*layer, strict=True):
+        yield tuple(map(int, row)), int(paid), bool(fresh)
+
+
+def looks_of(deadline: Countdown) -> int:
+    """How often it was looked at."""
+    return MANY - deadline.left_over[0]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_each_row_is_there_once(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rows, "_AT_ONCE", 10)
+    layer = drawn(seed)
+    assert sorted(entries(cheapest(*layer, Countdown(MANY)))) == by_hand(layer)
+    collected = Collected(layer.only(np.zeros(60, bool)), 60, Countdown(MANY))
+    for first in range(0, 60, 7):
+        collected.add(Layer(*(part[first : first + 7] for part in layer)))
+    assert sorted(entries(collected.layer())) == by_hand(layer)
+
+
+def test_the_clock_is_looked_at_word_by_word() -> None:
+    deadline = Countdown(MANY)
+    cheapest(*drawn(1), deadline)
+    assert looks_of(deadline) >= 3
+
+
+def test_too_many_together_are_given_up_as_soon_as_they_are_too_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(leavings, "_MOST", 100)
+    monkeypatch.setattr(leavings, "_AT_ONCE", 40)
+    monkeypatch.setattr(rows, "_AT_ONCE", 40)
+    low = np.arange(1, 101, dtype=np.uint64).reshape(-1, 1)
+    free = np.zeros(100, np.int64)
+    deadline = Countdown(MANY)
+    with pytest.raises(TooManyStatesError):
+        together([(low, free), (low << np.uint64(10), free)], 0, deadline)
+    assert looks_of(deadline) < 100  # there are 10,000 pairs of them, which would be 100 looks and more
+
+
+def test_what_one_leaves_behind_ends_at_the_deadline() -> None:
+    bits = [np.array([1 << bit], dtype=np.uint64) for bit in range(12)]
+    every, none = sum(bits), np.zeros(1, np.uint64)
+    found, cost = differences(every.reshape(1, 1), np.array([7]), none, every, bits, Countdown(MANY))
+    assert (len(found), {*map(int, cost)}) == (2**12, {7})
+    with pytest.raises(LimitReachedError):
+        differences(every.reshape(1, 1), np.array([7]), none, every, bits, Countdown(10))
