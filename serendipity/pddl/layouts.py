@@ -133,8 +133,8 @@ def read_pddl(
     """Read one PDDL task whose agents are objects.
 
     The participants of a ground action are the agents among its arguments; of an action with
-    ``:agent`` (MA-PDDL) it is that agent alone.  An action in which nobody takes part is left
-    out, with a warning.
+    ``:agent`` (MA-PDDL) it is that agent alone; those of others are not even ground.  An action
+    in which nobody takes part is left out, with a warning.
 
     Args:
         domain: the domain file.
@@ -166,13 +166,12 @@ def read_pddl(
 
 def _other_agents(unit: Unit, human: str) -> list[str]:
     """The other objects that can be an ``:agent``."""
-    kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
-    if not kinds:
+    if not any(schema.agent for schema in unit.domain.schemas):
         raise UsageError(
             "one PDDL task: expected at least one robot among its objects, by name: "
             "no action has an ':agent' that would say who the others are"
         )
-    return sorted({name for kind in kinds for name in unit.objects_of(kind)} - {human})
+    return sorted(_can_be_agents(unit) - {human})
 
 
 def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task:
@@ -182,7 +181,7 @@ def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task
     alone = tuple(schema for schema in unit.domain.schemas if schema.agent)
     others = tuple(schema for schema in unit.domain.schemas if not schema.agent)
     sources = [
-        Source(unit, alone, by_first_argument(names)),
+        Source(unit, alone, by_first_argument(names), frozenset(names)),
         Source(unit, others, by_arguments(names)),
     ]
     blueprint = Blueprint(
@@ -192,23 +191,37 @@ def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task
         sources=sources,
         goals=unit,
         left_out=_Outsiders(unit, names).reason,
-        warnings=other_domains([unit]),
+        warnings=[*other_domains([unit]), *_outsiders(unit, names)],
     )
     return assemble(blueprint, work)
 
 
+def _outsiders(unit: Unit, agents: Sequence[str]) -> list[str]:
+    """A warning that names those who can be an ``:agent`` and are none of the call's."""
+    others = sorted(_can_be_agents(unit).difference(agents))
+    if not others:
+        return []
+    if len(others) == 1:
+        return [f"{quoted(others[0])} is no agent of this call; its actions are left out"]
+    return [f"{listed(others)} are no agents of this call; their actions are left out"]
+
+
+def _can_be_agents(unit: Unit) -> set[str]:
+    kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
+    return {name for kind in kinds for name in unit.objects_of(kind)}
+
+
 class _Outsiders:
-    """Who takes part in actions in which no agent of the call does, as far as that can be known."""
+    """Who takes part in actions without ``:agent`` in which no agent of the call does, as far as is known."""
 
     def __init__(self, unit: Unit, agents: Sequence[str]) -> None:
-        self._alone = {schema.name for schema in unit.domain.schemas if schema.agent}
         kinds = {unit.problem.objects[agent] for agent in agents}
         fits = unit.domain.types.is_subtype
         self._alike = {n for n, own in unit.problem.objects.items() if any(fits(own, k) for k in kinds)}
 
     def reason(self, key: Key) -> str:
         """Why an action is left out."""
-        likely = key[1:2] if key[0] in self._alone else [word for word in key[1:] if word in self._alike]
+        likely = [word for word in key[1:] if word in self._alike]
         if likely:
             return f"{quoted(likely[0])} is no agent of this call"
         return f"action {quoted(key[0])}: no agent is among its arguments"

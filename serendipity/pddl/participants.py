@@ -27,9 +27,9 @@ def by_arguments(agents: Sequence[str]) -> Participants:
 
 
 def by_first_argument(agents: Sequence[str]) -> Participants:
-    """The first argument alone (MA-PDDL's ``:agent``); nobody where that is none of the agents."""
+    """The first argument alone (MA-PDDL's ``:agent``), which is one of the agents."""
     ids = {name: (i,) for i, name in enumerate(agents)}
-    return lambda keys: [ids.get(key[1], ()) for key in keys]
+    return lambda keys: [ids[key[1]] for key in keys]
 
 
 def by_name_parts(agents: Sequence[str], unit: Unit) -> Participants:

@@ -43,7 +43,20 @@ def test_an_action_is_its_agents_alone(tmp_path: Path) -> None:
 def test_others_are_objects(tmp_path: Path) -> None:
     task = loaded(tmp_path, "v")
     assert task.agents == ("w", "v")
-    assert task.warnings == ("'x' is no agent of this call; 3 actions left out",)
+    assert task.warnings == ("'x' is no agent of this call; its actions are left out",)
+
+
+def test_others_are_told_of_in_one_line_and_never_ground(tmp_path: Path) -> None:
+    crowd = " ".join(f"y{i}" for i in range(2000))
+    problem = PROBLEM.replace("x x - bike", f"x x {crowd} - bike")
+    text = DOMAIN[: DOMAIN.index("(:action give")] + DOMAIN[DOMAIN.index("(:action take") :]
+    said: list[str] = []
+    files = pair(tmp_path, text, problem)
+    task = load_pddl(*files, human="w", robots=["v"], on_progress=lambda doing, *_: said.append(doing))
+    (warning,) = task.warnings
+    assert warning.endswith(" more are no agents of this call; their actions are left out")
+    counts = [int(doing.split()[1].replace(",", "")) for doing in said if "so far" in doing]
+    assert max(counts) < 20
 
 
 def test_agents_are_objects_where_an_action_has_no_agent_of_its_own(tmp_path: Path) -> None:

@@ -32,11 +32,13 @@ class Source:
         unit: the files.
         schemas: the actions that count.
         participants: see :data:`Participants`.
+        actors: what the first parameter of the actions may be, where that is known; else None.
     """
 
     unit: Unit
     schemas: tuple[Schema, ...]
     participants: Participants
+    actors: frozenset[str] | None = None
 
 
 @dataclass(slots=True)
@@ -115,7 +117,7 @@ def _grounded(blueprint: Blueprint, relations: Relations, work: Work) -> tuple[d
     instantiator = Instantiator(relations, _values(blueprint.sources), work)
     for source in blueprint.sources:
         for schema in work.each(source.schemas):
-            instantiator.ground(schema, source.unit, source.participants)
+            instantiator.ground(schema, source.unit, source.participants, source.actors)
     return instantiator.facts, _owned(instantiator.blocks(), blueprint, work)
 
 

@@ -62,13 +62,20 @@ class Instantiator:
         self._records: list[Record] = []
         self._count = 0
 
-    def ground(self, schema: Schema, unit: Unit, participants: Participants) -> None:
+    def ground(
+        self,
+        schema: Schema,
+        unit: Unit,
+        participants: Participants,
+        actors: frozenset[str] | None = None,
+    ) -> None:
         """Make the ground actions of a schema whose static preconditions hold.
 
         Args:
             schema: the action.
             unit: the files that it is from; its parameters range over their objects.
             participants: who takes part in the ground actions of given names.
+            actors: what the first parameter may be; None means all that its type allows.
 
         Raises:
             InputError: there are too many cases.
@@ -76,7 +83,7 @@ class Instantiator:
         """
         try:
             lifted = operator(schema, unit, self.work)
-            product = bindings(lifted, unit, self.relations, self.work)
+            product = bindings(lifted, unit, self.relations, self.work, actors)
         except LIMITS:
             name = quoted(schema.name)
             self.work.doing = f"grounding action {name}, {self._count:,} ground actions so far"

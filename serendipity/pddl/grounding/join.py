@@ -79,13 +79,29 @@ class Relations:
         return self.holds(literal, literal.key)
 
 
-def bindings(operator: Operator, unit: Unit, relations: Relations, work: Work) -> Product:
+def bindings(
+    operator: Operator,
+    unit: Unit,
+    relations: Relations,
+    work: Work,
+    actors: frozenset[str] | None = None,
+) -> Product:
     """All bindings under which the preconditions that can't change hold.
+
+    Args:
+        operator: whose variables are bound.
+        unit: the files that it is from.
+        relations: what holds initially.
+        work: limits.
+        actors: what the first parameter may be; None means all that its type allows.
 
     Raises:
         LimitReachedError: tables of them don't fit into memory.
     """
-    return _Join(operator, unit, relations, work).run()
+    join = _Join(operator, unit, relations, work)
+    if actors is not None:
+        join.restrict(operator.parameters[0].name, actors)
+    return join.run()
 
 
 class _Join:
@@ -101,6 +117,10 @@ class _Join:
             self.filters += [choice for choice in operator.choices if relations.static(choice)]
         self.bound: set[str] = set()
         self.tables: list[Table] = []
+
+    def restrict(self, name: str, values: frozenset[str]) -> None:
+        """Let a variable be these values at most."""
+        self.domains[name] = {value: None for value in self.domains[name] if value in values}
 
     def run(self) -> Product:
         self._filter()
