@@ -24,7 +24,7 @@ def team_for(context: SearchContext) -> "Team | None":
     endless = options.horizon == INFINITE
     if options.mode != "composite" or not endless or options.max_cost is not None or task.robot_goal:
         return None
-    return context.team if context.is_shared else None
+    return context.team if context.distances_say_little else None
 
 
 class CompositeCall:

@@ -96,7 +96,7 @@ class SearchContext:
     @cached_property
     def _has_kernel(self) -> bool:
         """Whether the kernel knows more of the human alone than private distances, which can take seconds."""
-        if not self.is_shared:
+        if not self.distances_say_little:
             return False
         from search.kernel.library import library  # only here: most calls come by without it
 
@@ -168,9 +168,13 @@ class SearchContext:
         )
 
     @cached_property
-    def is_shared(self) -> bool:
-        """Whether the goal asks for what others change too: then private distances say little of it."""
-        return bool((self.packed.goal.mask | self.packed.robot_goal.mask) & self.packed.outside)
+    def distances_say_little(self) -> bool:
+        """Whether private distances say little of the goal: it asks for what others change too, or they leave
+        out some of too many private variables.
+        """
+        if (self.packed.goal.mask | self.packed.robot_goal.mask) & self.packed.outside:
+            return True
+        return not self.tables.human.keeps_all(self.deadline)
 
     @cached_property
     def team(self) -> "Team | None":
@@ -186,7 +190,7 @@ class SearchContext:
     @cached_property
     def team_bound(self) -> Callable[[int], int]:
         """Bound on what the team pays from a packed state; 0 where private distances say enough."""
-        team = self.team if self.is_shared else None
+        team = self.team if self.distances_say_little else None
         if team is None:
             return no_team_bound
         planner, known = team.planner, dict[int, int]()

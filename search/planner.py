@@ -161,7 +161,7 @@ class _Call:
 
     def _improvements(self) -> Iterator[Incumbent]:
         """Each better incumbent, and now and then the same one; on return it is optimal."""
-        if self.context.is_shared:
+        if self.context.distances_say_little:
             joint = JointPlans(
                 self.context, self.plan, self.epochs, self._most_cost(), self.best, self.progress
             )
@@ -193,7 +193,7 @@ class _Call:
         self.deadline.check()
 
     def _ties(self) -> Ties | None:
-        return Ties(self.keys.objective_shift, _FEW) if self.context.is_shared else None
+        return Ties(self.keys.objective_shift, _FEW) if self.context.distances_say_little else None
 
     def _in_short_windows(self) -> Generator[Incumbent, None, bool]:
         """Robots one by one, where longer windows can't be better; whether a short search did."""
@@ -225,7 +225,7 @@ class _Call:
     def _is_settled(self) -> bool:
         """Whether the objective can't be beaten, where that is enough (Decisions: objective first)."""
         best, bound = self.best.key, self.progress.bound
-        if not self.context.is_shared or best >= INFINITE_KEY:
+        if not self.context.distances_say_little or best >= INFINITE_KEY:
             return False
         return self.keys.objective(best) <= self.keys.objective(bound)
 

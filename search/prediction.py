@@ -61,7 +61,9 @@ def plan_at_hand(context: SearchContext, given: HumanPlan | None) -> HumanPlan |
     Raises:
         LimitReachedError: the deadline came before any plan.
     """
-    return context.alone.first_plan(context.packed.init) if given is None and context.is_shared else None
+    if given is not None or not context.distances_say_little:
+        return None
+    return context.alone.first_plan(context.packed.init)
 
 
 def answers_at_once(context: SearchContext, at_hand: HumanPlan | None) -> Iterator[Answer]:

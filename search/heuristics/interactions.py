@@ -40,7 +40,7 @@ class Interactions:
 
     Args:
         packed: the packed task.
-        mask: the private fields that the projection of :func:`.human_graph` keeps.
+        mask: the private fields that the projection of :func:`.whole_graph` or :func:`.partial_graph` keeps.
 
     Attributes:
         mask: the private fields that the projection keeps.

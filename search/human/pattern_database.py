@@ -83,7 +83,7 @@ def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> 
 
     Args:
         packed: the packed task.
-        graph: what :func:`human_graph` makes of it.
+        graph: the human's graph.
         deadline: polled while the table is built.
 
     Returns:
@@ -139,29 +139,42 @@ def private_fields(packed: PackedTask) -> list[int]:
     return [field for field in packed.fields if field & changed and not field & packed.outside]
 
 
-def human_graph(packed: PackedTask, deadline: Deadline) -> Projected:
-    """The human's graph over all their private fields, or over as many as stay tractable.
+def whole_graph(packed: PackedTask, deadline: Deadline) -> Projected | None:
+    """The human's graph over all their private fields; None where these are too many together.
 
-    By how many values they have, that is: which of them can be reached together is tried for all of
-    them only, and not for long.
+    What they could have together is tried for a while, where it could be too much.
     """
-    private = private_fields(packed)
-    goal_first = sorted(private, key=lambda field: (not field & packed.goal.mask, field))
+    fields = _goal_first(packed)
+    whole = _tractable(packed, fields) == fields
+    return _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline)
+
+
+def partial_graph(packed: PackedTask, deadline: Deadline) -> Projected:
+    """The human's graph over as many of their private fields as stay tractable by their numbers of values."""
+    found = _graph(packed, _tractable(packed, _goal_first(packed)), _MAX_STATES, deadline)
+    assert found is not None, "there are no more states than values together"
+    return found
+
+
+def _goal_first(packed: PackedTask) -> list[int]:
+    """The human's private fields, those first that the goal asks for."""
+    return sorted(private_fields(packed), key=lambda field: (not field & packed.goal.mask, field))
+
+
+def _tractable(packed: PackedTask, fields: Sequence[int]) -> list[int]:
+    """Of some fields the first, as long as they have no more values together than a graph may have states."""
+    sizes = accumulate((len(packed.values(field)) for field in fields), mul)
+    return [field for field, size in zip(fields, sizes, strict=True) if size <= _MAX_STATES]
+
+
+def _graph(packed: PackedTask, fields: Sequence[int], most: int, deadline: Deadline) -> Projected | None:
+    """The human's graph over some fields; None where it has too many states."""
     weights = own_weights(packed)
     # The cheapest last, so that it stays where forms look alike.
     dearest_first = sorted((*packed.own_forms, *packed.joint_forms), key=lambda form: -form.cost)
     weighed = [(form, weights[form.cost], packed.is_interaction(form)) for form in dearest_first]
-
-    def graph(fields: Sequence[int], most: int) -> Projected | None:
-        mask = sum(fields)
-        return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)
-
-    sizes = accumulate((len(packed.values(field)) for field in goal_first), mul)
-    tractable = [field for field, size in zip(goal_first, sizes, strict=True) if size <= _MAX_STATES]
-    found = None if tractable == goal_first else graph(goal_first, _FEW_STATES)
-    found = found or graph(tractable, _MAX_STATES)
-    assert found is not None, "there are no more states than values together"
-    return found
+    mask = sum(fields)
+    return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)
 
 
 def _satisfying(graph: Projected, goal: PackedGoal) -> list[int]:

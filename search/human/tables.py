@@ -6,10 +6,11 @@ from search.human.individual_planner import Memory
 from search.human.pattern_database import (
     PatternDatabase,
     Projected,
-    human_graph,
     human_steps,
     own_projection,
+    partial_graph,
     steps_in,
+    whole_graph,
 )
 from search.human.priced_planner import own_memory
 from search.packed.packed_task import PackedTask
@@ -32,6 +33,7 @@ class HumanTables:
         self._packed = packed
         self._project = project or self._own_projection
         self._graph: Projected | None = None
+        self._whole: tuple[Projected | None] | None = None
         self._projection: PatternDatabase | None = None
         self._steps: PatternDatabase | None = None
         self._memory: Memory | None = None
@@ -40,11 +42,20 @@ class HumanTables:
         """Whether they are known to hold from a packed state: nothing else can be reached from there."""
         return self._graph is not None and state & self._graph.mask in self._graph.moves
 
+    def keeps_all(self, deadline: Deadline) -> bool:
+        """Whether the projection keeps all private variables: where they are too many, it says less."""
+        return self._project != self._own_projection or self._whole_graph(deadline) is not None
+
     def graph(self, deadline: Deadline) -> Projected:
-        """The human's actions, projected onto their private variables."""
+        """The human's actions, projected onto their private variables, or onto as many as stay tractable."""
         if self._graph is None:
-            self._graph = human_graph(self._packed, deadline)
+            self._graph = self._whole_graph(deadline) or partial_graph(self._packed, deadline)
         return self._graph
+
+    def _whole_graph(self, deadline: Deadline) -> Projected | None:
+        if self._whole is None:
+            self._whole = (whole_graph(self._packed, deadline),)
+        return self._whole[0]
 
     def projection(self, deadline: Deadline) -> PatternDatabase:
         """The human's private distances to the goal, in the unit of :func:`.own_weights`."""

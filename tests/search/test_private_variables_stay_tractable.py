@@ -1,16 +1,24 @@
 """The human's private variables are tabulated together only as far as that does not take long."""
 
+from itertools import pairwise, permutations
 from pathlib import Path
 
 import pytest
+from hypothesis import given
 
 import search.human.own_problem
+import search.human.pattern_database
 import serendipity
-from search.human.pattern_database import human_graph, private_fields
+from search import prepare, solve
+from search.human.pattern_database import partial_graph, private_fields, whole_graph
+from search.kernel.library import library
 from search.packed.packed_task import PackedTask
+from serendipity.facade.call import options_from
 from serendipity.model import Deadline, Task
 from serendipity.testing.builders import task
 from serendipity.testing.countdown import Countdown
+from serendipity.testing.strategies import Call, calls, family_tasks, tasks
+from tests.search.exact_answers import exact_and_planned
 
 COUNT = 30
 
@@ -24,7 +32,9 @@ def test_too_many_states_are_not_listed_again_and_again() -> None:
     names = [f"on{i}" for i in range(COUNT)]
     actions = {f"switch{name} h": f"-> {name}" for name in names} | {"help r": "-> on0"}
     deadline = Countdown(10**9)
-    graph = human_graph(packed(task(goal=" ".join(names), actions=actions)), deadline)
+    problem = packed(task(goal=" ".join(names), actions=actions))
+    assert whole_graph(problem, deadline) is None
+    graph = partial_graph(problem, deadline)
     assert 10_000 <= len(graph.moves) <= 50_000
     assert 10**9 - deadline.left_over[0] < 60_000
 
@@ -32,7 +42,8 @@ def test_too_many_states_are_not_listed_again_and_again() -> None:
 def test_what_can_only_become_little_together_is_kept_together() -> None:
     chain = {f"do{i} h": f"f{i} -> f{i + 1} @ 2" for i in range(COUNT)} | {"help r": "-> light"}
     problem = packed(task(init="f0", goal=f"f{COUNT} light", actions=chain))
-    graph = human_graph(problem, Deadline())
+    graph = whole_graph(problem, Deadline())
+    assert graph is not None
     assert graph.mask == sum(private_fields(problem))
     assert len(graph.moves) == COUNT + 1
 
@@ -45,3 +56,45 @@ def test_many_easy_searches_are_not_handed_over(monkeypatch: pytest.MonkeyPatch,
     building = serendipity.load(tmp_path / "building")
     assert serendipity.plan(building, discount=0.9, window_weight=0).status == "optimal"
     assert not asked
+
+
+def own_blocks(names: str) -> Task:
+    """A tower to be turned over, all by the human, beside a robot that may hold a lamp for it."""
+    do = {"shine r": "-> light", "look h": "light -> seen @ 0.1", "search h": "-> seen @ 3"}
+    for x in names:
+        do[f"pick_{x} h"] = f"table_{x} clear_{x} free -> hold_{x} !table_{x} !clear_{x} !free"
+        do[f"put_{x} h"] = f"hold_{x} -> table_{x} clear_{x} free !hold_{x}"
+    for x, y in permutations(names, 2):
+        do[f"lift_{x}_{y} h"] = (
+            f"on_{x}_{y} clear_{x} free -> hold_{x} clear_{y} !on_{x}_{y} !clear_{x} !free"
+        )
+        do[f"stack_{x}_{y} h"] = f"hold_{x} clear_{y} -> on_{x}_{y} clear_{x} free !hold_{x} !clear_{y}"
+    tower = [f"on_{above}_{below}" for above, below in pairwise(names)]
+    turned = [f"on_{below}_{above}" for above, below in pairwise(names)]
+    init = ["free", f"clear_{names[0]}", f"table_{names[-1]}", *tower]
+    return task(init=" ".join(init), goal=" ".join((*turned, "seen")), actions=do)
+
+
+@pytest.mark.skipif(library() is None, reason="there is no kernel here")
+@pytest.mark.parametrize("call", [{"mode": "individual"}, {"mode": "composite", "horizon": "inf"}, {}])
+def test_the_kernel_plans_where_not_all_can_be_kept(call: dict[str, str]) -> None:
+    """Distances in some of the private variables were all there was: no plan, and no proof."""
+    deadline = Countdown(15_000)
+    *_, last = solve(prepare(own_blocks("abcdefgh"), deadline), options_from(call), deadline=deadline)
+    assert last.status == "optimal"
+
+
+def test_answers_are_the_same_where_none_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search.human.pattern_database, "_MAX_STATES", 1)
+    monkeypatch.setattr(search.human.pattern_database, "_FEW_STATES", 1)
+
+    @given(calls(ties=False, of=tasks() | family_tasks()))
+    def law(call: Call) -> None:
+        both = exact_and_planned(call)
+        if both is None:
+            return
+        optimum, answer = both
+        expected = None if optimum.cost is None else float(optimum.cost)
+        assert (answer.status, answer.cost) == (optimum.status, expected)
+
+    law()
