@@ -6,6 +6,7 @@ from random import Random
 from typing import Final
 
 from serendipity.execution.faults import Faults
+from serendipity.model.arguments import shown
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import exact
 from serendipity.model.task.task import Task
@@ -39,8 +40,8 @@ class Crew:
     epoch_seconds: float | None = None
 
     def __post_init__(self) -> None:
-        if isinstance(self.maker, str) and self.maker not in ADAPTERS:
-            raise UsageError(f"adapter: expected one of {', '.join(ADAPTERS)}, got '{self.maker}'")
+        if not (self.maker is None or self.maker in ADAPTERS or callable(self.maker)):
+            raise UsageError(f"adapter: expected one of {', '.join(ADAPTERS)}, got {shown(self.maker)}")
         if self.epoch_seconds is not None:
             seconds = exact(self.epoch_seconds, "epoch_seconds")
             if seconds <= 0:

@@ -9,6 +9,7 @@ from serendipity.execution.brain import Brain
 from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
 from serendipity.execution.outlook import Outlook, Robots
 from serendipity.execution.world import Unfinished, World
+from serendipity.model.arguments import BY_NAME, TASK, TEXT, expect, expect_or_none
 from serendipity.model.errors import LIMITS, UsageError
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options, limit_of
@@ -17,7 +18,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.plans import PlanStep
-from serendipity.model.task.task import Task, canonical_name
+from serendipity.model.task.task import Task, canonical_name, several
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
 if TYPE_CHECKING:
@@ -87,6 +88,7 @@ class Execution(Tabular):
         adapter: Adapter | None = None,
         robots: Robots | None = None,
     ) -> None:
+        expect(TASK, task=task)
         if mode != "serendipity" and not (told and mode == "communication"):
             expected = "serendipity or communication" if told else "serendipity, where nobody is told"
             raise UsageError(f"mode: expected {expected}, got '{mode}'")
@@ -178,6 +180,7 @@ class Execution(Tabular):
         Raises:
             UsageError: there is no such action of theirs, and no such offer.
         """
+        expect_or_none(TEXT, action=action)
         decided = self.decided
         offer = None if action is None else self._offer(decided, action)
         his = None if action is None or offer is not None else self._world.his(action)
@@ -215,6 +218,7 @@ class Execution(Tabular):
         Raises:
             UsageError: there is no such fact.
         """
+        expect(BY_NAME, facts=facts)
         self._world.change(facts.items())
         self._brain.surprised()
         self.events.append({"change": dict(facts)})
@@ -226,7 +230,7 @@ class Execution(Tabular):
         Raises:
             UsageError: there is no such robot.
         """
-        names = [canonical_name(robot) for robot in robots]
+        names = [canonical_name(robot) for robot in several(robots, "robots")]
         for name in names:
             if name not in self.task.agents or self.task.agents.index(name) == self.task.human:
                 known = ", ".join(self.task.agents[i] for i in self.task.robots)

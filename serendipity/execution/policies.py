@@ -10,7 +10,7 @@ from search import PreparedTask
 from serendipity.execution.faults import probability
 from serendipity.execution.persons import Noisy, Omniscient, Person, Recorded, Replanner
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.task.task import Task, canonical_name
+from serendipity.model.task.task import Task, canonical_name, several
 from serendipity.pddl.parsing.files import read_text
 from serendipity.pddl.parsing.lists import actions_in
 
@@ -93,7 +93,7 @@ def recorded_actions(task: Task, file: Path | Sequence[str]) -> tuple[str, ...]:
     if isinstance(file, Path):
         lines: list[tuple[str, int | None]] = [(n, i) for n, i in actions_in(read_text(file), file)]
     else:
-        lines = [(name, None) for name in file]
+        lines = [(name, None) for name in several(file, "human")]
     where = file if isinstance(file, Path) else None
     names = []
     for text, line in lines:

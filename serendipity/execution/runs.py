@@ -17,6 +17,7 @@ from serendipity.execution.faults import Faults
 from serendipity.execution.log import log_lines
 from serendipity.execution.persons import Person, moment_of
 from serendipity.execution.policies import Policy, policy_from, recorded_actions
+from serendipity.model.arguments import FUNCTION, TASK, WHOLE, Kind, expect, expect_or_none
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.numbers import plain
 from serendipity.model.options import CHOICES
@@ -217,6 +218,10 @@ def execute(
         UsageError: an argument is wrong.
         InputError: a file is wrong; it says where.
     """
+    expect(TASK, task=task)
+    expect(WHOLE, runs=runs, seed=seed, jobs=jobs)
+    expect_or_none(WHOLE, epochs=epochs)
+    expect_or_none(FUNCTION, on_progress=on_progress)
     for name, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
         if number < 1:
             raise UsageError(f"{name}: expected at least 1, got {number}")
@@ -232,8 +237,10 @@ def execute(
     if model not in CHOICES["human_model"]:
         known = ", ".join(CHOICES["human_model"])
         raise UsageError(f"human_model: expected one of {known}, got '{model}'")
-    wrong = Faults.parse(faults) if isinstance(faults, str) else faults or Faults()
+    wrong = Faults() if faults is None else Faults.parse(faults) if isinstance(faults, str) else faults
     given = Durations.parse(durations) if isinstance(durations, str) else durations
+    expect(Kind("Faults, or a text", lambda value: isinstance(value, Faults)), faults=wrong)
+    expect_or_none(Kind("Durations, or a text", lambda value: isinstance(value, Durations)), durations=given)
     crew = Crew(adapter, wrong, given, epoch_seconds)
     plan = canonical_human_plan(PreparedTask(task), Deadline())
     arguments = {"human_model": model, "goals": goals, "told": policy.told, **options}

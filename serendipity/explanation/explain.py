@@ -13,6 +13,7 @@ from serendipity.explanation.wording import sentences
 from serendipity.facade.call import options_from
 from serendipity.facade.interruptibility import InterruptionReport, interruptions
 from serendipity.model import Deadline, LimitReachedError, Result, Task, UsageError
+from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.resources.limits import limits_from
 
@@ -56,6 +57,9 @@ def explain(
         LimitReachedError: a limit came before there was any answer to explain.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
+    expect(TASK, task=task)
+    expect_or_none(RESULT, result=result)
+    expect_or_none(FUNCTION, on_progress=on_progress)
     if result is not None and (options or human_plan is not None):
         raise UsageError("explain: expected a result or options, got both")
     asked = result.options if result else options_from(options)

@@ -4,6 +4,7 @@ from pathlib import Path
 from time import perf_counter
 
 from serendipity.model import Certificate, Deadline, Result, Task
+from serendipity.model.arguments import PATH, RESULT, TASK, expect, expect_or_none
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from verify.certificate.by_rules import check_by_rules
@@ -33,6 +34,8 @@ def check(
     """
     start = perf_counter()
     limits = limits_from(time_limit, None, deadline)
+    expect(TASK, task=task)
+    expect(RESULT, result=result)
     result = result.checked()
     require_same_task(task, result)
     with no_collection():
@@ -81,6 +84,9 @@ def verify(
         OSError: the file can't be written.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
+    expect(TASK, task=task)
+    expect(RESULT, result=result)
+    expect_or_none(PATH, proof=proof)
     from serendipity.facade.proofs import write_proof
     from verify.certificate.certify import certify  # loads the solvers
     from verify.programs.effort import NoProgramError

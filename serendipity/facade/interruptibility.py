@@ -11,6 +11,7 @@ from serendipity.facade.call import options_from
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
+from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import rounded
 from serendipity.model.resources.collection import no_collection
@@ -194,6 +195,7 @@ def interruptions(
         LimitReachedError: a limit came before it was known what the human is going to do.
     """
     prepared, limits = HELD.of(task), limits_from(time_limit, memory_limit, deadline)
+    expect_or_none(FUNCTION, on_progress=on_progress)
     for name in options:
         if name not in _OPTIONS:
             raise UsageError(f"interruptions: expected options among {', '.join(_OPTIONS)}, got '{name}'")

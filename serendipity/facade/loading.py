@@ -12,9 +12,10 @@ from typing import Final
 
 from search import PreparedTask, prepare
 from serendipity.facade.prepared import HELD
+from serendipity.model.arguments import BY_NAME, FUNCTION, PAIR, PATH, TEXT, expect, expect_or_none
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.limits import limits_from
-from serendipity.model.task.task import Task
+from serendipity.model.task.task import Task, several
 from serendipity.pddl.layouts import Pair, read_agents, read_folder, read_pddl
 from serendipity.pddl.parsing.files import PathArgument
 from serendipity.pddl.work import OnProgress, Work, within_limits
@@ -43,6 +44,9 @@ def load(
         on_progress: is told what is being done.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
+    expect(PATH, path=path)
+    expect_or_none(TEXT, human=human)
+    expect_or_none(FUNCTION, on_progress=on_progress)
     return _ready(read_folder(path, human, deadline=limits, on_progress=on_progress), limits, on_progress)
 
 
@@ -62,6 +66,11 @@ def load_agents(
     See :func:`serendipity.pddl.read_agents`; limits as in :func:`load`.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
+    expect(BY_NAME, agents=agents)
+    expect(PAIR, **{f"agents: {agent}": pair for agent, pair in agents.items()})
+    expect_or_none(PAIR, team=team)
+    expect_or_none(TEXT, human=human, name=name)
+    expect_or_none(FUNCTION, on_progress=on_progress)
     task = read_agents(agents, team, human, name=name, deadline=limits, on_progress=on_progress)
     return _ready(task, limits, on_progress)
 
@@ -83,7 +92,12 @@ def load_pddl(
     See :func:`serendipity.pddl.read_pddl`; limits as in :func:`load`.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    task = read_pddl(domain, problem, human, robots, name=name, deadline=limits, on_progress=on_progress)
+    expect(PATH, domain=domain, problem=problem)
+    expect(TEXT, human=human)
+    named = several(robots, "robots")
+    expect_or_none(TEXT, name=name)
+    expect_or_none(FUNCTION, on_progress=on_progress)
+    task = read_pddl(domain, problem, human, named, name=name, deadline=limits, on_progress=on_progress)
     return _ready(task, limits, on_progress)
 
 

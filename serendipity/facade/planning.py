@@ -13,11 +13,12 @@ from serendipity.facade.results import to_result
 from serendipity.facade.solvers import SOLVERS
 from serendipity.model.answers.answer import Answer
 from serendipity.model.answers.result import Result
+from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import Number
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.task import Task
+from serendipity.model.task.task import Task, several
 from serendipity.model.task.visibility import Visible
 
 if TYPE_CHECKING:
@@ -90,6 +91,7 @@ def planned(
     **options: Any,
 ) -> Result:
     """:func:`plan` for those who hold a prepared task."""
+    expect_or_none(FUNCTION, visible=visible, on_improvement=on_improvement)
     if goals is not None and given is not None:
         raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
     chosen = options_from(options)
@@ -144,6 +146,7 @@ def planned_anytime(
     **options: Any,
 ) -> Iterator[Result]:
     """:func:`plan_anytime` for those who hold a prepared task."""
+    expect_or_none(FUNCTION, visible=visible)
     chosen = options_from(options)
     solver = SOLVERS[chosen.mode](chosen)
     with no_collection():
@@ -181,7 +184,7 @@ def _told(results: Iterator[Result], on_improvement: Callable[[Result], None]) -
 
 
 def _given(task: Task, names: Iterable[str] | None) -> Given:
-    return None if names is None else partial(task.plan_from_names, names)
+    return None if names is None else partial(task.plan_from_names, several(names, "human plan"))
 
 
 def _result(call: Call, answer: Answer, *, last: bool = True) -> Result:

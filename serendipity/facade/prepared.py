@@ -9,7 +9,7 @@ import threading
 from typing import Final
 
 from search import PreparedTask
-from serendipity.model.errors import UsageError
+from serendipity.model.arguments import TASK, expect
 from serendipity.model.task.task import Task
 
 _MOST: Final = 8
@@ -44,8 +44,7 @@ class LastPrepared:
         held = self._held
         if held and held[0].task is task:
             return held[0]
-        if not isinstance(task, Task):
-            raise UsageError(f"task: expected a Task, such as serendipity.load gives, got {task!r:.50}")
+        expect(TASK, task=task)
         with self._lock:
             known = next((prepared for prepared in self._held if prepared.task is task), None)
             return self._hold(known or PreparedTask(task))

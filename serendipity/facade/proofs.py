@@ -13,6 +13,7 @@ from serendipity.model import (
     Task,
     UsageError,
 )
+from serendipity.model.arguments import PATH, RESULT, TASK, expect, expect_or_none
 from serendipity.model.resources.limits import limits_from
 from serendipity.writing.together import write_together
 from verify.certificate.provable import main_claim
@@ -68,7 +69,11 @@ def check_proof(
         UsageError: a task without a result, or the other way round; no program proves such a result.
         LimitReachedError: a limit came first.
     """
-    started, file = perf_counter(), Path(path)
+    started = perf_counter()
+    expect(PATH, path=path)
+    expect_or_none(TASK, task=task)
+    expect_or_none(RESULT, result=result)
+    file = Path(path)
     if (task is None) != (result is None):
         raise UsageError("check_proof: expected a task and a result, or neither")
     limits = limits_from(time_limit, memory_limit, deadline)

@@ -9,6 +9,7 @@ from serendipity.facade.call import Given
 from serendipity.facade.planning import planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.model.answers.result import Result
+from serendipity.model.arguments import BY_NAME, expect
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.task.task import HumanPlan, Task, canonical_name, several
@@ -29,7 +30,7 @@ class Session:
     def __init__(self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> None:
         self._prepared = HELD.of(task)
         self._options = options
-        self._given = None if human_plan is None else tuple(human_plan)
+        self._given = None if human_plan is None else several(human_plan, "human plan")
         """Names of a plan that nothing has been made of yet: it may be one only after the next change."""
         self._human_plan: HumanPlan | None = None
         """The plan; at most one of the two is known."""
@@ -109,6 +110,7 @@ class Session:
         Raises:
             UsageError: there is no such fact.
         """
+        expect(BY_NAME, facts=facts)
         state = set(self.task.init)
         for name, true in facts.items():
             fact = self._fact(name)

@@ -11,6 +11,7 @@ from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model.answers.result import Result
 from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
+from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none, shown
 from serendipity.model.errors import LIMITS, InputError, UsageError
 from serendipity.model.numbers import rounded
 from serendipity.model.options import Options
@@ -53,8 +54,12 @@ def simulate(
         LimitReachedError: a limit came before the first epoch was over.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
+    expect(TASK, task=task)
+    expect(RESULT, result=result)
+    expect_or_none(FUNCTION, visible=visible)
     if human_model not in HUMAN_MODELS:
-        raise UsageError(f"human_model: expected one of {', '.join(HUMAN_MODELS)}, got {human_model!r}")
+        got = shown(human_model)
+        raise UsageError(f"human_model: expected one of {', '.join(HUMAN_MODELS)}, got {got}")
     if result.plan is None or result.cost is None:
         raise InputError("result: has no plan to simulate")
     if result.human != task.agents[task.human]:

@@ -9,6 +9,7 @@ from serendipity.lint.file_rules import file_findings
 from serendipity.lint.report import LEVELS, Finding, TaskReport
 from serendipity.lint.task_rules import task_findings
 from serendipity.model import Deadline, GroundAction, Task
+from serendipity.model.arguments import DEADLINE, LIST, PAIR, TASK, expect, expect_or_none
 from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.work import Work
 
@@ -32,9 +33,14 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
         InputError: a file can't be read or is wrong.
         LimitReachedError: a limit came first.
     """
+    expect(TASK, task=task)
+    expect(LIST, files=files)
+    expect_or_none(DEADLINE, deadline=deadline)
     limits = deadline or Deadline()
     work = Work(limits)
-    units = [read_unit(None, domain, problem, work) for domain, problem in files]
+    pairs = list(files)
+    expect(PAIR, **{f"files, pair {number}": pair for number, pair in enumerate(pairs, start=1)})
+    units = [read_unit(None, domain, problem, work) for domain, problem in pairs]
     found = chain(task_findings(task, limits), file_findings(task, units) if units else ())
     return TaskReport(
         task=task.name,

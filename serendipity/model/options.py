@@ -142,6 +142,8 @@ class Options:
         Raises:
             UsageError: an unknown or a missing key, or a value that is not legal.
         """
+        if not isinstance(data, dict):
+            raise UsageError(f"options: expected an object, got {data!r:.50}")
         known = [f.name for f in fields(cls)]
         for key in data:
             if key not in known:

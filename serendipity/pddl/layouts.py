@@ -43,7 +43,11 @@ def read_folder(
         LimitReachedError: the deadline came first, or there is not enough memory.
     """
     root = Path(path)
-    if not root.is_dir():
+    try:
+        is_folder = root.is_dir()
+    except OSError as error:  # a name that is too long
+        raise InputError(f"can't be read: {error.strerror}", root) from None
+    if not is_folder:
         what = "there is no such folder" if not root.exists() else "this is a file"
         raise InputError(f"{what}: expected a folder with a folder for each agent", root)
     pairs: dict[str, Pair] = {}

@@ -7,7 +7,8 @@ from os import PathLike
 from typing import Any
 
 from serendipity.model import Condition, InputError, Task, UsageError, exact
-from serendipity.model.task.task import canonical_name
+from serendipity.model.arguments import LIST, Kind, expect
+from serendipity.model.task.task import canonical_name, several
 from serendipity.pddl.parsing.lists import Entry
 from serendipity.recognition.files import read_goals, read_observed
 
@@ -47,6 +48,7 @@ def candidate_goals(task: Task, given: GoalsGiven) -> tuple[CandidateGoal, ...]:
         entries: Sequence[Entry] = read_goals(given)
     else:
         file = None
+        expect(Kind("a file, or a list of goals", LIST.fits), goals=given)
         entries = [Entry(item, None) for item in given]
     if not entries:
         raise InputError("goals: expected at least one goal, got none", file)
@@ -75,7 +77,7 @@ def observed_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
         lines = read_observed(given)
     else:
         file = None
-        lines = [(canonical_name(name), None) for name in given]
+        lines = [(canonical_name(name), None) for name in several(given, "observed")]
     names = []
     for step, (name, line) in enumerate(lines, start=1):
         if not name or (name not in task.named and task.waits(name)):

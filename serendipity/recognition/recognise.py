@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from search.goals import Likelihood, explanations
 from serendipity.model import Deadline, Task, UsageError, exact
 from serendipity.model.answers.recognition import GoalPosterior, Recognition
+from serendipity.model.arguments import TASK, expect
 from serendipity.model.numbers import Number, as_written
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
@@ -51,6 +52,7 @@ def recognise(
             there is none then.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
+    expect(TASK, task=task)
     candidates = candidate_goals(task, goals)
     names = observed_actions(task, observed)
     with no_collection():  # beside a large task a collection takes longer than a short deadline

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.model import Deadline, Task, UsageError
+from serendipity.model.arguments import DEADLINE, expect_or_none, shown
 from serendipity.pddl import read_pddl
 
 DATA: Final = Path(__file__).parent / "data"
@@ -73,6 +74,7 @@ def example(name: str, *, deadline: Deadline | None = None) -> Task:
         UsageError: there is no example of that name.
         LimitReachedError: the deadline came first.
     """
-    if name not in EXAMPLES:
-        raise UsageError(f"example: expected one of {', '.join(EXAMPLES)}, got '{name}'")
+    expect_or_none(DEADLINE, deadline=deadline)
+    if not isinstance(name, str) or name not in EXAMPLES:
+        raise UsageError(f"example: expected one of {', '.join(EXAMPLES)}, got {shown(name)}")
     return EXAMPLES[name].load(deadline)

@@ -4,6 +4,7 @@ from pathlib import Path
 from random import Random
 from typing import Final
 
+from serendipity.model.arguments import PATH, TEXT, WHOLE, expect, expect_or_none
 from serendipity.model.errors import UsageError
 from serendipity.scenarios.building import Building, figure2, random_building
 from serendipity.scenarios.usar import Usar
@@ -82,6 +83,9 @@ def make_usar(
     Raises:
         UsageError: a number is out of range, or there is no such preset.
     """
+    expect(WHOLE, rooms=rooms, medkits=medkits, robots=robots, seed=seed, extra_edges=extra_edges)
+    expect_or_none(WHOLE, corridors=corridors)
+    expect_or_none(TEXT, preset=preset)
     size = (max(rooms, 1) + max(medkits, 1) + max(extra_edges, 0)) * max(robots, 1)
     if size > _MOST:
         raise UsageError(
@@ -147,6 +151,8 @@ def generate_usar(
     Raises:
         UsageError: an argument is out of range, or a file can't be written.
     """
+    expect(PATH, folder=folder)
+    expect(TEXT, layout=layout)
     task = make_usar(
         rooms=rooms,
         medkits=medkits,

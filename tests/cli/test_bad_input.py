@@ -115,6 +115,8 @@ def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
         ("plan", ["--example", "none"]),
         ("plan --example room2 somewhere", ["more than one"]),
         ("plan nowhere", ["nowhere"]),
+        (f"plan {'long' * 200}", ["can't be read: File name too long"]),
+        (f"reproduce {'long' * 200}", ["can't be read: File name too long"]),
         ("plan a b c", ["3 paths"]),
         ("plan a b", ["--human", "--robot"]),
         ("plan --agent commx", ["--agent"]),

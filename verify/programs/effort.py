@@ -131,7 +131,7 @@ class Effort:
     def __post_init__(self) -> None:
         if self.method not in METHODS:
             raise UsageError(f"method: expected one of {', '.join(METHODS)}, got {self.method!r}")
-        if self.encoding not in ENCODINGS:
+        if self.encoding not in tuple(ENCODINGS):
             raise UsageError(f"encoding: expected one of {', '.join(ENCODINGS)}, got {self.encoding!r}")
         if self.solver not in SOLVERS:
             raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {self.solver!r}")

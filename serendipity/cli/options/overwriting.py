@@ -1,6 +1,7 @@
 """Files that a command line names twice: to read and to write, or to write for two purposes."""
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -40,8 +41,9 @@ def _places(name: str, value: object) -> Iterator[Path]:
     """Files that a value names and that can be replaced: devices can't, and nobody writes to folders."""
     if isinstance(value, Path):
         place = value.resolve()
-        if place.is_file() or not place.exists():
-            yield place
+        with suppress(OSError):  # a name that is too long: whoever reads or writes it says so
+            if place.is_file() or not place.exists():
+                yield place
     elif isinstance(value, list):
         for part in value:
             yield from _places(name, part)

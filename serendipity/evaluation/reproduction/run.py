@@ -15,9 +15,11 @@ from serendipity.evaluation.reproduction.rows import KINDS, Row
 from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
 from serendipity.evaluation.reproduction.work import Assignment, Call, Limits, TaskRows, solve, unknown
 from serendipity.model import Deadline, Options, UsageError
+from serendipity.model.arguments import DEADLINE, FUNCTION, LIST, PATH, TEXT, WHOLE, expect, expect_or_none
 from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.table import Table, Tabular
+from serendipity.model.task.task import several
 
 MODES: Final = ("individual", "serendipity", "communication", "composite")
 DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
@@ -96,6 +98,13 @@ def reproduce(
         UsageError: an argument is wrong.
         InputError: the folder, the journal or a task can't be read.
     """
+    expect(PATH, folder=folder)
+    expect(LIST, modes=modes, discounts=discounts)
+    expect(WHOLE, jobs=jobs)
+    expect_or_none(PATH, journal=journal)
+    expect_or_none(TEXT, dask=dask)
+    expect_or_none(FUNCTION, on_progress=on_progress)
+    expect_or_none(DEADLINE, deadline=deadline)
     calls = _calls(modes, discounts)
     if jobs < 1:
         raise UsageError(f"jobs: expected at least 1, got {jobs}")
@@ -131,7 +140,7 @@ _Key = tuple[str, str, Call]
 
 
 def _calls(modes: Iterable[str], discounts: Iterable[Number]) -> tuple[Call, ...]:
-    wanted, levels = tuple(dict.fromkeys(modes)), tuple(discounts)
+    wanted, levels = tuple(dict.fromkeys(several(modes, "modes"))), tuple(discounts)
     if not wanted or not levels:
         raise UsageError("modes, discounts: expected at least one of each")
     for mode in wanted:

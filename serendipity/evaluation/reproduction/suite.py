@@ -32,7 +32,11 @@ def find_tasks(folder: Path) -> tuple[TaskFolder, ...]:
         InputError: there is no such folder, or no task in it.
         UsageError: the folder is a task itself.
     """
-    if not folder.is_dir():
+    try:
+        is_folder = folder.is_dir()
+    except OSError as error:  # a name that is too long
+        raise InputError(f"can't be read: {error.strerror}", folder) from None
+    if not is_folder:
         raise InputError("expected a folder of tasks", folder)
     if _is_task(folder):
         raise UsageError(f"{folder} is a single task: expected a folder of tasks; try `serendipity plan`")

@@ -37,7 +37,7 @@ class Deadline:
         cancelled: set from another thread to end the work.
 
     Raises:
-        UsageError: a limit on memory, where the system does not say how much is used.
+        UsageError: a limit is no number, or one on memory where the system does not say how much is used.
     """
 
     def __init__(
@@ -46,6 +46,8 @@ class Deadline:
         memory_limit: float | None = None,
         cancelled: threading.Event | None = None,
     ) -> None:
+        _require_number("time_limit", time_limit)
+        _require_number("memory_limit", memory_limit)
         self.started = time.perf_counter()
         self._end = None if time_limit is None else self.started + time_limit
         self._most = None if memory_limit is None else memory_limit * MIB
@@ -169,3 +171,8 @@ class Deadline:
 
 def _least(a: float | None, b: float | None) -> float | None:
     return b if a is None else a if b is None else min(a, b)
+
+
+def _require_number(name: str, value: object) -> None:
+    if value is not None and not isinstance(value, int | float):
+        raise UsageError(f"{name}: expected a number, got {value!r:.50}")

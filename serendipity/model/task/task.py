@@ -31,8 +31,9 @@ def several(names: Iterable[str], what: str) -> tuple[str, ...]:
     Raises:
         UsageError: it is a text, or has something else than texts in it.
     """
-    found = () if isinstance(names, str) else tuple(names)
-    if isinstance(names, str) or not all(isinstance(name, str) for name in found):
+    listed = isinstance(names, Iterable) and not isinstance(names, str)
+    found = tuple(names) if listed else ()
+    if not listed or not all(isinstance(name, str) for name in found):
         raise UsageError(f"{what}: expected a list of names, got {names!r:.50}")
     return found
 
@@ -198,7 +199,10 @@ class Task:
 
         Raises:
             LimitReachedError: the deadline came first.
+            UsageError: it is no set.
         """
+        if not isinstance(state, frozenset):
+            raise UsageError(f"state: expected a frozenset of ids of facts, got {state!r:.50}")
         held = {d.fact for d in self.disjunctions if d.holds(state)}
         state = state.difference([d.fact for d in self.disjunctions]) | held
         if self.fits(state):
@@ -223,9 +227,9 @@ class Task:
         Raises:
             UsageError: there is no such agent.
         """
-        name = canonical_name(human)
+        name = canonical_name(human) if isinstance(human, str) else human
         if name not in self.agents:
-            raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human}'")
+            raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human!s:.50}'")
         return replace(self, human=self.agents.index(name), known_variables=self.variables)
 
     def _first_unmet(self, action: GroundAction, state: frozenset[int]) -> str:
