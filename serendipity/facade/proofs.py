@@ -1,7 +1,9 @@
 """The facade over proof files: written beside a certificate, and checked."""
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from time import perf_counter
+from typing import TypeVar
 
 from serendipity.model import (
     Certificate,
@@ -19,6 +21,8 @@ from serendipity.writing.together import write_together
 from verify.certificate.provable import main_claim
 from verify.proofs import checker
 from verify.proofs.book import ProofWriter, packed
+
+T = TypeVar("T")
 
 
 def write_proof(path: Path, writer: ProofWriter, certificate: Certificate, result: Result) -> bool:
@@ -78,9 +82,15 @@ def check_proof(
         raise UsageError("check_proof: expected a task and a result, or neither")
     limits = limits_from(time_limit, memory_limit, deadline)
     programs: tuple[RefutedProgram, ...] = ()
+
+    def polled(items: Iterable[T]) -> Iterator[T]:
+        for item in items:
+            limits.check()
+            yield item
+
     try:
-        data = checker.read(file)
-        programs = tuple(RefutedProgram(*found) for found in checker.check(data))
+        data = checker.read(file, polled)
+        programs = tuple(RefutedProgram(*found) for found in checker.check(data, polled))
         reason = None
     except checker.MalformedProofError as error:
         raise InputError(str(error), file) from None

@@ -25,7 +25,7 @@ import json
 import re
 import sys
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import lcm
 from pathlib import Path
 from typing import Any, Final, NamedTuple, NoReturn
@@ -75,11 +75,12 @@ class Checked(NamedTuple):
     optimum: int | None
 
 
-def check(data: Any) -> list[Checked]:
+def check(data: Any, each: Callable[..., Any] = iter) -> list[Checked]:
     """Check a proof; returning means that every program is refuted.
 
     Args:
         data: what :func:`read` has read.
+        each: goes through rows and leaves, and may end it all by an error.
 
     Raises:
         MalformedProofError: it is no proof.
@@ -90,10 +91,10 @@ def check(data: Any) -> list[Checked]:
     if _field(data, "claim", str, "proof") not in CLAIMS:
         _malformed(f"claim: expected one of {', '.join(CLAIMS)}")
     given = _field(data, "programs", list, "proof") or _malformed("programs: expected at least one")
-    return [refute(program(each, f"program {k}")) for k, each in enumerate(given)]
+    return [refute(program(one, f"program {k}", each), each) for k, one in enumerate(given)]
 
 
-def refute(program: Program) -> Checked:
+def refute(program: Program, each: Callable[..., Any] = iter) -> Checked:
     """Check one program's tree, leaf by leaf, and its solution.
 
     Raises:
@@ -101,11 +102,10 @@ def refute(program: Program) -> Checked:
         RejectedProofError: a leaf does not hold, or the solution is none.
     """
     leaves = 0
-    for leaf, bounds in _leaves(program):
-        leaves += 1
-        if not _holds(program, leaf, bounds):
+    for leaves, (leaf, bounds) in enumerate(each(_leaves(program)), 1):
+        if not _holds(program, leaf, bounds, each):
             raise RejectedProofError(f"{program.name}: leaf {leaves} leaves something")
-    optimum = None if program.solution is None else _optimum(program, dict(program.solution))
+    optimum = None if program.solution is None else _optimum(program, dict(program.solution), each)
     return Checked(program.name, len(program.columns), len(program.rows), leaves, program.limit, optimum)
 
 
@@ -129,7 +129,7 @@ def _leaves(program: Program) -> Iterator[tuple[list[Any], Bounds]]:
             _malformed(f"{program.name}: tree: expected multipliers, or branch, value, down and up")
 
 
-def _holds(program: Program, leaf: list[Any], bounds: Bounds) -> bool:
+def _holds(program: Program, leaf: list[Any], bounds: Bounds, each: Callable[..., Any]) -> bool:
     """Whether the weighted sum of rows is out of reach within the bounds."""
     weights = [_weight(program, each) for each in leaf]
     scale = 1
@@ -140,7 +140,7 @@ def _holds(program: Program, leaf: list[Any], bounds: Bounds) -> bool:
     limit: Row = program.objective, "<=", program.limit or 0
     sums: dict[int, int] = {}
     right = 0
-    for number, numerator, denominator in weights:
+    for number, numerator, denominator in each(weights):
         factor = numerator * (scale // denominator)
         terms, sense, side = program.rows[number] if number >= 0 else limit
         if (sense == "<=" and factor < 0) or (sense == ">=" and factor > 0):
@@ -167,12 +167,12 @@ def _weight(program: Program, data: Any) -> tuple[int, int, int]:
     return number, int(text[1]), int(text[2])
 
 
-def _optimum(program: Program, values: dict[int, int]) -> int:
+def _optimum(program: Program, values: dict[int, int], each: Callable[..., Any]) -> int:
     """The objective of a solution, which has to be one more than what is refuted."""
     for x, (least, greatest) in enumerate(program.columns):
         if not least <= values.get(x, 0) <= greatest:
             raise RejectedProofError(f"{program.name}: solution: column {x} is out of bounds")
-    for number, (terms, sense, right) in enumerate(program.rows):
+    for number, (terms, sense, right) in enumerate(each(program.rows)):
         total = sum(coefficient * values.get(x, 0) for x, coefficient in terms)
         if (total > right and sense != ">=") or (total < right and sense != "<="):
             raise RejectedProofError(f"{program.name}: solution: row {number} does not hold")
@@ -182,7 +182,7 @@ def _optimum(program: Program, values: dict[int, int]) -> int:
     return objective
 
 
-def program(data: Any, where: str) -> Program:
+def program(data: Any, where: str, each: Callable[..., Any] = iter) -> Program:
     """One program of a proof.
 
     Args:
@@ -199,7 +199,7 @@ def program(data: Any, where: str) -> Program:
         if least > greatest:
             _malformed(f"{where}: columns: expected the least value before the greatest")
     rows = []
-    for row in _field(data, "rows", list, where):
+    for row in each(_field(data, "rows", list, where)):
         if _field(row, "sense", str, where) not in SENSES:
             _malformed(f"{where}: rows: expected one of {', '.join(SENSES)}")
         terms = _terms(row, "terms", where, len(columns))
@@ -253,7 +253,7 @@ def _malformed(message: str) -> NoReturn:
     raise MalformedProofError(message)
 
 
-def read(path: Path) -> Any:
+def read(path: Path, each: Callable[..., Any] = iter) -> Any:
     """The JSON value in a file, which may be packed by gzip.
 
     Raises:
@@ -266,7 +266,7 @@ def read(path: Path) -> Any:
             text = content.read(MOST_BYTES + 1)
         if len(text) > MOST_BYTES:
             _malformed(f"expected no more than {MOST_BYTES:,} bytes")
-        return json.loads(text.decode(), object_pairs_hook=_object)
+        return json.loads(text.decode(), object_pairs_hook=lambda pairs: _object([*each(pairs)]))
     except MalformedProofError:
         raise
     except (EOFError, zlib.error, gzip.BadGzipFile):
