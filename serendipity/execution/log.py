@@ -73,7 +73,7 @@ def read_logs(file: str | PathLike[str]) -> list[list[LogLine]]:
             continue
         try:
             value = json.loads(text)
-        except ValueError:
+        except (ValueError, RecursionError):  # no JSON, or nested too deeply
             value = None
         if not isinstance(value, dict):
             raise InputError("log: expected a JSON object", file, number)

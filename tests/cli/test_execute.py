@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Run
+from tests.cli.conftest import Run, assert_one_line
 
 CALL = "execute --example room2 --discount 0.6"
 
@@ -44,6 +44,11 @@ def test_a_log_is_played_again(run: Callable[[str], Run]) -> None:
     log.write_text(log.read_text().replace('"human_cost": 2.0', '"human_cost": 1.0', 1))
     changed = run("execute --example room2 --replay runs.jsonl")
     assert changed.code == 1 and "runs.jsonl:3: log: human_cost: comes out as 2.0" in changed.out
+
+
+def test_a_log_that_is_nested_too_deeply(run: Callable[[str], Run]) -> None:
+    Path("runs.jsonl").write_text("[" * 100_000)
+    assert_one_line(run("execute --example room2 --replay runs.jsonl"), "runs.jsonl:1: log: expected a JSON")
 
 
 def test_a_record_may_stand_behind_the_task(run: Callable[[str], Run]) -> None:

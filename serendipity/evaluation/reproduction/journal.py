@@ -19,6 +19,9 @@ from serendipity.model.schemas import schema_fault
 SCHEMA: Final = "serendipity.journal/1"
 """Of each line; lines of the first versions have none."""
 
+_BEGINS: Final = (json.dumps({"schema": SCHEMA})[:-1].encode(), b'{"test": ')
+"""What a line begins with, so that the end of another file is not taken for one that was cut off."""
+
 
 class Journal:
     """Rows of finished tasks on disk.
@@ -45,7 +48,7 @@ class Journal:
         whole, _, cut_off = text.rpartition(b"\n")
         records = [self._record(line, i) for i, line in enumerate(whole.splitlines(), start=1)]
         if cut_off:
-            if not cut_off.startswith(b"{"):
+            if not any(cut_off.startswith(begin[: len(cut_off)]) for begin in _BEGINS):
                 raise InputError("expected a journal of `serendipity reproduce`", self.path)
             os.truncate(self.path, len(text) - len(cut_off))
         return records
@@ -84,5 +87,5 @@ class Journal:
                 raise InputError(f"journal: {fault}", self.path, number)
             rows = tuple(Row.from_dict(row) for row in data["rows"])
             return TaskRows(data["test"], data["fingerprint"], rows)
-        except (AttributeError, ValueError, KeyError, TypeError):
+        except (AttributeError, ValueError, KeyError, TypeError, RecursionError):
             raise InputError("expected a journal of `serendipity reproduce`", self.path, number) from None

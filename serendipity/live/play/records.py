@@ -87,7 +87,7 @@ def read(file: Path) -> list[Event]:
     for number, line in enumerate(lines[:-1], start=1):
         try:
             event = json.loads(line)
-        except ValueError:
+        except (ValueError, RecursionError):  # no JSON, or nested too deeply
             event = None
         if not isinstance(event, dict):
             raise InputError("expected an event, as JSON", file, number)

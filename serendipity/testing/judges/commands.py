@@ -122,7 +122,7 @@ def _from_json(text: str, names: list[str]) -> Claim:
         if steps is None:
             return Claim(str(status))
         words = [step if isinstance(step, str) else step["action"] for step in steps]
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise SerendipityError(f"its JSON can't be read: {type(error).__name__}: {error}") from None
     return Claim(str(status), _ids(words, names))
 

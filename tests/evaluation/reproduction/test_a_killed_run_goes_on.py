@@ -13,6 +13,7 @@ import pytest
 
 import serendipity
 from serendipity.evaluation.reproduction import Progress, reproduce, run
+from serendipity.model import InputError
 from serendipity.model.resources.processes import in_processes
 
 CALLS = {"modes": ["serendipity", "communication"], "discounts": ["0.6", "0.9"]}
@@ -70,6 +71,18 @@ def test_a_line_that_was_cut_off_is_done_again(suite: Path, tmp_path: Path, solv
     assert solved[6:] == ["6"]
     assert [row.cells()[:-1] for row in again.rows] == [row.cells()[:-1] for row in first.rows]
     assert reproduce(suite, **CALLS, journal=journal) == again
+
+
+@pytest.mark.parametrize(
+    "text", ['{"schema": "serendipity.result/1", "status"', '{"a": 1}', "{}", "[", "{" * 99_999]
+)
+def test_what_is_no_journal_stays_as_it_is(text: str, suite: Path, tmp_path: Path) -> None:
+    journal = tmp_path / "other.json"
+    for content in (text, f"{text}\n"):
+        journal.write_text(content)
+        with pytest.raises(InputError, match="journal"):
+            reproduce(suite, **CALLS, journal=journal)
+        assert journal.read_text() == content
 
 
 def test_a_task_that_changed_is_done_again(suite: Path, tmp_path: Path, solved: list[str]) -> None:

@@ -44,13 +44,16 @@ def read_rows(path: Path) -> list[Row]:
     """
     header = [field.name for field in _FIELDS]
     rows = []
-    for line, cells in enumerate(csv.reader(read_text(path).splitlines()), start=1):
-        if cells == header:
-            continue
+    for line, text in enumerate(read_text(path).splitlines(), start=1):
         try:
+            (cells,) = csv.reader([text])
+            if cells == header:
+                continue
             of = {field.name: _READ[field.type](cell) for field, cell in zip(_FIELDS, cells, strict=True)}
-        except ValueError:
+        except (ValueError, csv.Error):
             raise InputError("expected a row that `serendipity bench` has written", path, line) from None
         outcome = Outcome(**{field.name: of.pop(field.name) for field in fields(Outcome)})
         rows.append(Row(**of, outcome=outcome))
+    if not rows:
+        raise InputError("expected rows that `serendipity bench` has written, got none", path)
     return rows
