@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import replace
+from itertools import pairwise
 from random import Random
 from typing import Any
 
@@ -181,3 +182,16 @@ def test_a_rule_that_one_search_does_not_know_is_asked_plan_by_plan() -> None:
         assert not answers_all(Call(task, options, plans.canonical(), plans).question)
         result = serendipity.plan(task, ties="expected", discount="0.9", **asked)
         assert certify(task, result).verdict == "proved", asked
+
+
+@pytest.mark.parametrize("ties", ["expected", "optimistic"])
+def test_help_may_wait_on_any_of_many_plans(ties: str) -> None:
+    """A window of one epoch opens on each plan's own way, not on the canonical one's alone."""
+    ways = {}
+    for way in "abcd":
+        places = ("start", f"{way}1", f"{way}2", f"{way}3", "goal")
+        ways |= {f"go-{p} h {q}": f"{p} -> {q} !{p}" for p, q in pairwise(places)}
+    task = build(init="start", goal="goal", actions={**ways, "meet h r": "d1 -> goal"})
+    result = serendipity.plan(task, ties=ties, discount="0.9")
+    assert (result.cost, result.opportunity) == ({"expected": 3.5, "optimistic": 2.0}[ties], True)
+    assert certify(task, result).verdict == "proved"

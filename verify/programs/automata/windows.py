@@ -1,9 +1,11 @@
 """Where the human may act together with others: near their own plan, if windows are short.
 
-Before the window the human does what is planned, so that their automaton is in a state of ``pi_H`` when it
-opens; after it they are alone (semantics 3.1).  So a joint action is done no further from such a state than
-a window is long.
+Before the window the human does what is planned, so that their automaton is in a state of ``pi_H`` (of any
+optimal plan, where all are asked about at once) when it opens; after it they are alone (semantics 3.1).  So
+a joint action is done no further from such a state than a window is long.
 """
+
+from collections.abc import Iterator
 
 from serendipity.model import Task
 from verify.base.subproblem import WINDOW, Subproblem
@@ -40,19 +42,29 @@ def longest_window(question: Subproblem) -> int:
 
 def _near(question: Subproblem, machine: Automaton, longest: int) -> set[int]:
     """States that the human may be in when an epoch of a window begins."""
-    state, opened = 0, [0]
-    for action in question.human_plan[:-1]:
-        following = next((target for i, target in machine.moves[state] if i == action), None)
-        if following is None:  # on no plan within the limits
-            break
-        state = following
-        opened.append(state)
-    near, layer = set(opened), opened
+    near = layer = set().union(*_opened(question, machine))
     for _ in range(longest - 1):
         question.deadline.check()
-        layer = list({target for state in layer for _, target in machine.moves[state]} - near)
-        near.update(layer)
+        layer = {target for state in layer for _, target in machine.moves[state]} - near
+        near = near | layer
     return near
+
+
+def _opened(question: Subproblem, machine: Automaton) -> Iterator[set[int]]:
+    """By epoch, the states in which a window may open before it, whichever plan the human is on."""
+    graph = question.any_of
+    planned = [[[(action, 0)]] for action in question.human_plan] if graph is None else graph.moves
+    layer = {(0, 0)}
+    for moves in planned:
+        question.deadline.check()
+        yield {state for state, _ in layer}
+        layer = {
+            (target, node)
+            for state, before in layer
+            for action, node in moves[before]
+            for i, target in machine.moves[state]
+            if i == action  # else it is on no plan within the limits
+        }
 
 
 def _is_joint(task: Task, move: Move) -> bool:
