@@ -172,6 +172,13 @@ class _Settings:
     notes: Mapping[str, Any]
 
 
+_Assignment = tuple[_Settings, int, int]
+"""What a run is about, its number and the seed of its dice."""
+
+_Finished = tuple[Run, tuple[dict[str, Any], ...]]
+"""The row of a run and the lines of its log."""
+
+
 def execute(
     task: Task,
     human: str | Sequence[str] = "observant",
@@ -227,21 +234,14 @@ def execute(
             raise UsageError(f"{name}: expected at least 1, got {number}")
     if ties not in TIES:
         raise UsageError(f"ties: expected one of {', '.join(TIES)}, got '{ties}'")
-    if isinstance(human, str):
-        policy = policy_from(task, human)
-    else:
-        human, policy = "recorded", Policy("recorded", actions=recorded_actions(task, human))
+    human, policy = _person(task, human)
     if policy.told and goals is not None:
         raise UsageError("goals: an omniscient person keeps to the robots' plan, so robots know the goal")
     model = human_model or policy.human_model
     if model not in CHOICES["human_model"]:
         known = ", ".join(CHOICES["human_model"])
         raise UsageError(f"human_model: expected one of {known}, got '{model}'")
-    wrong = Faults() if faults is None else Faults.parse(faults) if isinstance(faults, str) else faults
-    given = Durations.parse(durations) if isinstance(durations, str) else durations
-    expect(Kind("Faults, or a text", lambda value: isinstance(value, Faults)), faults=wrong)
-    expect_or_none(Kind("Durations, or a text", lambda value: isinstance(value, Durations)), durations=given)
-    crew = Crew(adapter, wrong, given, epoch_seconds)
+    crew = _crew(adapter, faults, durations, epoch_seconds)
     plan = canonical_human_plan(PreparedTask(task), Deadline())
     arguments = {"human_model": model, "goals": goals, "told": policy.told, **options}
     settings = _Settings(
@@ -255,18 +255,45 @@ def execute(
         notes={
             "policy": human,
             "ties": ties,
-            "faults": {f.name: getattr(wrong, f.name) for f in fields(wrong)},
+            "faults": {f.name: getattr(crew.faults, f.name) for f in fields(crew.faults)},
         },
     )
     Execution(task, **{**arguments, "deadline": None})  # what is wrong shows before the first run
     assignments = [(settings, number, seed + number - 1) for number in range(1, runs + 1)]
-    done: list[tuple[Run, tuple[dict[str, Any], ...]]] = []
+    done = _all_run(assignments, jobs, on_progress)
+    return Runs(human, tuple(row for row, _ in done), tuple(lines for _, lines in done))
+
+
+def _person(task: Task, human: str | Sequence[str]) -> tuple[str, Policy]:
+    """What the person is called in the rows, and what they do."""
+    if isinstance(human, str):
+        return human, policy_from(task, human)
+    return "recorded", Policy("recorded", actions=recorded_actions(task, human))
+
+
+def _crew(
+    adapter: str | Maker | None,
+    faults: Faults | str | None,
+    durations: Durations | str | None,
+    epoch_seconds: float | None,
+) -> Crew:
+    wrong = Faults.parse(faults) if isinstance(faults, str) else faults
+    given = Durations.parse(durations) if isinstance(durations, str) else durations
+    expect_or_none(Kind("Faults, or a text", lambda value: isinstance(value, Faults)), faults=wrong)
+    expect_or_none(Kind("Durations, or a text", lambda value: isinstance(value, Durations)), durations=given)
+    return Crew(adapter, wrong or Faults(), given, epoch_seconds)
+
+
+def _all_run(
+    assignments: Sequence[_Assignment], jobs: int, on_progress: Callable[[int, int], None] | None
+) -> list[_Finished]:
+    """The rows and logs of all runs, in their order."""
+    done: list[_Finished] = []
     for finished in map(_run, assignments) if jobs == 1 else in_processes(_run, assignments, jobs):
         done.append(finished)
         if on_progress is not None:
-            on_progress(len(done), runs)
-    done.sort(key=lambda pair: pair[0].run)
-    return Runs(human, tuple(row for row, _ in done), tuple(lines for _, lines in done))
+            on_progress(len(done), len(assignments))
+    return sorted(done, key=lambda pair: pair[0].run)
 
 
 def _name_of(task: Task, goals: "GoalsGiven") -> str | None:
@@ -279,7 +306,7 @@ def _name_of(task: Task, goals: "GoalsGiven") -> str | None:
     return None
 
 
-def _run(assignment: tuple[_Settings, int, int]) -> tuple[Run, tuple[dict[str, Any], ...]]:
+def _run(assignment: _Assignment) -> _Finished:
     settings, number, seed = assignment
     task = settings.task
     dice, luck = Random(f"person {seed}"), Random(f"robots {seed}")
