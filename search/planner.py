@@ -202,8 +202,9 @@ class _Call:
         if not self.options.windowed or not self.plan or best.key >= longer:
             return False
         with suppress(EnoughError, LimitReachedError):
-            few, part = Few(self._space(), FIRST), self.deadline.part(_SOON)
-            yield from best_first(few, best, progress, part, self._ties())
+            context = self.context.under(self.deadline.part(_SOON))
+            few = Few(self._space(context), FIRST)
+            yield from best_first(few, best, progress, context.deadline, self._ties())
             return True
         self.deadline.check()
         yield from one_by_one(self.context, self.plan, int(self.horizon), best, progress, longer)
@@ -217,8 +218,9 @@ class _Call:
         if options.window_weight >= self.task.cost_of(plan):
             return
         with suppress(LimitReachedError):
-            space, part = self._space(max_window=1), self.deadline.part(_SOON)
-            for _ in best_first(space, self.best, Progress(), part):
+            context = self.context.under(self.deadline.part(_SOON))
+            space = self._space(context, max_window=1)
+            for _ in best_first(space, self.best, Progress(), context.deadline):
                 yield self.best
         self.deadline.check()
 

@@ -1,7 +1,10 @@
 """Robots one by one: bounds on short windows against brute force, and answers where nothing else is asked."""
 
+import threading
+from collections.abc import Iterator
 from fractions import Fraction
 from random import Random
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -14,7 +17,9 @@ from search.apart.short_windows import ShortWindows, short_windows
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.prepared_task import PreparedTask
+from search.spaces.windowed import Windowed
 from serendipity.model import Options, Task
+from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
@@ -148,6 +153,34 @@ def test_a_call_that_robots_one_by_one_settle(monkeypatch: pytest.MonkeyPatch) -
     answer = serendipity.plan(task, discount="0.9")
     assert (answer.status, answer.cost) == ("optimal", 4.5)
     assert serendipity.check(task, answer).verdict != "refuted"
+
+
+def test_an_epoch_of_many_ways_is_left_when_the_time_for_it_is_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The short search looked at its time between nodes only, and one node may have 10,000 ways to act."""
+    actions = {
+        f"paint_{agent}_{thing} {agent}": f"raw_{thing} -> done_{thing} !raw_{thing} @ {cost}"
+        for agent, cost in (("h", 9), ("r", 5), ("s", 7))
+        for thing in range(20)
+    }
+    init, goal = (" ".join(name.format(thing) for thing in range(20)) for name in ("raw_{}", "done_{}"))
+    task = build(agents="h r s", init=init, goal=goal, actions=actions)
+    up = threading.Event()
+    ends = []
+    end = Windowed._end
+
+    def offered(self: Windowed, *arguments: Any) -> None:
+        ends.append(arguments)
+        up.set()
+        end(self, *arguments)
+
+    def next_step(*_: object) -> Iterator[Incumbent]:
+        raise LimitReachedError("time-limit")
+
+    monkeypatch.setattr(Windowed, "_end", offered)
+    monkeypatch.setattr(Deadline, "part", lambda self, _: self.within(cancelled=up))
+    monkeypatch.setattr(search.planner, "one_by_one", next_step)
+    assert serendipity.plan(task, discount="0.9").status == "feasible"
+    assert 0 < len(ends) < 2_000
 
 
 def test_what_another_robot_has_to_do_first() -> None:
