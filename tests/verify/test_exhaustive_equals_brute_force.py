@@ -9,6 +9,7 @@ from serendipity.testing.strategies import Call, calls
 from tests.verify.exact_answers import assert_exact, exact_and_solved
 from verify.base.execution import conflicting
 from verify.calls.solve import solve
+from verify.exhaustive import team
 from verify.exhaustive.team import excluding
 
 _NOT_ITS_OWN = "the exhaustive method replans suffixes, and preserves kernels"
@@ -51,8 +52,10 @@ def test_what_excludes_each_other_is_what_an_epoch_says(call: Call) -> None:
                     assert bool(apart[i, j]) == conflicting(a, b, strict=strict)
 
 
+@pytest.mark.parametrize("at_once", [2, 8_192])
 @pytest.mark.parametrize("worked", WORKED, ids=str)
-def test_worked_cases(worked: Worked) -> None:
+def test_worked_cases(worked: Worked, at_once: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(team, "_STATES_AT_ONCE", at_once)
     options = Options(**worked.options)  # type: ignore[arg-type]
     result = solve(worked.task(), options, human_plan=worked.human_plan, method="exhaustive")
     if result.status == "unknown":

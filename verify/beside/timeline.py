@@ -24,7 +24,7 @@ from verify.packed.operators import Operator, OperatorTable
 MOST_STATES: Final = 400_000
 """Of a robot after an epoch."""
 
-_AT_ONCE: Final = 16_384
+_AT_ONCE: Final = 4_096
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """The team's actions over packed states: which sets may share an epoch, and what comes of them."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -18,6 +18,9 @@ MOST_ACTIONS: Final = 3_000
 
 _AT_ONCE: Final = 100_000
 """Sets of actions that are looked at before the deadline is, again."""
+
+_STATES_AT_ONCE: Final = 8_192
+"""States whose actions are looked for at once: a hundred and more of each may take part."""
 
 NOBODY: Final = -1
 """Who waits."""
@@ -70,7 +73,17 @@ class Team:
             states: rows.
             of_human: what the human may do, by the table's numbers, nothing of it jointly; None: anything.
             wait: whether the human may do nothing.
+
+        Raises:
+            LimitReachedError: the deadline came first.
         """
+        for first in range(0, len(states), _STATES_AT_ONCE):
+            self._deadline.check()
+            some = states[first : first + _STATES_AT_ONCE]
+            for steps in self._steps(some, of_human, wait=wait):
+                yield replace(steps, before=steps.before + first)
+
+    def _steps(self, states: Words, of_human: Ints | None, *, wait: bool) -> Iterator[Steps]:
         rows, operators = self._table.applicable(states)
         if of_human is not None:
             fits = ~self._with_human[operators] | np.isin(operators, of_human)
