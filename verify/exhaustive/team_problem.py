@@ -6,11 +6,12 @@ from typing import Final
 
 import numpy as np
 
-from serendipity.model import GroundAction, LimitReachedError, Step
+from serendipity.model import Deadline, GroundAction, LimitReachedError, Step
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Solution, Subproblem
 from verify.exhaustive.circles import circles
+from verify.packed.affordable import affordable
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.operators import Operator
 from verify.packed.problem import Problem, StateSpace
@@ -31,14 +32,36 @@ class TeamProblem:
         problem: cheapest ways to all goals.
         singles: the relevant actions as operators, in their order.
         sets: the actions that each operator of the problem stands for.
-        wanted: facts that have to be true in the end.
+        goal: facts that have to be true, and false, in the end.
     """
 
     space: StateSpace
     problem: Problem
     singles: list[Operator]
     sets: list[tuple[int, ...]]
-    wanted: tuple[int, ...]
+    goal: tuple[tuple[int, ...], tuple[int, ...]]
+
+    def below(self, most: int, start: frozenset[int], deadline: Deadline) -> "TeamProblem | None":
+        """The same with what a plan for less than ``most`` may have; None: there is no such plan.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        facts, operators = frozenset(self.problem.layout.place), self.problem.table.operators
+        left = affordable(operators, facts, self.goal[0], start, most, deadline)
+        if left is None:
+            return None
+        if len(left) == len(operators):
+            return self
+        kept = [operators[i] for i in left]
+        turned = {
+            fact for each in kept for fact in (*set(each.add) - start, *start.intersection(each.delete))
+        }
+        constant = start - turned
+        possible = [k for k, each in enumerate(kept) if constant.isdisjoint(each.neg)]
+        asked = facts & turned.union(*self.goal)
+        problem = Problem(self.space, asked, [kept[k] for k in possible], self.goal, deadline)
+        return replace(self, problem=problem, sets=[self.sets[left[k]] for k in possible])
 
 
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> TeamProblem:
@@ -60,10 +83,13 @@ def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> Team
         for each in deadline.each(sets)
     ]
     conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]
-    goal = [f for c in conditions for f in c.positive], [f for c in conditions for f in c.negative]
+    goal = (
+        tuple(f for c in conditions for f in c.positive),
+        tuple(f for c in conditions for f in c.negative),
+    )
     problem = Problem(space, part.facts, operators, goal, deadline, bounded=bounded)
     kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
-    return TeamProblem(space, problem, operators[: len(part.actions)], kept, tuple(goal[0]))
+    return TeamProblem(space, problem, operators[: len(part.actions)], kept, goal)
 
 
 def as_operator(together: Iterable[GroundAction], weight: int) -> Operator:
@@ -90,13 +116,18 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Eff
         team: what the team may do.
         effort: where it is given, numbers of actions are asked first whether there is a plan at all.
     """
-    problem = team.problem
-    start = problem.pack([question.task.init])
-    assert start is not None, "the initial state is reached"
     limits = [limit for limit in (question.most, question.most_cost) if limit is not None]
     below = min(limits) + 1 if limits else None
     counts = _Counts(question, team, below, effort)
     try:
+        if effort is not None and below is not None:
+            within = team.below(below, question.task.init, question.deadline)
+            if within is None:
+                return Minimum("none", states=1)
+            counts.team = team = within
+        problem = team.problem
+        start = problem.pack([question.task.init])
+        assert start is not None, "the initial state is reached"
         counts.least = int(problem.bounds(start)[0])
         search, found = problem.search(start, np.zeros(1, np.int64), below, counts.say_no)
     except LIMITS as limit:
@@ -117,25 +148,27 @@ class _Counts:
     """What numbers of actions say, in the share of the time that it may take.
 
     Attributes:
+        team: whose actions are counted.
         least: no plan costs less; None: nothing is known.
     """
 
     def __init__(
         self, question: Subproblem, team: TeamProblem, below: int | None, effort: Effort | None
     ) -> None:
-        self._question, self._team, self._below, self._effort = question, team, below, effort
+        self._question, self._below, self._effort = question, below, effort
+        self.team = team
         self.least: int | None = None
 
     def say_no(self) -> bool:
         """Whether there is no plan within the limits."""
-        effort, table, below = self._effort, self._team.problem.table, self._below
+        effort, table, below = self._effort, self.team.problem.table, self._below
         if effort is None or below is None or not table.weight.all() or below > LARGEST_COEFFICIENT:
             return False
         deadline = self._question.deadline.part(_SHARE)
         given = replace(effort, deadline=deadline)
         task = self._question.task
         try:
-            bound = least_weight(table, task.init, self._team.wanted, below, given)
+            bound = least_weight(table, task.init, self.team.goal[0], below, given)
         except LIMITS:
             self._question.deadline.check()
             return False
