@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from search.classical.problem import NO_PLAN
 from search.context import SearchContext
@@ -17,8 +17,14 @@ from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan
 
+if TYPE_CHECKING:  # loaded by the calls that it serves
+    from search.classical.team import Sets
+
 _SHARE: Final = 0.4
 """What of the time that is left the joint optimum without a horizon may take, where it may be the answer."""
+
+_MOST: Final = 0.9
+"""The same when it goes on, where other ways to an answer have been tried meanwhile."""
 
 _LITTLE: Final = 0.05
 """The same where it only bounds the answer, and for what one composite plan suggests."""
@@ -65,6 +71,7 @@ class JointPlans:
         self._best = best
         self._progress = progress
         self.decide = horizon is not None and _decide(context)
+        self._has_plan = False
 
     def without_horizon(self) -> None:
         """The joint optimum without a horizon bounds every mode's answer, and may be it.
@@ -76,26 +83,51 @@ class JointPlans:
         if team is None:
             return
         part = context.deadline.part(_SHARE if self.decide else _LITTLE)
-        found = False
-        try:
-            for sets in team.better_plans(context.packed.init, part, self._raise):
-                found = True
-                self._offer(schedule(context.task, sets))
-        except LimitReachedError:
-            context.deadline.check()
-            return
-        self._raise(team.planner.least if found else NO_PLAN)
+        self._take_all(team.better_plans(context.packed.init, part, self._raise))
 
-    def along_human_plan(self) -> Iterator[None]:
-        """Robots begin at once with what would be best after an epoch of ``pi_H``; if time is limited.
+    @property
+    def is_interrupted(self) -> bool:
+        """Whether the joint optimum without a horizon, which may be the answer, is still to be found."""
+        team = self._context.team
+        return self.decide and team is not None and team.planner.is_open
+
+    def still_without_horizon(self) -> None:
+        """The same from where its share of the time ended, if it did, for most of what is left.
 
         Raises:
             LimitReachedError: the deadline of the call came.
         """
         context, team = self._context, self._context.team
+        if self.is_interrupted and team is not None:
+            part = context.deadline.part(_MOST)
+            self._take_all(team.go_on(context.packed.init, part, self._raise))
+
+    def _take_all(self, plans: "Iterator[Sets]") -> None:
+        """Offer plans of the team, the last of which costs least, unless a limit comes."""
+        context, team = self._context, self._context.team
+        assert team is not None, "they are its plans"
+        try:
+            for sets in plans:
+                self._has_plan = True
+                self._offer(schedule(context.task, sets))
+        except LimitReachedError:
+            context.deadline.check()
+            return
+        self._raise(team.planner.least if self._has_plan else NO_PLAN)
+
+    def along_human_plan(self) -> Iterator[None]:
+        """Robots begin at once with what would be best after an epoch of ``pi_H``; if time is limited.
+
+        Where the search without a horizon is to go on, it keeps its planner to itself.
+
+        Raises:
+            LimitReachedError: the deadline of the call came.
+        """
+        context = self._context
+        whole, state = context.deadline.part(_ALONG), context.packed.init
+        team = context.under(whole).team if self.is_interrupted else context.team
         if team is None or context.deadline.left() is None or not self._plan:
             return
-        whole, state = context.deadline.part(_ALONG), context.packed.init
         for number, action in enumerate(self._plan[:-1], 1):
             op = context.packed.op(action)
             state = state & op.keep | op.put
@@ -105,6 +137,26 @@ class JointPlans:
                 self._suggest(partial(Suggestions.beside, ops=ops))
             context.deadline.check()
             yield
+
+    def soon_within_horizon(self, limit: int) -> Iterator[None]:
+        """Composite plans within ``T`` that a greedy search comes by; if time is limited.
+
+        Args:
+            limit: key that they have to beat.
+
+        Raises:
+            LimitReachedError: the deadline of the call came.
+        """
+        context = self._context
+        assert self._horizon is not None, "only with a horizon"
+        if context.deadline.left() is not None:
+            joint = self._incumbent(limit)
+            space = joint_space(context, self._horizon, joint.key, _GREED)
+            with suppress(LimitReachedError):
+                for _ in best_first(space, joint, Progress(), context.deadline.part(_SOON)):
+                    self._take(joint)
+                    yield
+            context.deadline.check()
 
     def within_horizon(self, limit: int) -> Iterator[None]:
         """A best composite plan within ``T``, which is the answer but for its window and for ties.
@@ -117,14 +169,7 @@ class JointPlans:
         """
         context = self._context
         assert self._horizon is not None, "only with a horizon"
-        joint = Incumbent(limit) if context.options.windowed else self._best
-        if context.deadline.left() is not None:
-            space = joint_space(context, self._horizon, joint.key, _GREED)
-            with suppress(LimitReachedError):
-                for _ in best_first(space, joint, Progress(), context.deadline.part(_SOON)):
-                    self._take(joint)
-                    yield
-        context.deadline.check()
+        joint = self._incumbent(limit)
         progress = Progress(self._progress.bound, told_at=context.deadline.elapsed())
         space = joint_space(context, self._horizon, joint.key)
         shift = context.keys.objective_shift
@@ -134,6 +179,9 @@ class JointPlans:
             self._take(joint)
             yield
         self._raise_key(joint.key >> shift << shift)
+
+    def _incumbent(self, limit: int) -> Incumbent:
+        return Incumbent(limit) if self._context.options.windowed else self._best
 
     def _raise(self, amount: int) -> None:
         """No composite plan costs the team less than an amount."""

@@ -174,13 +174,22 @@ class _Call:
                     yield self.best
                 yield from self._in_one_epoch()
             if joint.decide and not self._is_settled():
-                for _ in joint.within_horizon(min(self.baseline.key, self.best.key)):
+                for _ in joint.soon_within_horizon(self._known()):
                     yield self.best
+                joint.still_without_horizon()
+                yield self.best
+                if not self._is_settled():
+                    for _ in joint.within_horizon(self._known()):
+                        yield self.best
         if self._is_settled():
             yield from self._settle_ties()
             return
         for _ in best_first(self._space(), self.best, self.progress, self.deadline, self._ties()):
             yield self.best
+
+    def _known(self) -> int:
+        """The key of the best plan so far, one with a window or not."""
+        return min(self.baseline.key, self.best.key)
 
     def _settle_ties(self) -> Iterator[Incumbent]:
         """Better windows and fewer actions for the same objective, as far as they come soon."""

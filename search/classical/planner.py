@@ -115,6 +115,7 @@ class ClassicalPlanner:
             raise LimitReachedError("memory-limit")
         self._tables = False
         self._asked: int | None = None
+        self._is_open = False
 
     def _spec(self) -> _Spec:
         problem, goal = self.problem, self.problem.goal
@@ -173,15 +174,38 @@ class ClassicalPlanner:
         """
         kernel, planner = self._kernel, self._planner
         row, most = self._row(state), self.problem.limit(limit)
-        self._asked = state & self._mask
+        self._asked, self._is_open = state & self._mask, False
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
+        self._is_open = True
+        return self.go_on(deadline, on_bound)
+
+    def go_on(self, deadline: Deadline, on_bound: Callable[[int], None] | None = None) -> int:
+        """What the last :meth:`cheapest` would have said, where a limit came first: it goes on from there.
+
+        Meanwhile only :meth:`bound` and :meth:`first_plan` may have been asked for.
+
+        Args:
+            deadline: polled.
+            on_bound: as for :meth:`cheapest`.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        kernel, planner = self._kernel, self._planner
+        assert self._is_open, "it was interrupted"
         while self._allowed(lambda room: kernel.planner_run(planner, _SLICE, room), deadline) == _RUNNING:
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
             if not self._tables and self.counts()[2] >= _MANY:
                 self._make_tables(deadline)
+        self._is_open = False
         return self.least
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a limit came during the last :meth:`cheapest`, which can :meth:`go_on`."""
+        return self._is_open
 
     @property
     def least(self) -> int:

@@ -62,6 +62,30 @@ class Team:
         if best is not None:
             yield self._sets(best)
 
+    def go_on(self, state: int, deadline: Deadline, on_bound: Callable[[int], None]) -> Iterator[Sets]:
+        """:meth:`better_plans` from where a limit came; no other plans may have been asked for since.
+
+        There is no better plan than those before where none comes.
+
+        Args:
+            state: the same packed state.
+            deadline: polled.
+            on_bound: as before.
+
+        Raises:
+            LimitReachedError: the deadline came before the end.
+        """
+        limit = None
+        try:
+            self.planner.go_on(deadline, on_bound)
+        except LimitReachedError as error:
+            limit = error
+        best = self.planner.best_so_far(state)
+        if best is not None:
+            yield self._sets(best)
+        if limit is not None:
+            raise limit
+
     def best_plan(self, state: int, deadline: Deadline) -> Sets | None:
         """A cheapest plan from a packed state, as sets of actions; None where there is none.
 

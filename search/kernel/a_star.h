@@ -237,7 +237,7 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
     return reserve(&s->table, (int32_t)s->plan.count + 1) ? finish(s, FOUND, s->limit) : MEMORY;
 }
 
-/* Lower bound from a state; -1 where memory is missing. */
+/* Lower bound from a state; -1 where memory is missing.  A search that is under way goes on with what it says. */
 static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
     grant(&s->table, allowed);
     if (!reserve(&s->table, 1)) return -1;
@@ -246,7 +246,12 @@ static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
     Node *node = node_of(&s->table, id);
     const Word *state = state_of(&s->table, id);
     if (is_new) look_up(&s->evaluator, s->problem, node, state);
-    if (!node->evaluated && node->rest < INFINITE_COST) evaluate(&s->evaluator, s->problem, s->relaxation, node, state);
+    if (!node->evaluated && node->rest < INFINITE_COST) {
+        int is_open = s->stamp && node->stamp == s->stamp && !node->closed;
+        if (is_open && !heap_reserve(&s->open, 1, &s->table)) return -1;
+        evaluate(&s->evaluator, s->problem, s->relaxation, node, state);
+        if (is_open) open_node(s, id); /* its entry in the queue is no longer true */
+    }
     return node->rest;
 }
 

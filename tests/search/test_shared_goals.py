@@ -5,9 +5,13 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 
+import search.classical.planner
 import search.classical.team
 import serendipity
-from serendipity.model import Options, UsageError
+from search.classical.planner import ClassicalPlanner
+from search.joint_plans import JointPlans
+from search.kernel.library import library
+from serendipity.model import Deadline, Options, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, family_tasks
@@ -105,3 +109,36 @@ def test_with_answers_on_the_way(call: Call) -> None:
     assert (answer.status, answer.cost) == (optimum.status, expected)
     for some in early:
         assert serendipity.check(call.task, some).refuted is None
+
+
+def test_where_the_joint_optimum_is_interrupted_and_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As soon as it is looked for; other ways to an answer are tried before it goes on."""
+    if library() is None:
+        pytest.skip("there is no kernel here")
+    whole, went_on = ClassicalPlanner.cheapest_plan, []
+
+    def hasty(self: ClassicalPlanner, state: int, deadline: Deadline, *rest: object) -> list[int] | None:
+        return whole(self, state, deadline.within(0), *rest)  # type: ignore[arg-type]
+
+    def going_on(self: JointPlans) -> None:
+        went_on.append(self.is_interrupted)
+        still(self)
+
+    still = JointPlans.still_without_horizon
+    monkeypatch.setattr(search.classical.planner, "_SLICE", 1e-6)
+    monkeypatch.setattr(ClassicalPlanner, "cheapest_plan", hasty)
+    monkeypatch.setattr(JointPlans, "still_without_horizon", going_on)
+    monkeypatch.setattr(JointPlans, "soon_within_horizon", lambda *_: iter(()))
+
+    @given(calls(modes=("serendipity", "communication", "composite"), ties=False, of=family_tasks()))
+    def law(call: Call) -> None:
+        call = replace(call, options=call.options.but(time_limit=60.0, window_weight=0))
+        both = exact_and_planned(call)
+        if both is None:
+            return
+        optimum, answer = both
+        expected = None if optimum.cost is None else float(optimum.cost)
+        assert (answer.status, answer.cost) == (optimum.status, expected)
+
+    law()
+    assert any(went_on), "else this test says nothing"

@@ -1,6 +1,8 @@
 """The kernel on the human's own problem: admissible bounds, costs as by brute force, plans that are plans."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import partial
 from random import Random
 
 import pytest
@@ -93,6 +95,63 @@ def test_what_was_learnt_changes_no_answer(task: Task, seed: int) -> None:
         assert found == cost if cost < limit else found >= limit
         some = random.choice([*costs])
         assert planner.bound(some, Deadline()) <= costs[some]
+
+
+class Impatient(Deadline):
+    """Comes whenever it is looked at."""
+
+    def check(self) -> None:
+        """See :class:`Deadline`."""
+        raise LimitReachedError("time-limit")
+
+
+def interrupted(packed: PackedTask, limit: int, asked: Callable[[], list[int]]) -> int:
+    """The cheapest amount in as many parts as there may be; bounds of states are asked for in between."""
+    planner, found = planner_of(packed), None
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(planner_module, "_SLICE", 1e-6)
+        with suppress(LimitReachedError):
+            found = planner.cheapest(packed.init, Impatient(), limit)
+        while found is None:
+            assert planner.is_open
+            for state in asked():
+                planner.bound(state, Deadline())
+            planner.first_plan(packed.init, Deadline())
+            with suppress(LimitReachedError):
+                found = planner.go_on(Impatient())
+    assert not planner.is_open
+    best = planner.best_so_far(packed.init)
+    if found < min(limit, NO_PLAN):
+        assert best is not None and assert_leads_to_goal(packed, packed.init, best) == found
+    return found
+
+
+@given(tasks(), st.integers(0, 2**32))
+def test_an_interrupted_search_goes_on(task: Task, seed: int) -> None:
+    packed = packed_of(task)
+    costs, random = amounts(packed), Random(seed)
+    cost = costs[packed.init]
+    limit = random.choice([NO_PLAN, cost, min(cost + 1, NO_PLAN)])
+    found = interrupted(packed, limit, lambda: random.sample([*costs], min(10, len(costs))))
+    assert found == cost if cost < limit else found >= limit
+
+
+def test_bounds_of_states_that_wait_lose_none() -> None:
+    for seed in range(40):
+        packed = packed_of(family_task("blocks", seed, 5))
+        cost, random = planner_of(packed).cheapest(packed.init, Deadline()), Random(seed)
+        near = sorted({walked(packed, random) for _ in range(300)})
+        assert interrupted(packed, NO_PLAN, partial(random.sample, near, min(20, len(near)))) == cost
+
+
+def walked(packed: PackedTask, random: Random) -> int:
+    """A state that the human may come to alone in a few steps."""
+    state = packed.init
+    for _ in range(random.randint(1, 12)):
+        if able := [op for op in packed.own if applicable(op, state)]:
+            op = random.choice(able)
+            state = state & op.keep | op.put
+    return state
 
 
 @given(tasks())

@@ -1,0 +1,65 @@
+"""A plan that was found without a horizon gets epochs: it stays a plan, to the same state, and takes few."""
+
+from itertools import combinations
+from random import Random
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from search.packed.parallelise import schedule
+from serendipity import Task
+from serendipity.model.task.actions import apply, conflicting
+from serendipity.testing.builders import task as build
+from serendipity.testing.strategies import family_tasks, tasks
+
+
+def walk(task: Task, random: Random) -> list[int]:
+    """Actions, one after another."""
+    state, found = task.init, []
+    for _ in range(random.randint(0, 12)):
+        if able := [i for i, action in enumerate(task.actions) if action.applicable(state)]:
+            found.append(random.choice(able))
+            state = apply(state, task.actions[found[-1]])
+    return found
+
+
+def epochs_of(task: Task, order: list[int]) -> list[list[int]]:
+    steps = schedule(task, [(i,) for i in order])
+    last = max((step.epoch for step in steps), default=0)
+    return [[step.action for step in steps if step.epoch == epoch] for epoch in range(1, last + 1)]
+
+
+@given(st.one_of(tasks(), family_tasks()), st.integers(0, 2**32))
+def test_it_is_the_same_plan(task: Task, seed: int) -> None:
+    order = walk(task, Random(seed))
+    epochs = epochs_of(task, order)
+    assert sorted(order) == sorted(i for ids in epochs for i in ids)
+    state = task.init
+    for ids in epochs:
+        actions = [task.actions[i] for i in ids]
+        assert ids and all(action.applicable(state) for action in actions)
+        assert not any(conflicting(a, b, strict=True) for a, b in combinations(actions, 2))
+        state = apply(state, *actions)
+    assert state == apply_all(task, order)
+
+
+def apply_all(task: Task, order: list[int]) -> frozenset[int]:
+    state = task.init
+    for i in order:
+        state = apply(state, task.actions[i])
+    return state
+
+
+def test_what_one_does_after_the_other_is_done_beside_it() -> None:
+    """Each step of the second robot joined the last epoch of the first, and no other."""
+    steps = {f"{a}{i} {a}": f"{a}{i} -> !{a}{i} {a}{i + 1}" for a in "hr" for i in range(4)}
+    task = build(init="h0 r0", goal="h4 r4", actions=steps)
+    numbers = {action.name: i for i, action in enumerate(task.actions)}
+    order = [numbers[name] for name in sorted(numbers)]
+    assert len(epochs_of(task, order)) == 4
+
+
+def test_what_waits_for_another_comes_after_it() -> None:
+    task = build(init="p", goal="z", actions={"a h": "p -> x", "b r": "x -> y", "c h": "y -> z"})
+    numbers = {action.name.split()[0]: i for i, action in enumerate(task.actions)}
+    assert epochs_of(task, [numbers[name] for name in "abc"]) == [[numbers[name]] for name in "abc"]
