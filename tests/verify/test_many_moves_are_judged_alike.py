@@ -111,3 +111,64 @@ def test_a_price_of_epochs_limits_windows() -> None:
     question = Subproblem(way, options, WINDOW, plan, len(plan), prices(way, options, plan))
     found = {most: longest_window(question.but(most=most)) for most in (9, 19, 29, None)}
     assert found == {9: 0, 19: 1, 29: 2, None: 4}
+
+
+# -- what is dropped at once
+
+
+def _is_promising(way: Task, names: tuple[str, ...], most: int, longest: int) -> bool:
+    """Whether bounds leave anything of plans within a limit, with windows of that length."""
+    plan = way.plan_from_names(names)
+    options = Options(max_window=longest, window_weight=Fraction(0), discount=Fraction(9, 10))
+    question = Subproblem(way, options, WINDOW, plan, len(plan), prices(way, options, plan), most=most)
+    said = []
+
+    def listen(team: Team) -> bool:
+        said.append(_both(team))
+        return said[-1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(encoding, "keep_promising", listen)
+        encoding.AutomataEncoding(question)
+    return said[-1]
+
+
+_LATE = {
+    **{f"go-{k} h": f"p{k} -> p{k + 1} !p{k}" for k in range(4)},
+    "slow h": "p4 -> goal @ 9",
+    **{f"come-{k} r": f"r{k} -> r{k + 1} !r{k}" for k in range(3)},
+}
+
+
+def test_robots_are_there_while_a_window_is_open() -> None:
+    names = ("go-0 h", "go-1 h", "go-2 h", "go-3 h", "slow h")
+    early = task(init="p0 r0", goal="goal", actions={**_LATE, "meet h r": "p1 r3 -> goal"})
+    assert not _is_promising(early, names, 120, 1)
+    assert not _is_promising(early, names, 120, 2)
+    assert _is_promising(early, names, 120, 3), "they wait for the robot"
+    late = task(init="p0 r0", goal="goal", actions={**_LATE, "meet h r": "p3 r3 -> goal"})
+    assert _is_promising(late, names, 120, 1)
+
+
+def test_until_robots_have_provided_for_it_the_human_goes_on_as_planned() -> None:
+    """What a robot leaves behind at the start is there when the human is not."""
+    names = ("go-0 h", "go-1 h", "go-2 h", "go-3 h", "slow h")
+    back = {f"back-{k} h": f"p{k + 1} -> p{k} !p{k + 1}" for k in range(4)}
+    actions = {**_LATE, **back, "put r": "r2 -> kit !r2", "short h": "p0 kit -> goal @ 8"}
+    way = task(init="p0 r0", goal="goal", actions=actions)
+    assert not _is_promising(way, names, 105, 1), "two moves there, two back, and 8"
+    assert _is_promising(way, names, 129, 1)
+
+
+def test_the_human_does_not_take_what_they_would_have_to_have_put_there() -> None:
+    actions = {
+        "go h": "p -> q !p @ 5",
+        "back h": "q -> p !q @ 5",
+        "take-p h": "p kit-p -> has !kit-p",
+        "take-q h": "q kit-q -> has !kit-q",
+        "put-p h": "p has -> kit-p !has",
+        "done h": "p has -> goal",
+        "bring r": "kit-q -> kit-p !kit-q @ 200",
+    }
+    way = task(init="p kit-q", goal="goal", actions=actions)
+    assert not _is_promising(way, ("go h", "take-q h", "back h", "done h"), 11, 1)

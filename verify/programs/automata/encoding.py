@@ -202,7 +202,7 @@ class AutomataEncoding:
         going_on = [m.agent for m in machines if self._goes_on(part, m, wanted_true | wanted_false)]
         window = prices.epoch if question.rule == WINDOW else 0
         with during("looking for moves of the agents that may pay"):
-            keep_within_windows(question, machines[question.task.human])
+            windows = keep_within_windows(question, machines[question.task.human])
             pre, neg = outer_needs(question.task, part, machines, self.deadline)
             team = Team(
                 task=question.task,
@@ -217,6 +217,7 @@ class AutomataEncoding:
                 finals=[goal_states(question, machine) for machine in machines],
                 watched=frozenset(going_on),
                 deadline=self.deadline,
+                windows=windows,
             )
             promising = keep_promising(team)
             self._spare, self._latest = team.spare, team.latest

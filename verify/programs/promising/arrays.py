@@ -199,6 +199,78 @@ def distances(
         np.minimum.at(values, after[kept], total[kept])
 
 
+class Ways:
+    """The human's ways over some moves, where what an action needs may have to be made by themselves first.
+
+    Args:
+        moves: where each starts, its action, where it leads, and its price.
+        lacking: the actions that need what they have to make, and the literals that these are.
+        actions: what they change.
+        start: for each state what is paid there at first, or ``FAR``.
+        left: what is left to be paid from each state; where all of it exceeds ``limit`` nobody goes.
+        limit: what may be paid.
+        deadline: polled.
+
+    Attributes:
+        done: for each state the least price of a way there, or ``FAR``.
+        ready: for each action what is paid before the facts are there that they have to make.
+    """
+
+    def __init__(
+        self,
+        moves: tuple[Ints, Ints, Ints, Ints],
+        lacking: tuple[Ints, Ints],
+        actions: Actions,
+        start: Ints,
+        left: Ints,
+        limit: int,
+        deadline: Deadline,
+    ) -> None:
+        self._source, self._action, self._target, self._weight = moves
+        self._actions, self._most, count = actions, limit - left, len(actions.price)
+        self.done = start.copy()
+        self._missing = np.bincount(lacking[0], minlength=count)
+        self.ready = np.where(self._missing, FAR, 0)
+        self._wanted = which(lacking[1].tolist(), len(actions.initially))
+        self._waiting = Rows.by(lacking[1], len(self._wanted), lacking[0])
+        self._literals = np.full(len(self._wanted), FAR)
+        self._leaving = Rows.by(self._source, len(start))
+        self._of_action = Rows.by(self._action, count)
+        self._run(deadline)
+
+    def _run(self, deadline: Deadline) -> None:
+        seen, known = np.zeros(len(self.done), bool), np.zeros(len(self._literals), bool)
+        while True:
+            deadline.check()
+            here, made = _least(self.done, seen), _least(self._literals, known)
+            first = [
+                int(values[now[0]]) for values, now in ((self.done, here), (self._literals, made)) if len(now)
+            ]
+            if not first:
+                return
+            value = min(first)
+            here, made = here[self.done[here] == value], made[self._literals[made] == value]
+            seen[here], known[made] = True, True
+            there = self._waiting.at(made)
+            np.subtract.at(self._missing, there, 1)
+            new = np.unique(there[self._missing[there] == 0])
+            self.ready[new] = value
+            blocked = self._of_action.at(new)
+            leaving = self._leaving.at(here)
+            self._go(value, np.concatenate((leaving, blocked[seen[self._source[blocked]]])))
+
+    def _go(self, value: int, moves: Ints) -> None:
+        moves = moves[self.ready[self._action[moves]] <= value]
+        after, total = self._target[moves], value + self._weight[moves]
+        kept = total <= self._most[after]
+        np.minimum.at(self.done, after[kept], total[kept])
+        makers = np.unique(self._action[moves[kept]])
+        facts = self._actions.changes.at(makers)
+        prices = np.repeat(value + self._actions.price[makers], np.diff(self._actions.changes.start)[makers])
+        wanted = self._wanted[facts]
+        np.minimum.at(self._literals, facts[wanted], prices[wanted])
+
+
 def _least(values: Ints, seen: Mask) -> Ints:
     """The nodes of least value that have not been seen."""
     open_values = np.where(seen, FAR, values)

@@ -53,6 +53,16 @@ class SpendingAtOnce:
         """For each action what was spent before the facts are there that it needs outside of automata."""
         return self._actions.needs.most(self.literals)
 
+    def made(self, by: Mask) -> Ints:
+        """For each literal what was spent once an action that is among some makes it; 0 if it is true."""
+        changes, done = self._actions.changes, by & (self.ready < FAR)
+        makers = changes.keys()
+        chosen = done[makers] & self._actions.needed[changes.items]
+        found = np.where(self._actions.initially, 0, FAR)
+        after = self.ready[makers[chosen]] + self._price[makers[chosen]]
+        np.minimum.at(found, changes.items[chosen], after)
+        return found
+
     def partners(self, but: int) -> Ints:
         """For each action what was spent before all who take part, without one, are where it starts."""
         taking, owner = self._actions.participants.keys(), self._actions.participants.items

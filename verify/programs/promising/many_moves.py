@@ -1,15 +1,39 @@
 """The rounds of :mod:`.moves` on arrays, for teams with many moves: the same moves are left."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from verify.programs.promising.arrays import Actions, Arcs, Ints, distances, which
+from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Ways, distances, which
 from verify.programs.promising.at_once import SpendingAtOnce, UseAtOnce
 from verify.programs.promising.person import cuts
 from verify.programs.promising.team import FAR, Team
 from verify.programs.promising.use import NEVER
+
+
+@dataclass(frozen=True, slots=True)
+class _Judged:
+    """As :class:`.moves.Judged` has it, by action and by literal."""
+
+    needs: Ints
+    partners: Ints
+    made: Ints
+    by_epoch: bool = False
+
+    def values(self, actions: Actions, offered: Mask, highest: int) -> list[int]:
+        """What levels are made of."""
+        asked = self.made[actions.needs.at(np.flatnonzero(offered))]
+        values = np.unique(np.concatenate((self.partners[offered], asked)))
+        return sorted({0, *values[values <= highest].tolist()})
+
+    def least(self, actions: Actions, offered: Mask, spent: "_Judged", low: int, high: int) -> int:
+        """What robots have spent at least if the last of what is needed of them is on a level."""
+        taking = offered & (low <= self.partners) & (self.partners <= high)
+        asked = actions.needs.at(np.flatnonzero(offered))
+        asked = asked[(low <= self.made[asked]) & (self.made[asked] <= high)]
+        return int(np.concatenate((spent.partners[taking], spent.made[asked])).min(initial=FAR))
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,8 +42,10 @@ class _Level:
 
     least: int
     most: int
+    before: int
     done: Ints
     left: Ints
+    ready: Ints
     total: int
 
 
@@ -38,11 +64,10 @@ class ManyMoves:
         self._everybody = np.ones(agents, bool)
         self._robots = which(team.robots, agents)
         self._watched = which(team.watched, agents)
-        his = which(
-            self._actions.participants.keys()[self._actions.participants.items == self._human], self._count
-        )
+        taking = self._actions.participants
+        self._his = which(taking.keys()[taking.items == self._human], self._count)
         self._ones = np.ones(self._count, np.int64)
-        self._by_robots = np.where(his, 0, self._actions.price)
+        self._by_robots = np.where(self._his, 0, self._actions.price)
 
     def count(self) -> int:
         """How many moves are left."""
@@ -61,43 +86,93 @@ class ManyMoves:
         offered = nobody.copy()
         offered[arcs.action[arcs.agent == human]] = True
         spent = SpendingAtOnce(self._actions, arcs, self._robots, self._by_robots, offered, deadline)
-        needs = np.maximum(spent.facts(), spent.partners(human))
-        found = self._levels(needs, offered)
-        if not found:
+        costs = self._judged(spent)
+        both = [(costs, self._levels(costs, costs, offered))]
+        if team.windows is not None:
+            ones = np.where(self._his, 0, self._ones)
+            earliest = SpendingAtOnce(self._actions, arcs, self._robots, ones, offered, deadline)
+            times = self._judged(earliest, by_epoch=True)
+            both.append((times, self._levels(times, costs, offered)))
+        if not all(found for _, found in both):
             return False
         his = arcs.agent == human
         left = self._fewest(his)
-        least = self._least(found, needs)
-        in_time = epochs.arcs() + left[arcs.target] <= team.horizon
+        least = np.maximum.reduce([self._least(found, judged.needs) for judged, found in both])
+        in_time = epochs.arcs() <= self._last(his, left)
         kept_by_him = his & in_time & (least < FAR)
-        kept_by_robots = self._useful(kept_by_him, least, found, spent.arcs(), epochs.arcs())
+        total = max(min(level.total for level in found) for _, found in both)
+        kept_by_robots = self._useful(kept_by_him, least, total, spent.arcs(), epochs.arcs())
         self._arcs = arcs.only(kept_by_him | kept_by_robots)
         return True
 
-    def _levels(self, needs: Ints, offered: np.ndarray) -> list[_Level]:
-        team, arcs = self._team, self._arcs
-        his = arcs.agent == self._human
-        source, action, target = arcs.source[his], arcs.action[his], arcs.target[his]
-        asked, weight = needs[action], self._actions.price[action]
-        goal = self._ends()
-        start = np.full(arcs.states, FAR)
-        start[arcs.first[self._human]] = 0
-        values = np.unique(needs[offered & (needs <= team.most)]).tolist()
-        values = values if values[:1] == [0] else [0, *values]
-        found = []
+    def _judged(self, spent: SpendingAtOnce, *, by_epoch: bool = False) -> _Judged:
+        partners = spent.partners(self._human) + (self._actions.joint & by_epoch)
+        return _Judged(np.maximum(spent.facts(), partners), partners, spent.made(~self._his), by_epoch)
+
+    def _levels(self, judged: _Judged, spent: _Judged, offered: Mask) -> list[_Level]:
+        """As :func:`.person.levels` has them."""
+        team, found = self._team, []
+        values = judged.values(self._actions, offered, team.horizon if judged.by_epoch else team.most)
         for low, high in pairwise(cuts(values)):
             if low >= high:
                 continue
-            least, most = values[low], values[high - 1]
-            limit = team.most - least
-            there = asked <= most
-            ways = source[there], target[there], weight[there]
-            back = ways[1], ways[0], ways[2]
-            left = distances(back, goal, team.deadline, limit)
-            total = int(left[arcs.first[self._human]])
-            if total <= limit:
-                done = distances(ways, start, team.deadline, limit, left)
-                found.append(_Level(least, most, done, left, total))
+            least, most, before = values[low], values[high - 1], 0
+            opened: Mapping[int, int] = {0: 0}
+            if judged.by_epoch and team.windows is not None:
+                before, opened = team.windows.open(least)
+                least = judged.least(self._actions, offered, spent, least, most) if least else 0
+            level = self._level(judged, (least, most), before, opened)
+            if level is not None:
+                found.append(level)
+        return found
+
+    def _level(
+        self, judged: _Judged, limits: tuple[int, int], before: int, opened: Mapping[int, int]
+    ) -> _Level | None:
+        team, arcs, (least, most) = self._team, self._arcs, limits
+        there = (arcs.agent == self._human) & (judged.needs[arcs.action] <= most)
+        source, action, target = arcs.source[there], arcs.action[there], arcs.target[there]
+        weight, limit, goal = self._actions.price[action], team.most - least, self._ends()
+        left = distances((target, source, weight), goal, team.deadline, limit)
+        start = self._of_his(opened, FAR)
+        if (start + left).min(initial=FAR) > limit:
+            return None
+        lacking = self._lacking(np.unique(action), judged.made > most, before)
+        ways = Ways(
+            (source, action, target, weight), lacking, self._actions, start, left, limit, team.deadline
+        )
+        total = int((ways.done + goal).min(initial=FAR))
+        return None if total > limit else _Level(least, most, before, ways.done, left, ways.ready, total)
+
+    def _lacking(self, asking: Ints, missing: Mask, before: int) -> tuple[Ints, Ints]:
+        """What the human has to make for their actions, but for what planned ones have made: by action."""
+        needs, planned = self._actions.needs, {} if self._team.windows is None else self._team.windows.planned
+        done = [i for (_, i), earlier in planned.items() if earlier < before]
+        missing[self._actions.changes.at(np.array(done, np.int64))] = False
+        keys, facts = np.repeat(asking, np.diff(needs.start)[asking]), needs.at(asking)
+        return keys[missing[facts]], facts[missing[facts]]
+
+    def _of_his(self, values: Mapping[int, int], other: int) -> Ints:
+        """Values of the human's states, and another one for all that have none."""
+        first, found = self._arcs.first[self._human], np.full(self._arcs.states, other)
+        states = np.fromiter(values, np.int64, len(values))
+        found[first + states] = np.fromiter(values.values(), np.int64, len(values))
+        return found
+
+    def _planned(self) -> Ints:
+        """For each move how many of the human's are done before it, if it is planned; ``FAR`` if not."""
+        arcs, found = self._arcs, np.full(len(self._arcs.source), FAR)
+        planned = {} if self._team.windows is None else self._team.windows.planned
+        first = int(arcs.first[self._human])
+        known = {(first + state) * self._count + i: before for (state, i), before in planned.items()}
+        keys = np.array(sorted(known), np.int64)
+        if len(keys):
+            values = np.array([known[key] for key in keys.tolist()], np.int64)
+            mine = np.flatnonzero(arcs.agent == self._human)
+            asked = arcs.source[mine] * self._count + arcs.action[mine]
+            at = np.minimum(np.searchsorted(keys, asked), len(keys) - 1)
+            same = keys[at] == asked
+            found[mine[same]] = values[at[same]]
         return found
 
     def _ends(self) -> Ints:
@@ -106,33 +181,43 @@ class ManyMoves:
         goal[self._arcs.first[self._human] + np.array(sorted(self._team.finals[self._human]), np.int64)] = 0
         return goal
 
-    def _fewest(self, mask: np.ndarray) -> Ints:
+    def _fewest(self, mask: Mask) -> Ints:
         """For each state of the human's the fewest actions to the end, over some moves."""
         arcs = self._arcs
         source, target = arcs.source[mask], arcs.target[mask]
         return distances((target, source, np.ones(len(source), np.int64)), self._ends(), self._team.deadline)
 
+    def _last(self, his: Mask, left: Ints) -> Ints:
+        """For each of the human's moves the last epoch that leaves enough; in a window, if it is joint."""
+        team, arcs = self._team, self._arcs
+        last = team.horizon - left[arcs.target]
+        if team.windows is not None:
+            within = self._of_his(team.windows.last, 0)
+            joint = his & self._actions.joint[arcs.action]
+            last[joint] = np.minimum(last, within[arcs.source])[joint]
+        return last
+
     def _least(self, found: list[_Level], needs: Ints) -> Ints:
         """For each of the human's moves the least price of a path over it, where it is cheap enough."""
         arcs, most = self._arcs, self._team.most
         best = np.full(len(arcs.source), FAR)
+        planned = self._planned()
         for level in found:
-            path = level.done[arcs.source] + self._actions.price[arcs.action] + level.left[arcs.target]
+            paid = np.maximum(level.done[arcs.source], level.ready[arcs.action])
+            path = paid + self._actions.price[arcs.action] + level.left[arcs.target]
+            path[planned < level.before] = level.total
             fits = (needs[arcs.action] <= level.most) & (path + level.least <= most)
             best = np.where(fits, np.minimum(best, path), best)
         return best
 
-    def _useful(
-        self, his: np.ndarray, least: Ints, found: list[_Level], spent: Ints, epochs: Ints
-    ) -> np.ndarray:
+    def _useful(self, his: Mask, least: Ints, total: int, spent: Ints, epochs: Ints) -> Mask:
         """The robots' moves of which somebody makes use in time, beside those that the human keeps."""
         team, arcs = self._team, self._arcs
         budget, latest = np.full(self._count, NEVER), np.full(self._count, NEVER)
         action = arcs.action[his]
         np.maximum.at(budget, action, team.most - least[his])
-        np.maximum.at(latest, action, team.horizon - self._fewest(his)[arcs.target[his]])
-        cheapest = min(level.total for level in found)
-        costs = self._use(self._by_robots, budget, 0, team.most - cheapest)
+        np.maximum.at(latest, action, self._last(his, self._fewest(his))[his])
+        costs = self._use(self._by_robots, budget, 0, team.most - total)
         times = self._use(self._ones, latest, 1, team.horizon)
         team.spare, team.latest = costs.state, times.state
         return self._robots[arcs.agent] & (spent <= costs.arcs()) & (epochs <= times.arcs())

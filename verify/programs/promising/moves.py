@@ -4,15 +4,17 @@ A move stays if all of this holds, each of which a plan within the limits satisf
 
 * of the human: a path over it is cheap enough together with what robots must have spent for its needs
   (:mod:`.person`), and after the earliest epoch in which it can take place there are enough for the rest;
+  what is done together with others can take place while a window may still be open;
 * of a robot: what must have been spent when it was done (:mod:`.spending`) is no more than what may have
   been, for anybody to make use of it (:mod:`.use`); and the same for epochs.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final
 
 from verify.programs.agents.product import Move
-from verify.programs.promising.person import Level, fewest, levels
+from verify.programs.promising.person import Asked, Level, fewest, levels
 from verify.programs.promising.spending import Spending
 from verify.programs.promising.team import FAR, Team
 from verify.programs.promising.use import Use
@@ -68,16 +70,28 @@ def _round(team: Team) -> bool:
         return 0 if human in together[action].participants else team.price[action]
 
     spent = Spending(team, team.robots, price, offered)
-    needs = {i: max(spent.facts(i), spent.partners(i, human)) for i in team.deadline.each(offered)}
-    found = levels(team, needs)
-    if not found:
+    costs = Asked.of(team, spent, offered)
+    judged = [_Judged(costs, levels(team, costs, costs))]
+    if team.windows is not None:
+        earliest = Spending(team, team.robots, lambda i: int(human not in together[i].participants), offered)
+        times = Asked.of(team, earliest, offered, by_epoch=True)
+        judged.append(_Judged(times, levels(team, times, costs)))
+    if not all(each.found for each in judged):
         return False
-    _keep_human(team, found, needs, epochs)
-    _keep_robots(team, found, needs, spent, epochs, price)
+    _keep_human(team, judged, epochs)
+    _keep_robots(team, judged, spent, epochs, price)
     return True
 
 
-def _keep_human(team: Team, found: list[Level], needs: dict[int, int], epochs: Spending) -> None:
+@dataclass(frozen=True, slots=True)
+class _Judged:
+    """Levels, and what the human's actions ask for of what they are levels of."""
+
+    asked: Asked
+    found: list[Level]
+
+
+def _keep_human(team: Team, judged: list[_Judged], epochs: Spending) -> None:
     human, left = team.task.human, fewest(team)
     kept: list[list[Move]] = []
     for state, moves in enumerate(team.deadline.each(team.moves[human])):
@@ -85,19 +99,27 @@ def _keep_human(team: Team, found: list[Level], needs: dict[int, int], epochs: S
             [
                 (action, target)
                 for action, target in moves
-                if epochs.arc(human, state, action) + left[target] <= team.horizon
-                and _least(team, found, needs[action], state, action, target) < FAR
+                if epochs.arc(human, state, action)
+                <= min(team.horizon - left[target], team.last(state, action))
+                and _least(team, judged, state, action, target) < FAR
             ]
         )
     team.moves[human] = kept
 
 
-def _least(team: Team, found: list[Level], need: int, state: int, action: int, target: int) -> int:
-    """The least price of the human's actions on a path over a move, on a level where it is cheap enough."""
+def _least(team: Team, judged: list[_Judged], state: int, action: int, target: int) -> int:
+    """The least price of the human's actions on a path over a move, on levels where it is cheap enough."""
+    planned = FAR if team.windows is None else team.windows.planned.get((state, action), FAR)
+    return max(_least_of(team, each, planned, state, action, target) for each in judged)
+
+
+def _least_of(team: Team, judged: _Judged, planned: int, state: int, action: int, target: int) -> int:
     best = FAR
-    for level in found:
-        if need <= level.most:
-            path = level.done.get(state, FAR) + team.price[action] + level.left.get(target, FAR)
+    for level in judged.found:
+        if judged.asked.needs[action] <= level.most:
+            paid = max(level.done.get(state, FAR), level.ready.get(action, 0))
+            path = paid + team.price[action] + level.left.get(target, FAR)
+            path = level.total if planned < level.before else path
             if path + level.least <= team.most:
                 best = min(best, path)
     return best
@@ -105,8 +127,7 @@ def _least(team: Team, found: list[Level], need: int, state: int, action: int, t
 
 def _keep_robots(
     team: Team,
-    found: list[Level],
-    needs: dict[int, int],
+    judged: list[_Judged],
     spent: Spending,
     epochs: Spending,
     price: Price,
@@ -117,10 +138,11 @@ def _keep_robots(
     left = fewest(team)
     for state, moves in enumerate(team.deadline.each(team.moves[human])):
         for action, target in moves:
-            path = _least(team, found, needs[action], state, action, target)
+            path = _least(team, judged, state, action, target)
             budget[action] = max(budget.get(action, -1), team.most - path)
-            latest[action] = max(latest.get(action, -1), team.horizon - left[target])
-    cheapest = min(level.total for level in found)
+            last = min(team.horizon - left[target], team.last(state, action))
+            latest[action] = max(latest.get(action, -1), last)
+    cheapest = max(min(level.total for level in each.found) for each in judged)
     costs = _use(team, price, budget, 0, team.most - cheapest)
     times = _use(team, lambda _: 1, latest, 1, team.horizon)
     for k in team.robots:

@@ -7,7 +7,7 @@ facts of agents who are not looked at are there from the start.  With prices of 
 epoch.
 """
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from heapq import heappop, heappush
 
 from verify.programs.agents.product import Move
@@ -70,6 +70,19 @@ class Spending:
             if f in team.task.init and f not in self._free_false:
                 least = max(least, self._false.get(f, FAR))
         return least
+
+    def made(self, actions: Iterable[int]) -> tuple[dict[int, int], dict[int, int]]:
+        """What was spent once one of some actions makes a fact true, or false; 0 if it is so."""
+        task, needed = self._team.task, self._team.needed
+        true = dict.fromkeys(needed & task.init, 0)
+        false = dict.fromkeys(needed - task.init, 0)
+        for i in self._team.deadline.each(actions):
+            after, ground = self.before(i) + self._price(i), task.actions[i]
+            for facts, known in ((ground.add, true), (ground.delete, false)):
+                for f in facts:
+                    if after < FAR and f in needed:
+                        known[f] = min(after, known.get(f, FAR))
+        return true, false
 
     def partners(self, action: int, but: int) -> int:
         """What was spent before all who take part in an action, without one, are where it starts."""

@@ -14,6 +14,29 @@ OfState = Callable[[int, int], int]
 """Of an agent and a state of their automaton."""
 
 
+@dataclass(frozen=True, slots=True)
+class Windows:
+    """Windows that are short: what they say of the human's automaton.
+
+    Attributes:
+        longest: epochs of the longest one.
+        paid: by the number of epochs before a window, the states in which it may open, and what the human
+            has paid by then.
+        planned: the human's moves before windows, as states and actions, and how many are done before each.
+        last: by state, the last epoch of a window in which the human may be there; missing ones are in none.
+    """
+
+    longest: int
+    paid: Sequence[Mapping[int, int]]
+    planned: Mapping[tuple[int, int], int]
+    last: Mapping[int, int]
+
+    def open(self, epoch: int) -> tuple[int, Mapping[int, int]]:
+        """How many epochs there are before a window that is open in an epoch, at least; where it may open."""
+        before = max(0, epoch - self.longest)
+        return before, self.paid[before] if before < len(self.paid) else {}
+
+
 @dataclass(slots=True)
 class Team:
     """The automata of all agents, with the moves that are still on some plan.
@@ -31,6 +54,7 @@ class Team:
         finals: by agent the automaton states in which a plan may end.
         watched: agents who go on to the end: what is true in their automata counts there.
         deadline: polled.
+        windows: where windows may be, if they are short.
         moves: by agent and state, the moves that are left.
         spare: what robots may have spent, at most, when one of them is in a state and goes on.
         latest: the epoch after which that is too late.
@@ -49,6 +73,7 @@ class Team:
     finals: Sequence[set[int]]
     watched: frozenset[int]
     deadline: Deadline
+    windows: Windows | None = None
     moves: list[list[list[Move]]] = field(default_factory=list)
     needed: frozenset[int] = frozenset()
     spare: OfState | None = None
@@ -75,6 +100,12 @@ class Team:
             for action, target in moves:
                 found[target].append((action, state))
         return found
+
+    def last(self, state: int, action: int) -> int:
+        """The last epoch in which the human may do an action from a state, as far as windows tell."""
+        if self.windows is None or len(self.task.actions[action].participants) == 1:
+            return self.horizon
+        return self.windows.last.get(state, 0)
 
     def count(self) -> int:
         """How many moves are left."""
