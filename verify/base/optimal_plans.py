@@ -51,9 +51,7 @@ class OptimalPlans:
         last = None
         for i in self.deadline.each(self._task.human_actions):
             action = self._task.actions[i]
-            if action.name == last:
-                continue
-            if action.cost <= cost and applicable(action, state):
+            if applicable(action, state) and action.name != last and action.cost <= cost:
                 successor = after(state, action)
                 if self._alone.within(successor, cost - action.cost, length - 1):
                     last = action.name

@@ -1,6 +1,6 @@
 """The strong encoding of a question, from its task to a program that a solver can take."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import Final
 
@@ -65,7 +65,7 @@ class AutomataEncoding:
             return
         self._whole = self.needs_whole_state(part)
         groups = [frozenset(variable.facts) for variable in question.task.variables]
-        self._groups = [group for group in groups if _moves_by_value(question, part, group)]
+        self._groups = _moving_by_value(question, part, groups)
         with during("building the agents' automata"):
             owner = private_facts(question.task, part, self.deadline)
             if pruned:
@@ -267,16 +267,30 @@ def _offered(task: Task, machines: tuple[Automaton, ...], deadline: Deadline) ->
     return {i for i in deadline.each(offered) if all(i in moves[k] for k in task.actions[i].participants)}
 
 
-def _moves_by_value(question: Subproblem, part: Relevant, group: frozenset[int]) -> bool:
-    """Whether exactly one fact of a group is true initially and each action keeps it so.
+def _moving_by_value(
+    question: Subproblem, part: Relevant, groups: Iterable[frozenset[int]]
+) -> list[frozenset[int]]:
+    """Groups of which exactly one fact is true initially and each action keeps it so.
 
     Each action that changes the group needs and deletes one member and adds another, so
     that two of them exclude each other and a unit of flow follows the group exactly.
     """
     task = question.task
-    if len(group) < 2 or len(group & task.init) != 1 or group.isdisjoint(part.facts):
-        return False
-    return all(_moves(task.actions[i], group) for i in question.deadline.each(part.actions))
+    found = [
+        group
+        for group in groups
+        if len(group) > 1 and len(group & task.init) == 1 and not group.isdisjoint(part.facts)
+    ]
+    holding: dict[int, list[int]] = {}
+    for number, group in enumerate(found):
+        for fact in group:
+            holding.setdefault(fact, []).append(number)
+    spoilt: set[int] = set()
+    for i in question.deadline.each(part.actions):
+        action = task.actions[i]
+        changed = {number for fact in (*action.add, *action.delete) for number in holding.get(fact, ())}
+        spoilt.update(number for number in changed - spoilt if not _moves(action, found[number]))
+    return [group for number, group in enumerate(found) if number not in spoilt]
 
 
 def _moves(action: GroundAction, group: frozenset[int]) -> bool:
