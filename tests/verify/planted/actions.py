@@ -1,5 +1,6 @@
 """Bugs in the rules of actions: what is applicable, what it does, what may share an epoch."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -75,13 +76,25 @@ def _idle(original: Any, self: Any, first: Any, state: int) -> tuple[Any, ...]:
     return (first,)
 
 
+def _without(deed: str) -> Callable[..., Any]:
+    def deeds(original: Any, action: GroundAction) -> Any:
+        return [found for found in original(action) if found[0] != deed]
+
+    return deeds
+
+
 BUGS = (
     Bug(
         "whether an action is applicable",
         "negative preconditions are forgotten, by everybody",
         replaced(lambda self, state: all(f in state for f in self.pre)),
     ),
-    Bug("whether two actions conflict", "an agent may act twice in an epoch", replaced(_without_agents)),
+    Bug(
+        "whether two actions conflict",
+        "an agent may act twice in an epoch",
+        replaced(_without_agents),
+        survives="a set of actions has one of each agent by how it is put together",
+    ),
     Bug(
         "whether two actions conflict",
         "two actions may delete the same fact",
@@ -129,8 +142,13 @@ BUGS = (
     Bug("whether a set can be done in some order", "every set can", replaced(always(True))),
     Bug("sets of a team that need one epoch", "there are none", replaced(always(()))),
     Bug(
-        "conflicts while a plan is put into epochs",
-        "sets that disturb each other share an epoch",
-        replaced(always(False)),
+        "what an action does, while a plan is put into epochs",
+        "an agent may act twice in an epoch",
+        wrapped(_without("acts")),
+    ),
+    Bug(
+        "what an action does, while a plan is put into epochs",
+        "what somebody deletes does not matter",
+        wrapped(_without("deletes")),
     ),
 )

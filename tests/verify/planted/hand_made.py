@@ -55,6 +55,8 @@ def _conditions() -> Iterator[PlanCall]:
         "spoil r": "!a -> b !p @ 0",
     }
     yield PlanCall(build(init="p", goal="d b", actions=spoilt), {})
+    variants = {"step h": "!x -> a | x -> b", "end h": "-> g @ 5", "help r": "b -> g", "also r": "a -> g"}
+    yield PlanCall(build(init="x", goal="g", actions=variants), {}, ("step h", "end h"))
 
 
 def _horizons() -> Iterator[PlanCall]:

@@ -24,7 +24,7 @@ PLACES = {
     "whether the goal holds": "search.packed.packed_task:PackedGoal.holds",
     "variables of the human's own actions": "search.packed.packed_task:PackedTask.own_mask",
     "variables that robots change": "search.packed.packed_task:PackedTask.outside",
-    "conflicts while a plan is put into epochs": "search.packed.parallelise:conflicting",
+    "what an action does, while a plan is put into epochs": "search.packed.parallelise:_deeds",
     # successors
     "what robots do beside the human": "search.packed.successor_generator:Successors.with_robots",
     "robots' joint actions": "search.packed.successor_generator:Successors.robots",
