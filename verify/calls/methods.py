@@ -26,9 +26,6 @@ _LONGER: Final = 10
 _EASIER: Final = 60.0
 """Seconds for an easier question at most."""
 
-_SHARE_OF_EASIER: Final = 0.7
-"""What of the time that is left an easier question may take: large tasks have hardly another chance."""
-
 _FEW_STATES: Final = 64.0
 """Bits of a state: with more of them programs begin with a long turn."""
 
@@ -110,7 +107,7 @@ def _relaxed(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
     moment = effort.deadline.part(_SHARE).within(_length(2 * long))
     found = minimise(question.but(deadline=moment), replace(effort, deadline=moment), plans)
     if found.status == "undecided" and effort.deadline.reached() is None:
-        part = effort.deadline.part(_SHARE_OF_EASIER).within(_EASIER)
+        part = effort.deadline.part(_SHARE).within(_EASIER)
         found = easier(question.but(deadline=part), replace(effort, deadline=part))
     return None if found.status == "undecided" and effort.deadline.reached() is None else found
 

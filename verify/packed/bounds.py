@@ -116,20 +116,12 @@ class Bounds:
         """Patterns with their goals: for each field of the goal what it depends on, the nearest first."""
         found: dict[tuple[int, tuple[int, ...]], tuple[Pattern, Ints]] = {}
         moves = 0
-        asked = [
-            (v, grown, f, m)
-            for m in sizes
-            for v in views
-            for grown in (v.grown, v.wide)
-            for f in v.goal.conditions
-        ]
-        for number, (view, grown, field, most) in enumerate(asked):
-            if number and (
-                share.reached() is not None or moves > _ALL_MOVES
-            ):  # one too large takes time, too
+        asked = [(v, f, m) for m in sizes for v in views for f in v.goal.conditions]
+        for view, field, most in asked:
+            if found and (share.reached() is not None or moves > _ALL_MOVES):
                 deadline.check()
                 break
-            fields = grown(field, most)
+            fields = view.grown(field, most)
             if (id(view), fields) in found:
                 continue
             try:
@@ -180,26 +172,10 @@ class _View:
         self.goal = table.test(goal, ())
         self.causes = _causes(table)
 
-    def wide(self, field: int, most: int) -> tuple[int, ...]:
-        """A goal, what its changes depend on themselves, and other goals that depend on the same."""
-        fields, wanted = self.table.layout.fields, self.goal.conditions
-        direct = sorted(self.causes[field], key=lambda f: (-self.causes[field][f], f))
-        others = [f for f in wanted if f != field and f not in self.causes[field]]
-        near = {f: sum(map(self.causes[f].__contains__, direct)) for f in others}
-        turned = sorted(others, key=lambda f: (-near[f], f < field, f))
-        chosen, size = [field], fields[field].size
-        for other in (*direct, *(f for f in turned if near[f])):
-            if size * fields[other].size <= most:
-                chosen.append(other)
-                size *= fields[other].size
-        return self._filled(chosen, size, most)
-
     def grown(self, field: int, most: int) -> tuple[int, ...]:
         """Fields that a field's changes depend on, and goals that hang together with them."""
-        return self._filled([field], self.table.layout.fields[field].size, most)
-
-    def _filled(self, chosen: list[int], size: int, most: int) -> tuple[int, ...]:
         fields, wanted = self.table.layout.fields, self.goal.conditions
+        chosen, size = [field], fields[field].size
         while True:
             strength: dict[int, int] = {}
             for member in chosen:

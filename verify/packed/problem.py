@@ -28,12 +28,6 @@ _SHARE: Final = 0.4
 _MOST_CUT: Final = 500_000
 """States of such a search at most."""
 
-_AS_MUCH: Final = 0.75
-"""Of what landmarks say of a start: tables that say this much go first, since they are far quicker to ask."""
-
-_SHARE_OF_TABLES: Final = 0.6
-"""What of the time that is left they may take then."""
-
 
 class TooLargeError(Exception):
     """A problem that packed states are not made for."""
@@ -120,7 +114,6 @@ class Problem:
         self.goal = self.table.test(*goal)
         self._bounds: Bounds | None = None
         self._bounded, self._careful = bounded, not bounded
-        self._large = False
 
     def pack(self, states: Sequence[frozenset[int]]) -> Words | None:
         """States as rows; None if one of them can't be reached."""
@@ -160,35 +153,13 @@ class Problem:
             except TooManyStatesError:
                 if hopeless is not None and hopeless():
                     return quick, None
-                found = self._with_tables(starts, paid, below) or self._with_cuts(starts, paid, below)
+                found = self._with_cuts(starts, paid, below)
                 if found is not None:
                     return found
-                if not self._large:
-                    self._bounds, self._large = self._made(starts, MUCH), True
-                self._careful = True
+                self._bounds, self._careful = self._made(starts, MUCH), True
         search = self._search(below, _MOST)
         search.add(starts, paid)
         return search, search.run()
-
-    def _with_tables(
-        self, starts: Words, paid: Ints, below: int | None
-    ) -> tuple[PathSearch, int | None] | None:
-        """The search with large tables, where small ones say nearly as much as landmarks; None: no answer."""
-        said = self.bounds(starts)
-        first = int((paid + said).argmin())
-        cuts = LandmarkCuts(self.table.operators, self._facts, self._wanted, rarest=True)
-        if said[first] < _AS_MUCH * cuts(self.layout.facts_of(starts[first])).bound:
-            return None
-        if not self._large:
-            self._bounds, self._large = self._made(starts, MUCH), True
-        part = self._deadline.part(_SHARE_OF_TABLES)
-        search = PathSearch(self.table, self.goal, self.bounds, part, below, _MOST)
-        try:
-            search.add(starts, paid)
-            return search, search.run()
-        except LimitReachedError:
-            self._deadline.check()
-            return None
 
     def _with_cuts(
         self, starts: Words, paid: Ints, below: int | None
