@@ -216,9 +216,8 @@ class ClassicalPlanner:
         """An amount that no plan from a packed state is below; ``NO_PLAN`` where it shows that there is none.
 
         Raises:
-            LimitReachedError: the deadline came first, or there is not enough memory.
+            LimitReachedError: there is not enough memory.
         """
-        deadline.check()  # on large problems a bound takes as long as hundreds of other steps
         kernel, planner, row = self._kernel, self._planner, self._row(state)
         found = kernel.planner_bound(planner, row, _ROOM)
         if found < 0:

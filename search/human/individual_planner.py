@@ -168,7 +168,7 @@ class IndividualPlanner:
         It ends at goals and at states of which the key is known, and goes on for as long as
         a cheaper end may come.
         """
-        search = AStar(start, self._bound, self._deadline, limit=limit, deep_first=True)
+        search = AStar(start, self._estimate, self._deadline, limit=limit, deep_first=True)
         parents: dict[int, tuple[int, int]] = {}
         end, hopeless = None, True
         for number, (state, spent) in enumerate(search):
@@ -191,6 +191,12 @@ class IndividualPlanner:
             return INFINITE_KEY
         self._at_least[start] = max(limit, self._at_least.get(start, 0))
         return limit
+
+    def _estimate(self, state: int) -> int:
+        """:meth:`_bound`, for a search: the kernel's may take as long as hundreds of other steps."""
+        if self._memory.classical is not None:
+            self._deadline.check()
+        return self._bound(state)
 
     def _bound(self, state: int) -> int:
         """Lower bound of the optimal key from a packed state."""
@@ -336,7 +342,7 @@ class IndividualPlanner:
         optimum = self._known.get(start, INFINITE_KEY - 1)
         if optimum >= INFINITE_KEY:
             return None
-        search = AStar(start, self._bound, self._deadline, limit=optimum + 1)
+        search = AStar(start, self._estimate, self._deadline, limit=optimum + 1)
         expanded: dict[int, list[tuple[int, int, int]]] = {}
         goals = []
         for state, spent in search:
