@@ -20,6 +20,7 @@ from search.prediction import Prediction, answers_at_once, expected_plan, indivi
 from search.prepared_task import PreparedTask
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.timetable.all_together import all_together
 from serendipity.model.answers.answer import Answer, saved
 from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.options import INFINITE, Options
@@ -205,7 +206,7 @@ class _Call:
         return Ties(self.keys.objective_shift, _FEW) if self.context.distances_say_little else None
 
     def _in_short_windows(self) -> Generator[Incumbent, None, bool]:
-        """Robots one by one, where longer windows can't be better; whether a short search did."""
+        """Windows of one epoch, where longer ones can't be better; whether a short search did."""
         best, progress = self.best, self.progress
         longer = INFINITE_KEY if self.options.max_window == 1 else progress.bound + self.keys.epoch_weight
         if not self.options.windowed or not self.plan or best.key >= longer:
@@ -216,7 +217,10 @@ class _Call:
             yield from best_first(few, best, progress, context.deadline, self._ties())
             return True
         self.deadline.check()
-        yield from one_by_one(self.context, self.plan, int(self.horizon), best, progress, longer)
+        for every_window in (one_by_one, all_together):
+            yield from every_window(self.context, self.plan, int(self.horizon), best, progress, longer)
+            if self._is_settled():
+                break
         return False
 
     def _in_one_epoch(self) -> Iterator[Incumbent]:

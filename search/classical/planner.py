@@ -7,19 +7,20 @@ alone; tables of projections follow once a question turns out to be worth them.
 
 import ctypes
 from array import array
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from ctypes import c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from typing import Final
 
 from search.abstractions.patterns import Field, patterns
 from search.classical.problem import NO_PLAN, ClassicalProblem
+from search.classical.told import Told, memory_for
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
-_SLICE: Final = 0.004
+SLICE: Final = 0.004
 """Seconds between two looks at the deadline."""
 
-_ROOM: Final = 1 << 24
+ROOM: Final = 1 << 24
 """Bytes that may be allocated before memory is asked for again."""
 
 _MANY: Final = 2_000
@@ -36,22 +37,7 @@ _SAMPLES: Final = 50
 _NONE: Final = -1
 """No operator."""
 
-_RUNNING, _FOUND, _NOT_BELOW, _HOPELESS, _MEMORY = range(5)
-
-
-class _Spec(ctypes.Structure):
-    _fields_ = (
-        *(
-            (name, c_int32)
-            for name in ("words", "n_ops", "n_fields", "n_facts", "n_forbidden", "n_goal_forbidden")
-        ),
-        *((name, c_char_p) for name in ("need_mask", "need", "keep", "put")),
-        ("forbidding", c_void_p),
-        ("forbidden", c_char_p),
-        ("weight", c_void_p),
-        ("fields", c_void_p),
-        *((name, c_char_p) for name in ("goal_mask", "goal", "goal_forbidden")),
-    )
+_RUNNING, FOUND, _NOT_BELOW, _HOPELESS, MEMORY = range(5)
 
 
 _SIGNATURES: Final = {
@@ -85,6 +71,7 @@ class ClassicalPlanner:
 
     Attributes:
         problem: what it is about.
+        told: the same, as the kernel is told of it.
 
     Raises:
         LimitReachedError: there is not enough memory.
@@ -97,9 +84,8 @@ class ClassicalPlanner:
         self.problem = problem
         self._kernel = library
         self._mask = problem.mask
-        self._size = 8 * max(1, -(-self._mask.bit_length() // 64))
-        deadline.require(20 * self._size * len(problem.operators))
-        self._data = self._spec()
+        deadline.require(memory_for(problem))
+        self.told = Told(problem)
         self._planner: int | None = None
         self._start()
 
@@ -110,45 +96,17 @@ class ClassicalPlanner:
     def _start(self) -> None:
         if self._planner:
             self._kernel.planner_free(self._planner)
-        self._planner = self._kernel.planner_new(ctypes.byref(self._data))
+        self._planner = self._kernel.planner_new(ctypes.byref(self.told.spec))
         if not self._planner:
             raise LimitReachedError("memory-limit")
         self._tables = False
         self._asked: int | None = None
         self._is_open = False
 
-    def _spec(self) -> _Spec:
-        problem, goal = self.problem, self.problem.goal
-        operators, full = problem.operators, (1 << 8 * self._size) - 1
-        literals = [(number, pair) for number, op in enumerate(operators) for pair in op.forbidden]
-        shapes, facts = array("i"), 0
-        for field, values in problem.fields:
-            shapes.extend(((field & -field).bit_length() - 1, field.bit_count(), facts))
-            facts += values
-        forbidding = array("i", [number for number, _ in literals])
-        weights = array("q", problem.weights)
-        self._held = shapes, forbidding, weights  # by address below
-        return _Spec(
-            *(self._size // 8, len(operators), len(problem.fields), facts, len(literals)),
-            len(goal.forbidden),
-            self._rows(op.need_mask for op in operators),
-            self._rows(op.need for op in operators),
-            self._rows(op.keep & full for op in operators),
-            self._rows(op.put & self._mask for op in operators),
-            forbidding.buffer_info()[0],
-            self._rows(word for _, pair in literals for word in pair),
-            weights.buffer_info()[0],
-            shapes.buffer_info()[0],
-            self._rows([goal.need_mask]),
-            self._rows([goal.need]),
-            self._rows(word for pair in goal.forbidden for word in pair),
-        )
-
-    def _rows(self, numbers: "Iterator[int] | Sequence[int]") -> bytes:
-        return b"".join([number.to_bytes(self._size, "little") for number in numbers])
-
-    def _row(self, state: int) -> bytes:
-        return (state & self._mask).to_bytes(self._size, "little")
+    @property
+    def handle(self) -> int | None:
+        """What the kernel knows it by."""
+        return self._planner
 
     # -- questions
 
@@ -173,7 +131,7 @@ class ClassicalPlanner:
             LimitReachedError: the deadline came first.
         """
         kernel, planner = self._kernel, self._planner
-        row, most = self._row(state), self.problem.limit(limit)
+        row, most = self.told.row(state), self.problem.limit(limit)
         self._asked, self._is_open = state & self._mask, False
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
         self._is_open = True
@@ -193,12 +151,11 @@ class ClassicalPlanner:
         """
         kernel, planner = self._kernel, self._planner
         assert self._is_open, "it was interrupted"
-        while self._allowed(lambda room: kernel.planner_run(planner, _SLICE, room), deadline) == _RUNNING:
+        while self._allowed(lambda room: kernel.planner_run(planner, SLICE, room), deadline) == _RUNNING:
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
-            if not self._tables and self.counts()[2] >= _MANY:
-                self._make_tables(deadline)
+            self.prepare(deadline)
         self._is_open = False
         return self.least
 
@@ -218,8 +175,8 @@ class ClassicalPlanner:
         Raises:
             LimitReachedError: there is not enough memory.
         """
-        kernel, planner, row = self._kernel, self._planner, self._row(state)
-        found = kernel.planner_bound(planner, row, _ROOM)
+        kernel, planner, row = self._kernel, self._planner, self.told.row(state)
+        found = kernel.planner_bound(planner, row, ROOM)
         if found < 0:
             deadline.require(kernel.planner_wanted(planner))
             found = kernel.planner_bound(planner, row, kernel.planner_wanted(planner))
@@ -231,13 +188,13 @@ class ClassicalPlanner:
         Raises:
             LimitReachedError: the deadline came first.
         """
-        kernel, planner, row = self._kernel, self._planner, self._row(state)
+        kernel, planner, row = self._kernel, self._planner, self.told.row(state)
         self._allowed(lambda room: kernel.planner_begin_greedy(planner, row, room), deadline)
         outcome = _RUNNING
         while outcome == _RUNNING:
             deadline.check()
-            outcome = self._allowed(lambda room: kernel.planner_run_greedy(planner, _SLICE, room), deadline)
-        if outcome != _FOUND:
+            outcome = self._allowed(lambda room: kernel.planner_run_greedy(planner, SLICE, room), deadline)
+        if outcome != FOUND:
             return None
         return self._numbers(lambda *to: kernel.planner_greedy_way(planner, *to))
 
@@ -272,7 +229,7 @@ class ClassicalPlanner:
 
     def known_plan(self, state: int) -> list[int] | None:
         """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite."""
-        kernel, planner, row = self._kernel, self._planner, self._row(state)
+        kernel, planner, row = self._kernel, self._planner, self.told.row(state)
 
         def ask(address: int, room: int) -> int:
             moving = ctypes.create_string_buffer(row, len(row))
@@ -293,7 +250,7 @@ class ClassicalPlanner:
     def allowed(self, state: int) -> list[int]:
         """The numbers of the operators that a packed state allows, ascending."""
         numbers = array("i", bytes(4 * max(len(self.problem.operators), 1)))
-        count = self._kernel.planner_allowed(self._planner, self._row(state), numbers.buffer_info()[0])
+        count = self._kernel.planner_allowed(self._planner, self.told.row(state), numbers.buffer_info()[0])
         return numbers[:count].tolist()
 
     def counts(self) -> tuple[int, int, int]:
@@ -313,14 +270,23 @@ class ClassicalPlanner:
 
     def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
         """Call the kernel, with as much memory as it wants if there is that much."""
-        outcome = call(_ROOM)
-        while outcome == _MEMORY:
+        outcome = call(ROOM)
+        while outcome == MEMORY:
             wanted = self._kernel.planner_wanted(self._planner)
             deadline.require(wanted)
             outcome = call(wanted)
         return outcome
 
     # -- tables
+
+    def prepare(self, deadline: Deadline) -> None:
+        """Make tables, if they are worth their time by now.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        if not self._tables and self.counts()[2] >= _MANY:
+            self._make_tables(deadline)
 
     def _make_tables(self, deadline: Deadline) -> None:
         """Projections that add up, as many as there is time for."""

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include "a_star.h"
 #include "cost_partitioning.h"
+#include "epochs.h"
 #include "greedy_search.h"
 #include "lookahead.h"
 #include "problem.h"
@@ -114,3 +115,29 @@ API int planner_samples(Planner *s, int32_t most) { return a_star_samples(&s->a_
 API int planner_order(Planner *s, int32_t sample) {
     return add_order(&s->a_star.evaluator.projections, &s->problem, sample);
 }
+
+/* States epoch by epoch, and what follows them (search/timetable/epochs.py): `after` is for what comes then, and stays. */
+API Epochs *epochs_new(const Spec *spec, const uint64_t *agents, const uint8_t *apart, Planner *after, const Word *mask,
+                       const uint8_t *lost, Cost unit) {
+    return epochs_of(spec, agents, apart, &after->a_star, mask, lost, unit);
+}
+API void epochs_delete(Epochs *e) { epochs_free(e); }
+API int epochs_start(Epochs *e, const Word *state, size_t allowed) { return epochs_begin(e, state, allowed); }
+API int epochs_turn(Epochs *e, int32_t given) { return epochs_next(e, given); }
+API int epochs_slice(Epochs *e, Cost limit, double seconds, size_t allowed) { return epochs_run(e, limit, seconds, allowed); }
+API size_t epochs_wanted(const Epochs *e) { return e->wanted; }
+API int64_t epochs_states(const Epochs *e) {
+    int64_t count = e->ends.count;
+    for (int32_t i = 0; i < e->n_layers; i++) count += e->layers[i].count;
+    return count;
+}
+
+/* What can be left behind: totals, what is paid of them. */
+API int32_t epochs_leavings(const Epochs *e, Cost *totals, Cost *paid) {
+    for (size_t i = 0; totals && i < e->n_leavings; i++) totals[i] = e->leavings[i].total, paid[i] = e->leavings[i].paid;
+    return (int32_t)e->n_leavings;
+}
+API void epochs_left(const Epochs *e, int32_t number, Word *row) {
+    memcpy(row, state_of(&e->ends, e->leavings[number].end), (size_t)e->ends.words * sizeof *row);
+}
+API int32_t epochs_sets(Epochs *e, int32_t number, const int32_t *given, int32_t *ops) { return epochs_way(e, number, given, ops); }

@@ -8,6 +8,7 @@
    stands on, from the top:
 
      api                                   what Python calls
+     epochs                                states epoch by epoch, with agents at a time
      a_star, greedy_search                 the searches
      learning, evaluation, stubborn_sets   what A* learns of states; bounds of nodes; which operators it leaves out
      intended_effects                      operators that optimal plans need after others

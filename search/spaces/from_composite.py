@@ -115,6 +115,17 @@ class Suggestions:
             if self._fit(node.state, together):
                 yield from self._ended(self._after(node, together)._replace(start=len(epochs)))
 
+    def exactly(self, epochs: Sequence[Sequence[Operator]]) -> Iterator[Incumbent]:
+        """What all agents do in each epoch; the last one is the window.
+
+        Raises:
+            LimitReachedError: the context's deadline came.
+        """
+        node = self._root()
+        for ops in epochs:
+            node = self._after(node, ops)
+        yield from self._ended(node._replace(start=len(epochs)))
+
     def _in_window(self, state: int, epoch: int, ops: list[Operator]) -> Iterator[Operator | None]:
         """What the human may do in a window of one epoch."""
         yield None

@@ -1,0 +1,319 @@
+/* Epoch by epoch: the states that sets of operators lead to beside one that is given for each epoch, each at its least
+   cost, and what one more epoch in which nothing is given can leave behind.
+
+   At most one operator of each agent is in a set, and no two that may not share an epoch.  Of what is left behind only
+   some fields matter; what costs least of it, together with a bound on what follows, is told.  An epoch that comes earlier
+   is as good as a later one, but for what costs the same. */
+
+#pragma once
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "a_star.h"
+#include "lists.h"
+#include "problem.h"
+#include "state_table.h"
+#include "successor_generator.h"
+#include "values.h"
+
+enum { MOST_AGENTS = 64, COST_SHIFT = 24 }; /* a cost is above so many bits of a number of actions */
+
+/* Something that can be left behind. */
+typedef struct {
+    Cost total, paid; /* what it costs, with a bound on what follows, and without */
+    int32_t state, end; /* the state before the epoch, in its layer; what is left behind */
+} Leaving;
+
+typedef struct {
+    Problem problem;
+    uint64_t *agents; /* per operator, a bit for each of its agents */
+    uint8_t *apart;   /* per pair of operators, whether they may not share an epoch */
+    AStar *after;     /* what follows an end; its states have the lowest words of these */
+    Word *mask;       /* the fields that matter to it */
+    uint8_t *lost;    /* per fact whether nothing follows from it */
+    Ints losing;      /* the fields that have such */
+    Cost unit;        /* what a unit of its costs weighs here */
+    Table *layers, ends;
+    int32_t n_layers, room, given; /* given: the operator of the epoch, or NONE */
+    Leaving *leavings;
+    size_t n_leavings, leavings_room, wanted;
+    Ints applicable, sorted;
+    size_t next_agent[MOST_AGENTS + 1]; /* where operators of agents from this one on begin, among the sorted ones */
+    int32_t cursor, chosen[MOST_AGENTS];
+    Word *row, *other, *kept, *made; /* two rows; rows by depth */
+    Cost limit, sought;  /* what is dearer does not matter; the cost of a set that is looked for, or NONE */
+    const Word *target;  /* the state that it leads to */
+    int32_t found;       /* how many operators are in it */
+    int is_end, hopeless; /* whether nothing is given; see take_end */
+    uint64_t last;       /* the agent to whom what follows is left: the last one, as a bit */
+} Epochs;
+
+static void epochs_free(Epochs *e) {
+    if (!e) return;
+    for (int32_t i = 0; i < e->n_layers; i++) table_free(&e->layers[i]);
+    table_free(&e->ends), problem_free(&e->problem);
+    free(e->layers), free(e->leavings), free(e->agents), free(e->apart), free(e->mask), free(e->lost), free(e->losing.at);
+    free(e->applicable.at), free(e->sorted.at), free(e->row), free(e->other), free(e->kept), free(e->made);
+    free(e);
+}
+
+static int find_losing(Epochs *e) {
+    for (int32_t f = 0; f < e->problem.n_fields; f++)
+        if (memchr(e->lost + e->problem.fields[f].offset, 1, (size_t)values_of(&e->problem, f)) && !ints_push(&e->losing, f)) return 0;
+    return 1;
+}
+
+static int is_lost(const Epochs *e, const Word *state) {
+    for (size_t i = 0; i < e->losing.count; i++) {
+        const Field *field = &e->problem.fields[e->losing.at[i]];
+        if (e->lost[field->offset + (int32_t)code(state, field)]) return 1;
+    }
+    return 0;
+}
+
+static Epochs *epochs_of(const Spec *spec, const uint64_t *agents, const uint8_t *apart, AStar *after, const Word *mask,
+                         const uint8_t *lost, Cost unit) {
+    Epochs *e = calloc(1, sizeof *e);
+    if (!e) return NULL;
+    size_t ops = (size_t)spec->n_ops, row = (size_t)spec->words * sizeof(Word);
+    for (int32_t o = 0; o < spec->n_ops; o++) e->last |= agents[o];
+    while (e->last & (e->last - 1)) e->last &= e->last - 1;
+    e->after = after, e->unit = unit, e->ends.words = after->problem->words;
+    e->agents = copied(agents, ops * sizeof *agents), e->apart = copied(apart, ops * ops);
+    e->mask = copied(mask, (size_t)e->ends.words * sizeof(Word));
+    e->applicable.at = malloc((ops + 1) * sizeof(int32_t)), e->sorted.at = malloc((ops + 1) * sizeof(int32_t));
+    e->row = malloc(row), e->other = malloc(row), e->kept = malloc((MOST_AGENTS + 1) * row), e->made = malloc((MOST_AGENTS + 1) * row);
+    e->lost = copied(lost, (size_t)spec->n_facts);
+    if (problem_new(&e->problem, spec) && e->lost && find_losing(e) && plant_all(&e->problem) && e->agents && e->apart && e->mask && e->applicable.at &&
+        e->sorted.at && e->row && e->other && e->kept && e->made)
+        return e;
+    epochs_free(e);
+    return NULL;
+}
+
+/* One more layer, empty; whether there was memory. */
+static int add_layer(Epochs *e) {
+    if (e->n_layers == e->room) {
+        int32_t room = e->room ? 2 * e->room : 64;
+        Table *layers = realloc(e->layers, (size_t)room * sizeof *layers);
+        if (!layers) return 0;
+        e->layers = layers, e->room = room;
+    }
+    e->layers[e->n_layers++] = (Table){.words = e->problem.words};
+    return 1;
+}
+
+static int lacks(Epochs *e, const Table *t) {
+    e->wanted = t->wanted;
+    return 0;
+}
+
+static int epochs_begin(Epochs *e, const Word *state, size_t allowed) {
+    if (!e->n_layers && !add_layer(e)) return MEMORY;
+    grant(&e->layers[0], allowed);
+    if (!reserve(&e->layers[0], 1)) return lacks(e, &e->layers[0]), MEMORY;
+    int is_new;
+    find(&e->layers[0], state, &is_new);
+    return FOUND;
+}
+
+/* What follows, as it weighs here. */
+static Cost weighed(const Epochs *e, Cost rest) {
+    if (rest == INFINITE_COST) return rest;
+    return (rest >> COST_SHIFT) * e->unit * ((Cost)1 << COST_SHIFT) + (rest & (((Cost)1 << COST_SHIFT) - 1));
+}
+
+static int too_dear(const Epochs *e, Cost paid, Cost rest) { return rest == INFINITE_COST || paid + rest >= e->limit; }
+
+static int leave(Epochs *e, Cost paid, Cost total, int32_t end) {
+    if (e->n_leavings == e->leavings_room) {
+        size_t room = e->leavings_room ? 2 * e->leavings_room : 256;
+        if (!allow(&e->ends, (room - e->leavings_room) * sizeof *e->leavings)) return 0;
+        Leaving *at = realloc(e->leavings, room * sizeof *at);
+        if (!at) return e->ends.wanted = SIZE_MAX, 0;
+        e->leavings = at, e->leavings_room = room;
+    }
+    e->leavings[e->n_leavings++] = (Leaving){total, paid, e->cursor, end};
+    return 1;
+}
+
+/* A state that can be left behind: nothing new, if it was there in an earlier epoch at less.  `hopeless`: whether it costs
+   too much, so that nothing does any good that could as well be done after it. */
+static int take_end(Epochs *e, const Word *state, Cost paid) {
+    Table *t = &e->ends;
+    e->hopeless = 0;
+    if (is_lost(e, state)) return e->hopeless = 1;
+    if (!reserve(t, 1)) return 0;
+    for (int32_t w = 0; w < t->words; w++) e->row[w] = state[w] & e->mask[w];
+    int is_new;
+    int32_t id = find(t, e->row, &is_new);
+    Node *node = node_of(t, id);
+    uint32_t epoch = (uint32_t)e->n_layers;
+    if (!is_new && (node->stamp == epoch ? node->spent <= paid : node->spent >> COST_SHIFT < paid >> COST_SHIFT)) {
+        e->hopeless = too_dear(e, paid, node->rest);
+        return 1;
+    }
+    if (is_new) node->spent = INFINITE_COST, node->rest = weighed(e, glanced(e->after, e->row));
+    if (!node->evaluated && !too_dear(e, paid, node->rest)) {
+        Cost rest = a_star_bound(e->after, e->row, t->allowed);
+        if (rest < 0) return t->wanted = e->after->table.wanted, 0;
+        node->rest = weighed(e, rest), node->evaluated = 1;
+    }
+    e->hopeless = too_dear(e, paid, node->rest);
+    if (!e->hopeless && !leave(e, paid, paid + node->rest, id)) return 0;
+    node->spent = paid, node->stamp = epoch;
+    return 1;
+}
+
+static int take_state(Epochs *e, const Word *state, Cost paid) {
+    Table *t = &e->layers[e->n_layers - 1];
+    if (!reserve(t, 1)) return 0;
+    int is_new;
+    Node *node = node_of(t, find(t, state, &is_new));
+    if (is_new || paid < node->spent) node->spent = paid, node->parent = e->cursor;
+    return 1;
+}
+
+/* What a set makes of the state under the cursor; 0: no need to go on. */
+static int take(Epochs *e, const Word *state, int32_t depth, Cost paid) {
+    int32_t words = e->problem.words;
+    Word *made = e->row;
+    const Word *kept = e->kept + (size_t)depth * words, *put = e->made + (size_t)depth * words;
+    for (int32_t w = 0; w < words; w++) made[w] = (state[w] & kept[w]) | put[w];
+    if (e->target) {
+        int32_t n = e->is_end ? e->ends.words : words;
+        for (int32_t w = 0; w < n; w++)
+            if ((e->is_end ? made[w] & e->mask[w] : made[w]) != e->target[w]) return 1;
+        if (paid != e->sought) return 1;
+        e->found = depth;
+        return 0;
+    }
+    if (e->is_end ? take_end(e, made, paid) : take_state(e, made, paid)) return 1;
+    return lacks(e, e->is_end ? &e->ends : &e->layers[e->n_layers - 1]);
+}
+
+static void choose(Epochs *e, int32_t op, int32_t depth) {
+    size_t words = (size_t)e->problem.words, row = (size_t)op * words;
+    for (size_t w = 0; w < words; w++) {
+        e->kept[(depth + 1) * words + w] = e->kept[depth * words + w] & e->problem.keep[row + w];
+        e->made[(depth + 1) * words + w] = e->made[depth * words + w] | e->problem.put[row + w];
+    }
+    e->chosen[depth] = op;
+}
+
+static int fits(const Epochs *e, int32_t op, int32_t depth) {
+    for (int32_t i = 0; i < depth; i++)
+        if (e->apart[(size_t)op * e->problem.n_ops + e->chosen[i]]) return 0;
+    return 1;
+}
+
+static int is_applicable(const Problem *p, int32_t op, const Word *state) {
+    size_t row = (size_t)op * p->words;
+    if (!matches(state, p->need_mask + row, p->need + row, p->words)) return 0;
+    for (int32_t j = p->forbids.start[op]; j < p->forbids.start[op + 1]; j++) {
+        const Word *rows = p->forbidden + 2 * (size_t)p->forbids.at[j] * p->words;
+        if (matches(state, rows, rows + p->words, p->words)) return 0;
+    }
+    return 1;
+}
+
+/* Whether an operator could as well be done after a set. */
+static int can_follow(const Epochs *e, int32_t op, const Word *state, int32_t depth) {
+    int32_t words = e->problem.words;
+    const Word *kept = e->kept + (size_t)depth * words, *put = e->made + (size_t)depth * words;
+    for (int32_t w = 0; w < words; w++) e->other[w] = (state[w] & kept[w]) | put[w];
+    return is_applicable(&e->problem, op, e->other);
+}
+
+/* All sets with more operators of agents from one on; 0: no need to go on. */
+static int go_through(Epochs *e, const Word *state, int32_t agent, uint64_t busy, int32_t depth, Cost paid) {
+    if (!take(e, state, depth, paid)) return 0;
+    const int in_vain = e->is_end && !e->target && e->hopeless;
+    for (; agent < MOST_AGENTS && e->next_agent[agent] < e->sorted.count; agent++) {
+        if (busy >> agent & 1) continue;
+        for (size_t i = e->next_agent[agent]; i < e->next_agent[agent + 1]; i++) {
+            int32_t op = e->sorted.at[i];
+            Cost more = paid + e->problem.weight[op];
+            if (e->agents[op] & busy || more >= e->limit || !fits(e, op, depth)) continue;
+            if (in_vain && e->agents[op] == e->last && can_follow(e, op, state, depth)) continue;
+            choose(e, op, depth);
+            if (!go_through(e, state, agent + 1, busy | e->agents[op], depth + 1, more)) return 0;
+        }
+    }
+    return 1;
+}
+
+static int first_agent(uint64_t agents) {
+    int agent = 0;
+    while (!(agents >> agent & 1)) agent++;
+    return agent;
+}
+
+/* Applicable operators by the first of their agents. */
+static void sort_by_agent(Epochs *e, const Word *state) {
+    successors(&e->problem, state, &e->applicable);
+    size_t count[MOST_AGENTS + 1] = {0};
+    for (size_t i = 0; i < e->applicable.count; i++) count[first_agent(e->agents[e->applicable.at[i]]) + 1]++;
+    for (int agent = 0; agent < MOST_AGENTS; agent++) count[agent + 1] += count[agent];
+    memcpy(e->next_agent, count, sizeof count);
+    for (size_t i = 0; i < e->applicable.count; i++) {
+        int32_t op = e->applicable.at[i];
+        e->sorted.at[count[first_agent(e->agents[op])]++] = op;
+    }
+    e->sorted.count = e->applicable.count;
+}
+
+/* Every set from a state with the operator that is given, if one is. */
+static int from_state(Epochs *e, const Word *state, Cost paid, int32_t given) {
+    const Problem *p = &e->problem;
+    memset(e->kept, 0xFF, (size_t)p->words * sizeof(Word)), memset(e->made, 0, (size_t)p->words * sizeof(Word));
+    if (given != NONE && !is_applicable(p, given, state)) return 1;
+    sort_by_agent(e, state);
+    if (given == NONE) return go_through(e, state, 0, 0, 0, paid);
+    choose(e, given, 0);
+    return go_through(e, state, 0, e->agents[given], 1, paid + p->weight[given]);
+}
+
+/* Begin with the next epoch; NONE: nothing is given in it. */
+static int epochs_next(Epochs *e, int32_t given) {
+    e->is_end = given == NONE, e->given = given, e->cursor = 0, e->n_leavings = 0;
+    return e->is_end || add_layer(e);
+}
+
+/* A slice of it: what can be left behind if nothing is given, else the next layer.  What is not below the limit is left out. */
+static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
+    double end = now() + seconds;
+    e->target = NULL, e->limit = limit;
+    const Table *from = &e->layers[e->n_layers - (e->is_end ? 1 : 2)];
+    grant(e->is_end ? &e->ends : &e->layers[e->n_layers - 1], allowed);
+    for (; e->cursor < from->count; e->cursor++) {
+        if (now() >= end) return RUNNING;
+        if (!from_state(e, state_of(from, e->cursor), node_of(from, e->cursor)->spent, e->given)) return MEMORY;
+    }
+    return FOUND;
+}
+
+/* The operators of an epoch that lead from a state of a layer to a target at a cost, into `ops`; how many. */
+static int32_t set_between(Epochs *e, int32_t layer, int32_t id, int32_t given, const Word *target, Cost cost, int32_t *ops) {
+    const Table *from = &e->layers[layer];
+    e->is_end = given == NONE, e->target = target, e->sought = cost, e->limit = INFINITE_COST, e->found = 0;
+    from_state(e, state_of(from, id), node_of(from, id)->spent, given);
+    memcpy(ops, e->chosen, (size_t)e->found * sizeof *ops);
+    return e->found;
+}
+
+/* What is done epoch by epoch for something that was left behind: each set ends with NONE, the last one comes first. */
+static int32_t epochs_way(Epochs *e, int32_t number, const int32_t *given, int32_t *ops) {
+    const Leaving *leaving = &e->leavings[number];
+    int32_t layer = e->n_layers - 1, id = leaving->state;
+    int32_t count = set_between(e, layer, id, NONE, state_of(&e->ends, leaving->end), leaving->paid, ops);
+    ops[count++] = NONE;
+    for (; layer; layer--) {
+        const Node *node = node_of(&e->layers[layer], id);
+        count += set_between(e, layer - 1, node->parent, given[layer - 1], state_of(&e->layers[layer], id), node->spent, ops + count);
+        ops[count++] = NONE;
+        id = node->parent;
+    }
+    return count;
+}

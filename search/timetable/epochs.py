@@ -1,0 +1,222 @@
+"""States epoch by epoch in the kernel: what all agents can make of the world beside the human's timetable."""
+
+import ctypes
+from array import array
+from collections.abc import Callable, Collection, Sequence
+from ctypes import c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
+from itertools import groupby
+from typing import Final, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from search.classical.planner import FOUND, MEMORY, ROOM, SLICE, ClassicalPlanner
+from search.classical.problem import ClassicalProblem
+from search.classical.told import Told, memory_for
+from search.packed.operators import Operator
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
+
+_NONE: Final = -1
+"""No operator."""
+
+_SIGNATURES: Final = {
+    "epochs_new": (c_void_p, [c_void_p, c_void_p, c_char_p, c_void_p, c_char_p, c_char_p, c_int64]),
+    "epochs_delete": (None, [c_void_p]),
+    "epochs_start": (c_int, [c_void_p, c_char_p, c_size_t]),
+    "epochs_turn": (c_int, [c_void_p, c_int32]),
+    "epochs_slice": (c_int, [c_void_p, c_int64, c_double, c_size_t]),
+    "epochs_wanted": (c_size_t, [c_void_p]),
+    "epochs_states": (c_int64, [c_void_p]),
+    "epochs_leavings": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "epochs_left": (None, [c_void_p, c_int32, c_void_p]),
+    "epochs_sets": (c_int32, [c_void_p, c_int32, c_void_p, c_void_p]),
+}
+
+
+class Leaving(NamedTuple):
+    """Something that can be left behind by the end of an epoch.
+
+    Attributes:
+        total: what it costs, with a lower bound on what follows.
+        paid: without that.
+        number: by which it is asked for.
+    """
+
+    total: int
+    paid: int
+    number: int
+
+
+class Epochs:
+    """Layers of states, and what one more epoch can leave behind; amounts are costs and numbers of actions.
+
+    Args:
+        library: the compiled kernel.
+        task: whose actions may not share an epoch.
+        problem: of the whole team, with amounts for weights.
+        after: what follows; asked for bounds.
+        lost: by field and value 1 where nothing can follow from it.
+        unit: what a unit of its costs is in amounts.
+        state: the packed state that it begins with.
+        strict: strict interference.
+        deadline: polled, and asked for memory.
+
+    Raises:
+        LimitReachedError: there is not enough memory.
+    """
+
+    def __init__(
+        self,
+        library: ctypes.CDLL,
+        task: Task,
+        problem: ClassicalProblem,
+        after: ClassicalPlanner,
+        lost: bytes,
+        unit: int,
+        state: int,
+        deadline: Deadline,
+        *,
+        strict: bool,
+    ) -> None:
+        for name, (result, arguments) in _SIGNATURES.items():
+            function = getattr(library, name)
+            function.restype, function.argtypes = result, arguments
+        self._kernel, self._after, self._deadline = library, after, deadline
+        self._numbers = {op.action: number for number, op in enumerate(problem.operators)}
+        self._operators = problem.operators
+        self._given: list[int] = []
+        deadline.require(memory_for(problem) + len(problem.operators) ** 2)
+        told, agents = Told(problem), array("Q", _human_last(task, problem.operators))
+        apart = conflicts(task, problem.operators, strict=strict).tobytes()
+        planner, mask = after.handle, after.told.row(after.problem.mask)
+        self._epochs = library.epochs_new(
+            ctypes.byref(told.spec), agents.buffer_info()[0], apart, planner, mask, lost, unit
+        )
+        if not self._epochs:
+            raise LimitReachedError("memory-limit")
+        self._allowed(lambda room: library.epochs_start(self._epochs, told.row(state), room))
+
+    def __del__(self) -> None:
+        if getattr(self, "_epochs", None):
+            self._kernel.epochs_delete(self._epochs)
+
+    @property
+    def states(self) -> int:
+        """How many were met so far, ends included."""
+        return int(self._kernel.epochs_states(self._epochs))
+
+    def advance(self, op: Operator, limit: int, most: int) -> bool:
+        """Go on by an epoch in which an operator is given.
+
+        Args:
+            op: the operator.
+            limit: amount from which on nothing is of interest.
+            most: states.
+
+        Returns:
+            Whether the states are no more than that.
+
+        Raises:
+            LimitReachedError: the deadline came.
+        """
+        number = self._numbers[op.action]
+        self._given.append(number)
+        return self._run(number, limit, most)
+
+    def leave(self, limit: int, most: int) -> list[Leaving] | None:
+        """What can be left behind by an epoch in which all are free, the least total first.
+
+        None: there are too many states.  What an earlier epoch could leave behind for less is not told
+        again.  Arguments as above.
+
+        Raises:
+            LimitReachedError: the deadline came.
+        """
+        if not self._run(_NONE, limit, most):
+            return None
+        kernel, epochs = self._kernel, self._epochs
+        count = kernel.epochs_leavings(epochs, None, None)
+        totals, paid = array("q", bytes(8 * count)), array("q", bytes(8 * count))
+        kernel.epochs_leavings(epochs, totals.buffer_info()[0], paid.buffer_info()[0])
+        return sorted(map(Leaving, totals, paid, range(count)))
+
+    def end(self, leaving: Leaving) -> int:
+        """The packed state that is left behind, in the fields that matter to what follows."""
+        row = ctypes.create_string_buffer(self._after.told.size)
+        self._kernel.epochs_left(self._epochs, leaving.number, row)
+        return int.from_bytes(row.raw, "little")
+
+    def ways(self, leaving: Leaving) -> list[list[Operator]]:
+        """What is done in each epoch for something that is left behind."""
+        room = (len(self._given) + 1) * (max(op.agents for op in self._operators).bit_length() + 2)
+        given, found = array("i", self._given or [0]), array("i", bytes(4 * room))
+        count = self._kernel.epochs_sets(
+            self._epochs, leaving.number, given.buffer_info()[0], found.buffer_info()[0]
+        )
+        sets = [
+            [self._operators[number] for number in numbers]
+            for is_end, numbers in groupby(found[: count - 1], lambda number: number == _NONE)
+            if not is_end
+        ]
+        return sets[::-1]
+
+    def _run(self, given: int, limit: int, most: int) -> bool:
+        kernel, epochs = self._kernel, self._epochs
+        if not kernel.epochs_turn(epochs, given):
+            raise LimitReachedError("memory-limit")
+        outcome = None
+        while outcome != FOUND and self.states <= most:
+            self._deadline.check()
+            self._after.prepare(self._deadline)
+            outcome = self._allowed(lambda room: kernel.epochs_slice(epochs, limit, SLICE, room))
+        return outcome == FOUND
+
+    def _allowed(self, call: Callable[[int], int]) -> int:
+        outcome = call(ROOM)
+        while outcome == MEMORY:
+            wanted = self._kernel.epochs_wanted(self._epochs)
+            self._deadline.require(wanted)
+            outcome = call(wanted)
+        return outcome
+
+
+def _human_last(task: Task, operators: Sequence[Operator]) -> list[int]:
+    """By operator its agents as bits, of which the human's is the last one."""
+    human, last = 1 << task.human, 1 << len(task.agents)
+    return [op.agents & ~human | (last if op.agents & human else 0) for op in operators]
+
+
+def conflicts(task: Task, operators: Sequence[Operator], *, strict: bool) -> npt.NDArray[np.bool_]:
+    """By pairs of operators whether they may not share an epoch (semantics 2), but for agents.
+
+    Args:
+        task: whose actions they are.
+        operators: the operators.
+        strict: strict interference.
+    """
+    actions = [task.actions[op.action] for op in operators]
+    adds, deletes = _rows(task, [a.add for a in actions]), _rows(task, [a.delete for a in actions])
+    found = _share(deletes, deletes) | (one_way := _share(deletes, adds)) | one_way.T
+    if strict:
+        falsify = _share(deletes, _rows(task, [a.pre for a in actions]))
+        falsify |= _share(adds, _rows(task, [a.neg for a in actions]))
+        found |= falsify | falsify.T
+    return found
+
+
+def _rows(task: Task, facts: Sequence[Collection[int]]) -> npt.NDArray[np.uint64]:
+    """Sets of facts as rows of bits."""
+    flags = np.zeros((len(facts), -(-len(task.facts) // 64) * 64), np.bool_)
+    for row, listed in enumerate(facts):
+        flags[row, list(listed)] = True
+    return np.packbits(flags, axis=1).view(np.uint64)
+
+
+def _share(rows: npt.NDArray[np.uint64], others: npt.NDArray[np.uint64]) -> npt.NDArray[np.bool_]:
+    """By pairs of rows whether they have a bit in common."""
+    found = np.zeros((len(rows), len(others)), np.bool_)
+    for column, other in zip(rows.T, others.T, strict=True):
+        found |= (column[:, None] & other[None, :]) != 0
+    return found
