@@ -73,7 +73,7 @@ def test_groups_hold_whatever_the_actions(
     names = tuple(f"f{i}" for i in range(8))
     task = Task("random", ("h",), 0, names, init, Condition(), tuple(actions))
     check(task, seed)
-    for variable in find_variables(8, init, actions):
+    for variable in find_variables(names, init, actions):
         if not variable.boolean:
             assert all(keeps_exactly_one(frozenset(variable.facts), action) for action in actions)
 
