@@ -64,9 +64,7 @@ def find_variables(
     balance = Balance(len(facts), init, actions, deadline)
     groups = grown_groups(balance, deadline)
     if _much_is_boolean(balance, groups):
-        others = groups_by_form(facts, balance, deadline)
-        others += grown_groups(balance, deadline, others)
-        groups = max(groups, others, key=_spared)  # the first where both spare as many
+        groups = max(groups, _by_form_first(facts, balance, deadline), key=_spared)  # the former in a tie
     grouped = set(chain.from_iterable(groups))
     singles = ((fact,) for fact in range(len(facts)) if fact not in grouped)
     return tuple(Variable(values) for values in sorted(chain(groups, singles)))
@@ -76,6 +74,12 @@ def _much_is_boolean(balance: Balance, groups: Sequence[Group]) -> bool:
     grouped = set(chain.from_iterable(groups))
     consumed = [fact for fact, actions in enumerate(balance.consumers) if actions]
     return sum(fact not in grouped for fact in consumed) > _MANY * len(consumed)
+
+
+def _by_form_first(facts: Sequence[str], balance: Balance, deadline: Deadline) -> list[Group]:
+    """Groups by form, and others among what is left; none where names have no form."""
+    found = groups_by_form(facts, balance, deadline)
+    return [*found, *grown_groups(balance, deadline, found)] if found else []
 
 
 def _spared(groups: Sequence[Group]) -> int:
