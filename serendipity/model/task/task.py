@@ -84,7 +84,7 @@ class Task:
         if not 0 <= self.human < len(self.agents):
             raise UsageError("a task needs exactly one human among its agents")
         if known_variables is None:
-            known_variables = find_variables(len(self.facts), self.init, self.actions)
+            known_variables = find_variables(self.facts, self.init, self.actions)
         object.__setattr__(self, "variables", known_variables)
 
     @property
@@ -208,7 +208,7 @@ class Task:
         if self.fits(state):
             variables = self.variables  # what would be found, or better
         else:
-            variables = find_variables(len(self.facts), state, self.actions, deadline)
+            variables = find_variables(self.facts, state, self.actions, deadline)
         return replace(self, init=state, known_variables=variables)
 
     def fits(self, state: frozenset[int]) -> bool:

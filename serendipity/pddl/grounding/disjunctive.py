@@ -69,7 +69,7 @@ def variables_behind(
         LimitReachedError: a limit came first.
     """
     work.stage(f"finding variables of {len(facts):,} facts")
-    return find_variables(len(facts), init, actions, work.deadline)
+    return find_variables(facts, init, actions, work.deadline)
 
 
 def _more(condition: Condition, literals: Sequence[Literal]) -> Condition:
