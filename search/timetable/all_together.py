@@ -21,7 +21,7 @@ from search.timetable.epochs import Epochs
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.task import HumanPlan
 
-_SHARE: Final = 0.75
+_SHARE: Final = 0.9
 """What of the time that is left it may take."""
 
 _MOST_ACTIONS: Final = 3_000
@@ -29,7 +29,7 @@ _MOST_ACTIONS: Final = 3_000
 
 _MOST_AGENTS: Final = 63
 
-_MOST_STATES: Final = 5_000_000
+_MOST_STATES: Final = 10_000_000
 
 _MOST_COST_BITS: Final = 24
 """Of an action, so that sums of many are no more than 64 bits with a number of actions."""
