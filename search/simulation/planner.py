@@ -76,7 +76,8 @@ def solve_for_human(
         if task.robot_goal:
             yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
         return
-    for answer in _Call(task, options, human, plan, epochs, deadline).answers():
+    call = _Call(task, options, human, plan, epochs, deadline, given=human_plan is not None)
+    for answer in call.answers():
         yield answer._replace(lower_bound=_not_below(least, answer.lower_bound))
 
 
@@ -113,12 +114,21 @@ class _Call:
     """
 
     def __init__(
-        self, task: Task, options: Options, human: Human, plan: HumanPlan, epochs: int, deadline: Deadline
+        self,
+        task: Task,
+        options: Options,
+        human: Human,
+        plan: HumanPlan,
+        epochs: int,
+        deadline: Deadline,
+        *,
+        given: bool,
     ) -> None:
         self.task = task
         self.options = options
         self.human = human
         self.plan = plan
+        self.given = given
         self.deadline = deadline
         self.epochs = epochs
         self.progress = Progress()
@@ -223,9 +233,9 @@ class _Call:
 
     def _saving_alone(self, baseline: Fraction | None) -> Fraction | None:
         """What the human gains alone; not compared where robots have goals."""
-        if baseline is None or not self.settled:
+        if baseline is None or (not self.settled and (self.given or self.task.robot_goal)):
             return None
-        if self.task.robot_goal or self.idle.key == INFINITE_KEY:
+        if not self.given or self.task.robot_goal or self.idle.key == INFINITE_KEY:
             return Fraction(0)
         return max(baseline - self.human.keys.cost(self.idle.key), Fraction(0))
 
