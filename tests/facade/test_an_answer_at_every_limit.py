@@ -9,6 +9,7 @@ import pytest
 
 import serendipity
 from search import PreparedTask, at_hand
+from search.human.individual_planner import IndividualPlanner
 from search.kernel.library import library
 from serendipity import LimitReachedError, Task
 from serendipity.cli.text.answers import plan_report
@@ -151,3 +152,14 @@ def test_a_plan_that_takes_too_many_epochs_is_no_answer(options: dict[str, Any])
     for result in _ended({**options, "horizon": len(best)}):
         assert serendipity.check(task, result).refuted is None
         assert result.horizon in (None, len(best))
+
+
+def test_nor_is_it_an_error_where_better_ones_are_out_of_reach(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error was that the horizon is too short."""
+
+    def late(self: IndividualPlanner, state: int) -> None:
+        raise LimitReachedError("time-limit")
+
+    monkeypatch.setattr(IndividualPlanner, "canonical", late)
+    result = serendipity.plan(_switches(), horizon=3)
+    assert result.status == "unknown" or len(result.human_plan or ()) <= 3
