@@ -124,12 +124,16 @@ class AtHand:
         )
 
     def _bound(self) -> None:
-        """What the team pays where epochs don't count, in tables that are not kept."""
+        """What the team pays where epochs don't count, in tables that are free on return.
+
+        Nothing may hold them in a circle: in a call nobody collects those.
+        """
         call = self._context
         with suppress(*LIMITS):
             context = SearchContext(call.prepared, call.options, call.deadline.part(_SOON))
-            key = context.team_bound(context.packed.init)
-            self.least = max(self.least, context.keys.objective(key))
+            if context.team is not None:
+                amount = context.team.planner.bound(context.packed.init, context.deadline)
+                self.least = max(self.least, context.keys.objective(context.amount_key(amount)))
 
 
 def _fits(options: Options, plan: HumanPlan) -> bool:

@@ -9,11 +9,13 @@ import pytest
 
 import serendipity
 from search import PreparedTask, at_hand
+from search.classical.planner import ClassicalPlanner
 from search.human.individual_planner import IndividualPlanner
 from search.kernel.library import library
 from serendipity import LimitReachedError, Task
 from serendipity.cli.text.answers import plan_report
 from serendipity.model import Deadline, Options, Result
+from serendipity.model.resources.collection import no_collection
 from serendipity.testing.builders import task as build
 from serendipity.testing.countdown import Countdown
 from serendipity.testing.generator.families import family_task
@@ -163,3 +165,35 @@ def test_nor_is_it_an_error_where_better_ones_are_out_of_reach(monkeypatch: pyte
     monkeypatch.setattr(IndividualPlanner, "canonical", late)
     result = serendipity.plan(_switches(), horizon=3)
     assert result.status == "unknown" or len(result.human_plan or ()) <= 3
+
+
+@pytest.mark.parametrize("options", ALL, ids=str)
+def test_what_was_told_on_the_way_is_not_taken_back(options: dict[str, Any]) -> None:
+    """In serendipity mode it was: the answer at hand, where a limit came before the human's optimum."""
+    told = True
+    for looks in range(1000, 0, -7):
+        before, told = told, False
+        limit = Countdown(looks)
+        try:
+            answers = list(serendipity.plan_anytime(_switches(), deadline=limit, max_ties=100_000, **options))
+        except LimitReachedError:
+            continue
+        told = answers[-1].cost is not None
+        assert told or all(answer.cost is None for answer in answers)
+        assert before or not told
+
+
+def test_the_bound_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its tables stayed for as long as the call."""
+    gone, free = [0], ClassicalPlanner.__del__
+
+    def freed(self: ClassicalPlanner) -> None:
+        gone[0] += 1
+        free(self)
+
+    known = at_hand(PreparedTask(_switches()), Options(), Deadline())
+    monkeypatch.setattr(ClassicalPlanner, "__del__", freed)
+    with no_collection():
+        *_, answer = known.answers(bounded=True)
+        assert answer.lower_bound
+        assert gone[0] == 1
