@@ -27,7 +27,7 @@ from serendipity.model.task.task import HumanPlan, Task
 
 _T = TypeVar("_T")
 
-_PLAN_SHARE: Final = 0.1
+_PLAN_SHARE: Final = 0.3
 """What of the time some plan of the prime's may take."""
 
 _BOUND_SHARE: Final = 0.04
