@@ -6,13 +6,15 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 
 from search.human.plan_graph import PlanGraph
 from search.planner import solve
-from search.prediction import optimal_human_plans
+from search.prediction import AtHand, at_hand, optimal_human_plans
 from search.prepared_task import PreparedTask, prepare
 from search.tie_bound import least_over_ties
 
 __all__ = [
+    "AtHand",
     "PlanGraph",
     "PreparedTask",
+    "at_hand",
     "least_over_ties",
     "optimal_human_plans",
     "prepare",

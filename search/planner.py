@@ -16,7 +16,7 @@ from search.heuristics.first_interaction import no_team_bound
 from search.joint_plans import JointPlans
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
-from search.prediction import Prediction, answers_at_once, expected_plan, individual_answers, plan_at_hand
+from search.prediction import AtHand, Prediction, expected_plan, individual_answers
 from search.prepared_task import PreparedTask
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
@@ -55,6 +55,7 @@ def solve(
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
     deadline = deadline or Deadline(options.time_limit)
+    at_hand: AtHand | None = None
     try:
         context = SearchContext(prepared, options, deadline)
         team = team_for(context)
@@ -64,14 +65,16 @@ def solve(
         if options.mode == "individual":
             yield from individual_answers(context, human_plan)
             return
-        yield from answers_at_once(context, at_hand := plan_at_hand(context, human_plan))
-        expected = expected_plan(context, human_plan, at_hand)
+        at_hand = AtHand(context, human_plan)
+        yield from at_hand.answers()
+        expected = expected_plan(context, human_plan, at_hand.plan)
         if expected is None and (options.mode == "serendipity" or options.keep_prefix):
             answers = iter((Answer("infeasible", reason="no-human-plan"),))
         else:
             answers = _Call(context, expected, given=human_plan is not None).answers()
     except LIMITS as limit:
-        answers = iter((Answer("unknown", reason=limit_reason(limit)),))
+        reason = limit_reason(limit)
+        answers = iter((Answer("unknown", reason=reason) if at_hand is None else at_hand.last(reason),))
     yield from answers
 
 
@@ -101,7 +104,7 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
         LimitReachedError: the deadline ran out.
     """
-    expected = expected_plan(context, human_plan, plan_at_hand(context, human_plan))
+    expected = expected_plan(context, human_plan, AtHand(context, human_plan).plan)
     if expected is None:
         return None
     call = _Call(context, expected, given=human_plan is not None)

@@ -1,6 +1,7 @@
 """``pi_H`` as it is predicted: the canonical optimal plan, or soon some plan where that takes too long."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from fractions import Fraction
 from typing import Final, NamedTuple
 
@@ -18,6 +19,9 @@ from serendipity.model.task.task import HumanPlan
 
 _SHARE: Final = 0.4
 """What of the time that is left the optimal plan may take, where other plans are at hand."""
+
+_SOON: Final = 0.1
+"""What of it a bound on all answers may take."""
 
 
 class Prediction(NamedTuple):
@@ -51,35 +55,105 @@ def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPla
     return None if optimal is None else optimal.actions
 
 
-def plan_at_hand(context: SearchContext, given: HumanPlan | None) -> HumanPlan | None:
-    """Some plan of the human's where an optimal one may take long and is asked for; None elsewhere.
+class AtHand:
+    """Doing nothing beside some plan of the human's that is at hand, where an optimal one may take long.
 
     Args:
         context: of the call.
         given: ``pi_H``, already replayed, or None to predict it.
 
+    Attributes:
+        plan: some plan of theirs; None where an optimal one is found soon, or ``pi_H`` is given.
+        least: what no answer costs less than, as far as that was asked for.
+
     Raises:
         LimitReachedError: the deadline came before any plan.
     """
-    if given is not None or not context.distances_say_little:
-        return None
-    return context.alone.first_plan(context.packed.init)
+
+    def __init__(self, context: SearchContext, given: HumanPlan | None) -> None:
+        self._context = context
+        self.plan: HumanPlan | None = None
+        self.least = Fraction(0)
+        if given is None and context.distances_say_little:
+            self.plan = context.alone.first_plan(context.packed.init)
+
+    def answers(self, *, bounded: bool = False) -> Iterator[Answer]:
+        """The answer, where nothing speaks against it.
+
+        Args:
+            bounded: give it once more with what all agents together pay at least, if that is found soon.
+        """
+        if self.plan is None:
+            return
+        answer = self.beside(self.plan, optimal=False)
+        if answer is None:
+            return
+        yield answer
+        if bounded:
+            self._bound()
+            if self.least:
+                yield answer._replace(lower_bound=self.least)
+
+    def last(self, limit: str) -> Answer:
+        """The answer at a limit, beside the best plan that was come across; ``unknown`` without one.
+
+        Args:
+            limit: the reason.
+        """
+        plans = () if self.plan is None else (_cheaper(self._context, self.plan).actions, self.plan)
+        for plan in plans:
+            answer = self.beside(plan, optimal=self._context.task.cost_of(plan) <= _least(self._context))
+            if answer is not None:
+                return answer
+        return Answer("unknown", reason=limit)
+
+    def beside(self, plan: HumanPlan, *, optimal: bool) -> Answer | None:
+        """Doing nothing beside a plan of the human's; None where robots have a goal, or ``T`` is too short.
+
+        Args:
+            plan: the plan.
+            optimal: whether none costs less, so that there is nothing that they could gain alone.
+        """
+        context = self._context
+        if context.task.robot_goal or not _fits(context.options, plan):
+            return None
+        return _some(context, FoundPlan(plan, 0, 0), proved=False)._replace(
+            horizon=horizon_of(context.task, context.options, plan),
+            lower_bound=self.least,
+            saving_alone=Fraction(0) if optimal else None,
+        )
+
+    def _bound(self) -> None:
+        """What the team pays where epochs don't count, in tables that are free on return.
+
+        Nothing may hold them in a circle: in a call nobody collects those.
+        """
+        call = self._context
+        with suppress(*LIMITS):
+            context = SearchContext(call.prepared, call.options, call.deadline.part(_SOON))
+            if context.team is not None:
+                amount = context.team.planner.bound(context.packed.init, context.deadline)
+                self.least = max(self.least, context.keys.objective(context.amount_key(amount)))
 
 
-def answers_at_once(context: SearchContext, at_hand: HumanPlan | None) -> Iterator[Answer]:
-    """Doing nothing beside a plan that is at hand, where nothing speaks against it; no bound is known yet.
+def _fits(options: Options, plan: HumanPlan) -> bool:
+    """Whether ``T`` is not too short for a plan."""
+    horizon = options.horizon
+    return horizon is None or horizon == INFINITE or len(plan) <= int(horizon)
+
+
+def at_hand(prepared: PreparedTask, options: Options, deadline: Deadline) -> AtHand:
+    """What is at hand where ``pi_H`` is to be predicted.
 
     Args:
-        context: of the call.
-        at_hand: what :func:`plan_at_hand` found.
+        prepared: the task.
+        options: of the call.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came before any plan.
     """
-    horizon = context.options.horizon
-    if at_hand is None or context.task.robot_goal:
-        return
-    if horizon is None or horizon == INFINITE or len(at_hand) <= int(horizon):
-        answer = _some(context, FoundPlan(at_hand, 0, 0), proved=False)
-        horizon = horizon_of(context.task, context.options, at_hand)
-        yield answer._replace(horizon=horizon, lower_bound=Fraction(0))
+    return AtHand(SearchContext(prepared, options, deadline), None)
 
 
 def expected_plan(
@@ -90,10 +164,10 @@ def expected_plan(
     Args:
         context: of the call.
         given: ``pi_H``, already replayed, or None to predict it.
-        at_hand: what :func:`plan_at_hand` found.
+        at_hand: some plan of theirs (:class:`AtHand`), or None.
 
     Raises:
-        LimitReachedError: the deadline came before any plan.
+        LimitReachedError: the deadline came before any plan that fits.
     """
     if given is not None:
         return Prediction(given, optimal=False)
@@ -104,7 +178,10 @@ def expected_plan(
         optimal = context.under(context.deadline.part(_SHARE)).canonical_plan()
     except LimitReachedError:
         context.deadline.check()
-        best = _cheaper(context, at_hand).actions
+        plans = _cheaper(context, at_hand).actions, at_hand
+        best = next((plan for plan in plans if _fits(context.options, plan)), None)
+        if best is None:
+            raise
         return Prediction(best, optimal=context.task.cost_of(best) <= _least(context))
     assert optimal is not None, "there is a plan"
     return Prediction(optimal.actions, optimal=True)
@@ -119,7 +196,7 @@ def individual_answers(context: SearchContext, human_plan: HumanPlan | None) -> 
     """
     known: Answer | None = None
     try:
-        first = plan_at_hand(context, human_plan) if human_plan is None else human_plan
+        first = AtHand(context, None).plan if human_plan is None else human_plan
         if first is not None:
             known = _some(context, FoundPlan(first, 0, 0), proved=False)
             yield known
@@ -162,8 +239,11 @@ def _some(context: SearchContext, found: FoundPlan, *, proved: bool) -> Answer:
 
 
 def _least(context: SearchContext) -> Fraction:
-    """No plan of the human's alone costs less."""
-    return context.keys.objective(context.alone.least(context.packed.init))
+    """No plan of the human's alone costs less; 0 where not even a bound fits into memory."""
+    try:
+        return context.keys.objective(context.alone.least(context.packed.init))
+    except LIMITS:
+        return Fraction(0)
 
 
 def _optimal(context: SearchContext, human_plan: HumanPlan | None) -> Answer:

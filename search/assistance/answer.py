@@ -1,6 +1,7 @@
 """From a task and options to the answer of mode ``assistance`` (semantics 7)."""
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 from typing import Final, TypeVar
@@ -14,6 +15,7 @@ from search.assistance.phase import PhaseDeadline
 from search.assistance.solvers.cheapest_run import CheapestRun
 from search.assistance.solvers.lao_star import LaoStar
 from search.assistance.writing import Writer
+from search.prediction import at_hand
 from search.prepared_task import PreparedTask
 from serendipity.model.answers.answer import Answer, PolicyBounds
 from serendipity.model.answers.policy import Policy
@@ -24,6 +26,9 @@ from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan, Task
 
 _T = TypeVar("_T")
+
+_PLAN_SHARE: Final = 0.3
+"""What of the time some plan of the prime's may take."""
 
 _BOUND_SHARE: Final = 0.04
 """What a first bound may add to the time limit: a share of it."""
@@ -44,12 +49,29 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
     except LIMITS as limit:
         yield _said(prepared.task, "unknown", PolicyBounds(ZERO, None), reason=limit_reason(limit))
         return
+    most = _most_alone(game)
+    if most < INFINITE:
+        yield _left_alone(game, ZERO, most)
     late = _limit_of(partial(game.alone, game.init))
     if late is not None:
-        yield from _without_his_optimum(game, late)
+        yield from _without_his_optimum(game, most, late)
         return
     own_deadline.lift()
     yield from _searched(game, options)
+
+
+def _most_alone(game: Game) -> int:
+    """What doing nothing is worth at most, by some plan of the prime's that is at hand; else ``INFINITE``."""
+    try:
+        plan = at_hand(game.prepared, Options(), game.deadline.part(_PLAN_SHARE)).plan
+    except LIMITS:
+        return INFINITE
+    return INFINITE if plan is None else game.value_alone(plan)
+
+
+def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
+    """Doing nothing, where all that is known of the prime's optimum is what it is worth at most."""
+    return _said(game.task, "feasible", PolicyBounds(lower, game.pair(upper)), policy=Policy((), None))
 
 
 def _limit_of(work: Callable[[], object]) -> str | None:
@@ -77,7 +99,7 @@ def _searched(game: Game, options: Options) -> Iterator[Answer]:
     yield _unfinished(game, writer, search, late)
 
 
-def _without_his_optimum(game: Game, limit: str) -> Iterator[Answer]:
+def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]:
     """Bounds where the prime's optimal cost could not be worked out in half of the time, or in memory."""
     if limit == "memory-limit":
         game.forget_own()
@@ -85,14 +107,13 @@ def _without_his_optimum(game: Game, limit: str) -> Iterator[Answer]:
     if lower is None:
         yield _no_plan(game)
         return
-    try:
-        upper = upper_bound_alone(game)
-    except LIMITS:
-        upper = INFINITE
+    if upper >= INFINITE:
+        with suppress(*LIMITS):
+            upper = upper_bound_alone(game)
     if upper >= INFINITE:
         yield _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
     else:
-        yield _said(game.task, "feasible", PolicyBounds(lower, game.pair(upper)), policy=Policy((), None))
+        yield _left_alone(game, lower, upper)
 
 
 def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Answer:

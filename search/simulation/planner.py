@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
+from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
-from search.prediction import canonical_human_plan
+from search.prediction import AtHand
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
 from search.simulation.space import Reactive, Start
@@ -46,19 +47,27 @@ def solve_for_human(
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
     task, deadline = prepared.task, deadline or Deadline(options.time_limit)
+    at_hand: AtHand | None = None
+    plan = human_plan
     try:
-        predicted = canonical_human_plan(prepared, deadline) if human_plan is None else None
+        if plan is None:
+            context = SearchContext(prepared, options, deadline)
+            at_hand = AtHand(context, None)
+            yield from at_hand.answers(bounded=True)
+            predicted = context.canonical_plan()
+            plan = None if predicted is None else predicted.actions
     except LIMITS as limit:
-        yield Answer("unknown", reason=limit_reason(limit))
+        reason = limit_reason(limit)
+        yield Answer("unknown", reason=reason) if at_hand is None else at_hand.last(reason)
         return
-    plan = human_plan if predicted is None else predicted
     if plan is None:
         yield Answer("infeasible", reason="no-human-plan")
         return
     epochs = int(horizon_of(task, options, plan))
+    least = Fraction(0) if at_hand is None else at_hand.least
     try:
         if not task.robot_goal:
-            yield _left_alone(task, plan, epochs, given=human_plan is not None)
+            yield _left_alone(task, plan, epochs, least, given=human_plan is not None)
         actions = human_plan or ()
         human = Human(
             prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
@@ -67,11 +76,18 @@ def solve_for_human(
         if task.robot_goal:
             yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
         return
-    yield from _Call(task, options, human, plan, epochs, deadline).answers()
+    call = _Call(task, options, human, plan, epochs, deadline, given=human_plan is not None)
+    for answer in call.answers():
+        yield answer._replace(lower_bound=_not_below(least, answer.lower_bound))
 
 
-def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Answer:
-    """The first answer: robots do nothing, and the human does what they were going to do.
+def _not_below(least: Fraction, bound: Fraction | None) -> Fraction | None:
+    """A lower bound that is no lower than an earlier one."""
+    return None if bound is None else max(least, bound)
+
+
+def _left_alone(task: Task, plan: HumanPlan, epochs: int, least: Fraction, *, given: bool) -> Answer:
+    """Robots do nothing, and the human does what they were going to do.
 
     What they gain alone is known only of an optimal plan.
     """
@@ -83,7 +99,7 @@ def _left_alone(task: Task, plan: HumanPlan, epochs: int, *, given: bool) -> Ans
         steps=plan_steps(plan),
         cost=cost,
         objective=cost,
-        lower_bound=Fraction(0),
+        lower_bound=least,
         baseline=cost,
         saving=Fraction(0),
         saving_alone=None if given else Fraction(0),
@@ -98,12 +114,21 @@ class _Call:
     """
 
     def __init__(
-        self, task: Task, options: Options, human: Human, plan: HumanPlan, epochs: int, deadline: Deadline
+        self,
+        task: Task,
+        options: Options,
+        human: Human,
+        plan: HumanPlan,
+        epochs: int,
+        deadline: Deadline,
+        *,
+        given: bool,
     ) -> None:
         self.task = task
         self.options = options
         self.human = human
         self.plan = plan
+        self.given = given
         self.deadline = deadline
         self.epochs = epochs
         self.progress = Progress()
@@ -208,9 +233,9 @@ class _Call:
 
     def _saving_alone(self, baseline: Fraction | None) -> Fraction | None:
         """What the human gains alone; not compared where robots have goals."""
-        if baseline is None or not self.settled:
+        if baseline is None or (not self.settled and (self.given or self.task.robot_goal)):
             return None
-        if self.task.robot_goal or self.idle.key == INFINITE_KEY:
+        if not self.given or self.task.robot_goal or self.idle.key == INFINITE_KEY:
             return Fraction(0)
         return max(baseline - self.human.keys.cost(self.idle.key), Fraction(0))
 

@@ -5,14 +5,19 @@ from fractions import Fraction
 from functools import partial
 from typing import Final
 
-from search import least_over_ties, optimal_human_plans
+from search import AtHand, PlanGraph, at_hand, least_over_ties, optimal_human_plans
 from serendipity.facade import one_plan
 from serendipity.facade.call import Call
-from serendipity.model.answers.answer import Answer
+from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
+from serendipity.model.resources.deadline import Deadline
 
 _A_FEW: Final = 4
 """Answers after which a bound on all of them costs less than it may save."""
+
+
+_SHARE: Final = 0.5
+"""What of the time that is left all optimal plans may take together, where some plan is at hand."""
 
 
 def answers(call: Call) -> Iterator[Answer]:
@@ -20,30 +25,66 @@ def answers(call: Call) -> Iterator[Answer]:
     if call.options.ties == "fixed":
         yield from one_plan.answers(call)
     else:
-        yield _over_ties(call)
+        yield from _over_ties(call)
 
 
-def _over_ties(call: Call) -> Answer:
-    """The task solved once for each optimal ``pi_H``, as long as that makes a difference.
+def _over_ties(call: Call) -> Iterator[Answer]:
+    """Doing nothing beside a plan that is at hand; then the task solved for each optimal ``pi_H``.
 
     Raises:
-        UsageError: there are more than ``max_ties``.
+        UsageError: there are more optimal plans than ``max_ties``.
     """
-    task, options = call.task, call.options
     try:
-        graph = optimal_human_plans(call.prepared, call.deadline)
+        known = at_hand(call.prepared, call.options, call.deadline)
     except LIMITS as limit:
-        return Answer("unknown", reason=limit_reason(limit), gap=())
-    if graph is None:
+        yield Answer("unknown", reason=limit_reason(limit), gap=())
+        return
+    for answer in known.answers(bounded=True):
+        yield _by_itself(call, answer)
+    late = call.deadline if known.plan is None else call.deadline.part(_SHARE)
+    graph, why = _all_plans(call, late)
+    if why is not None:
+        yield _by_itself(call, _beside_one(call, known, why))
+    elif graph is None:
         *_, answer = one_plan.answers(call)
-        return answer
+        yield answer
+    else:
+        yield _beside_all(call, known, graph)
+
+
+def _all_plans(call: Call, deadline: Deadline) -> tuple[PlanGraph | None, str | None]:
+    """The human's optimal plans, None where there are none, or why they are not known.
+
+    What the search held is free on return.
+    """
+    try:
+        return optimal_human_plans(call.prepared, deadline), None
+    except LIMITS as limit:
+        return None, limit_reason(limit)
+
+
+def _beside_one(call: Call, known: AtHand, limit: str) -> Answer:
+    """The answer beside one optimal plan, where not all are known and there is time; else doing nothing.
+
+    The mean over all plans is no more than doing nothing, but may be more than any one of the answers.
+    """
+    if call.options.ties != "expected" and call.deadline.reached() is None:
+        *_, answer = one_plan.answers(call)
+        if answer.status in ("optimal", "feasible") and answer.saving_alone is not None:
+            return answer._replace(status="feasible", lower_bound=known.least)
+    return known.last(limit)
+
+
+def _beside_all(call: Call, known: AtHand, graph: PlanGraph) -> Answer:
+    """The task solved once for each optimal ``pi_H``, as long as that makes a difference."""
+    options = call.options
     count = graph.count()
     if count > options.max_ties:
         raise UsageError(
             f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
             "raise max_ties, or use ties 'fixed'"
         )
-    bounded = not task.robot_goal
+    bounded = not call.task.robot_goal
     found = list(
         until_settled(
             map(partial(one_plan.last_answer, call), graph.plans()),
@@ -54,7 +95,20 @@ def _over_ties(call: Call) -> Answer:
     )
     everyone = len(found) == count
     answer = combined(found, options.ties, bounded=bounded, everyone=everyone, limit=call.deadline.reached())
+    if answer.status == "unknown":
+        idle = known.beside(found[0].human_plan or (), optimal=True)
+        answer = answer if idle is None else _by_itself(call, idle)
+    elif answer.status == "feasible":
+        answer = answer._replace(lower_bound=max(known.least, answer.lower_bound or Fraction(0)))
     return answer._replace(optimal_plans=count)
+
+
+def _by_itself(call: Call, answer: Answer) -> Answer:
+    """An answer over ties that is made of itself, since those to other plans are not known."""
+    if answer.gap is None:
+        now = Improvement(call.deadline.elapsed(), answer.objective, answer.lower_bound)
+        answer = answer._replace(gap=() if answer.cost is None else (now,))
+    return answer if answer.cost is None else answer._replace(ties=(answer,))
 
 
 def until_settled(

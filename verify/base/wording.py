@@ -229,6 +229,11 @@ def policy_values(value: str) -> str:
     return f"each value is what a round and the values after it make: {value}"
 
 
+def policy_at_most(value: str) -> str:
+    """What doing nothing is worth is no more than what was known when a limit came."""
+    return f"doing nothing is worth {value} at most"
+
+
 def together_pay(value: str) -> str:
     """A bound that needs no turns."""
     return f"both together pay at least {value}"

@@ -81,15 +81,22 @@ def _listed_fault(result: Result, each: EachPlan) -> str | None:
     """Whether something is wrong with one of the answers that the result lists."""
     for said in tied_answers(result):
         plan = each.graph.named(said.human_plan)
-        if plan is None:
+        if plan is None and not _is_at_hand(result):
             return wording.NOT_OPTIMAL_TIE
         if result.status != "optimal":
             continue
+        assert plan is not None, "such an answer is not proved to be the best"
         solved = each.beside(plan)
         right = (None if solved.cost is None else float(solved.cost), solved.opportunity)
         if (said.cost, said.opportunity) != right:
             return wording.tie_costs(said.human_plan, right[0])
     return None
+
+
+def _is_at_hand(result: Result) -> bool:
+    """Whether a limit came before any optimal plan was known: robots do nothing beside another one."""
+    unproved = result.status == "feasible" and result.saving_alone is None
+    return unproved and not result.opportunity and len(tied_answers(result)) == 1
 
 
 def _compared(result: Result, known: Counter[Solved], each: EachPlan) -> Verdict:

@@ -11,7 +11,14 @@ from verify.base.undecided import UNDECIDED, during, why
 from verify.policy.board import NOTHING, Board, Costs
 from verify.policy.closed import BrokenError, Walk
 from verify.policy.ending import ends
-from verify.policy.figures import figure_faults, header_faults, least_sum, stated_bounds
+from verify.policy.figures import (
+    answered,
+    figure_faults,
+    header_faults,
+    least_sum,
+    may_be_less,
+    stated_bounds,
+)
 from verify.policy.floors import Floors
 from verify.policy.reading import read_decisions, show
 from verify.policy.run import check_run
@@ -96,6 +103,7 @@ class _Checker:
                 value = Walk(board, listed, self._ties, no_block=self._no_block).value()
                 if self._result.plan is not None:
                     check_run(self._task, board, self._result)
+                value = answered(self._result, value)
                 fault = next(figure_faults(self._task, board, self._result, value), None)
         except ValueError as error:
             yield Claim("replay", "refuted", str(error))
@@ -110,7 +118,8 @@ class _Checker:
             yield Claim(fault[0], "refuted", fault[1])
             return
         yield Claim("replay", "proved", wording.FOLLOWED_BY_POLICY)
-        yield Claim("cost", "proved", wording.policy_values(show(value)))
+        worth = wording.policy_at_most if may_be_less(self._result) else wording.policy_values
+        yield Claim("cost", "proved", worth(show(value)))
         if self._result.status == "optimal":
             best = self._unless_replay_only("optimal") or self._optimal(board, value)
             yield best

@@ -61,6 +61,27 @@ def header_faults(result: Result) -> Iterator[Fault]:
         yield "replay", "infeasible: expected the reason 'no-plan', and no lower bound"
 
 
+def answered(result: Result, value: Costs) -> Costs:
+    """What the figures have to be: a policy's value, or no less where the human's optimum was unknown.
+
+    A limit may come before that is worked out.  Doing nothing is worth no more than any plan of theirs then.
+
+    Args:
+        result: the answer.
+        value: of its policy.
+    """
+    upper = stated_bounds(result).upper
+    if not may_be_less(result) or upper is None or upper[1] != value[1]:
+        return value
+    return max(upper, value)
+
+
+def may_be_less(result: Result) -> bool:
+    """Whether an answer does nothing, and was given before the human's optimum was known."""
+    idle = result.policy is not None and not result.policy.decisions
+    return idle and result.status == "feasible" and result.human_plan is None and result.plan is None
+
+
 def figure_faults(task: Task, board: Board, result: Result, value: Costs) -> Iterator[Fault]:
     """Whether every figure is what the policy's value and the human's own plan make it."""
     names = [task.agents[task.human], task.agents[task.robots[0]]]

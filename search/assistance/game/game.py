@@ -19,6 +19,7 @@ from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import HumanPlan
 
 INFINITE: Final = INFINITE_KEY
 """A run that never ends."""
@@ -55,6 +56,7 @@ class Game:
         assert len(task.robots) == 1, "the facade has checked that"
         if task.robot_goal:
             prepared = prepared.with_goal(task.goal, Condition())
+        self.prepared = prepared
         self.task = prepared.task
         self.deadline = deadline
         self._own_deadline = own_deadline or deadline
@@ -128,6 +130,10 @@ class Game:
         """
         key = self.own.key(state)
         return INFINITE if key >= INFINITE_KEY else self.own.cost_in(key) << self.unit_bits
+
+    def value_alone(self, plan: HumanPlan) -> int:
+        """The value of a plan of the prime's: what the supporter's doing nothing is worth at most."""
+        return sum(int(self.task.actions[i].cost * self.scale) for i in plan) << self.unit_bits
 
     def facts(self, state: int) -> frozenset[int]:
         """Ids of the relevant facts that are true in a packed state."""

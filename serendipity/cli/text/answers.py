@@ -139,7 +139,11 @@ def _columns(task: Task, result: Result) -> Grid:
 def _closing(result: Result) -> Iterator[str]:
     if result.saving_alone:
         yield f"{result.human} could save {plain(result.saving_alone)} alone: the given plan is not the best"
-    if result.ties:
+    elif _may_be_dear(result):
+        yield f"{result.human} may have a cheaper plan alone: this one is not proved to be the best"
+    if result.ties and result.optimal_plans is None:
+        yield f"no other plan of the human's was looked at ({result.options.ties})"
+    elif result.ties:
         helped = sum(tie.opportunity for tie in result.ties)
         many = f"{len(result.ties)} optimal plans of the human"
         yield f"{many}, an opportunity with {helped} ({result.options.ties})"
@@ -149,6 +153,12 @@ def _closing(result: Result) -> Iterator[str]:
     elapsed, expanded = result.figure("elapsed_seconds"), result.figure("expanded")
     if elapsed is not None:
         yield f"planned in {_seconds(elapsed)}" + (f", {expanded} nodes expanded" if expanded else "")
+
+
+def _may_be_dear(result: Result) -> bool:
+    """Whether it is not known what the human could save alone, though nobody's goals stand against that."""
+    compared = result.human_plan is not None and result.saving is not None and result.mode != "individual"
+    return compared and result.status == "feasible" and result.saving_alone is None
 
 
 def _verdict(certificate: Certificate) -> Line:

@@ -1,0 +1,199 @@
+"""From the first plan of the human's on there is an answer, whatever limit comes."""
+
+import json
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+import serendipity
+from search import PreparedTask, at_hand
+from search.classical.planner import ClassicalPlanner
+from search.human.individual_planner import IndividualPlanner
+from search.kernel.library import library
+from serendipity import LimitReachedError, Task
+from serendipity.cli.text.answers import plan_report
+from serendipity.model import Deadline, Options, Result
+from serendipity.model.resources.collection import no_collection
+from serendipity.testing.builders import task as build
+from serendipity.testing.countdown import Countdown
+from serendipity.testing.generator.families import family_task
+
+pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
+
+REPLANS: list[dict[str, Any]] = [{"human_model": "observant"}, {"human_model": "local"}]
+TIES: list[dict[str, Any]] = [
+    {"ties": "robust"},
+    {"ties": "optimistic"},
+    {"ties": "expected"},
+    {"ties": "robust", "mode": "communication", "communication_weight": 1},
+    {"ties": "robust", "human_model": "observant"},
+]
+SILENT: list[dict[str, Any]] = [{"mode": "assistance"}, {"mode": "assistance", "ties": "robust"}]
+ALL: list[dict[str, Any]] = [{}, {"preservation": "state"}, {"horizon": 9}, *REPLANS, *TIES, *SILENT]
+
+
+def _memory() -> Exception:
+    return LimitReachedError("memory-limit")
+
+
+def _switches() -> Task:
+    return family_task("switches", 4, 6)
+
+
+def _ended(options: dict[str, Any], *, once: bool = False) -> list[Result]:
+    """What comes of a call that ends at the first look, at the second one, and so on; the looks are sparse.
+
+    Args:
+        options: of the call.
+        once: it is memory, which is free again after that.
+    """
+    found, looks = list[Result](), 0
+    while True:
+        limit = Countdown(looks, _memory, once=True) if once else Countdown(looks)
+        try:
+            result = serendipity.plan(
+                replace(_switches()), deadline=limit, discount="0.5", max_ties=100_000, **options
+            )
+        except LimitReachedError:
+            pass  # there was no time even to pack the task
+        else:
+            found.append(result)
+        if not limit.ran_out:
+            return found
+        looks += 1 + looks // 40
+
+
+def _says(result: Result) -> tuple[Any, ...]:
+    return result.status, result.human_plan, result.cost, result.lower_bound, result.saving_alone
+
+
+def _is_at_hand(result: Result) -> bool:
+    """Whether robots do nothing, beside a plan that nobody has proved to be optimal."""
+    idle = result.status == "feasible" and not result.opportunity and result.cost is not None
+    return idle and result.saving_alone is None
+
+
+@pytest.mark.parametrize("options", ALL, ids=str)
+def test_an_answer_is_not_lost(options: dict[str, Any]) -> None:
+    """Where humans replan, ties count or help is silent there was none before their optimum was proved."""
+    found = _ended(options)
+    last = found[-1]
+    assert (found[0].status, last.status) == ("unknown", "optimal")
+    for early, later in pairwise(found):
+        assert early.status == "unknown" or later.status != "unknown"
+    for result in found:
+        if result.status != "unknown":
+            assert result.lower_bound is not None and last.objective is not None and result.cost is not None
+            assert result.lower_bound <= last.objective
+            assert (last.cost is not None and last.cost <= result.cost) or result.options.ties == "robust"
+
+
+@pytest.mark.parametrize("options", ALL, ids=str)
+def test_an_answer_is_not_lost_for_want_of_memory(options: dict[str, Any]) -> None:
+    """Memory may be free again after what asked for too much is given up."""
+    statuses = [result.status for result in _ended(options, once=True)]
+    answered = statuses.index(next(status for status in statuses if status != "unknown"))
+    assert "unknown" not in statuses[answered:]
+
+
+@pytest.mark.parametrize("options", ALL, ids=str)
+def test_such_an_answer_breaks_no_rule_and_is_not_refuted(options: dict[str, Any]) -> None:
+    different = {_says(result): result for once in (False, True) for result in _ended(options, once=once)}
+    for result in different.values():
+        assert serendipity.check(_switches(), result).refuted is None
+        assert serendipity.verify(_switches(), result, time_limit=5).refuted is None
+        assert serendipity.verify(_switches(), result, deadline=Countdown(200)).refuted is None
+        written = json.dumps(result.to_dict())
+        assert Result.from_dict(json.loads(written)).to_dict() == result.to_dict()
+
+
+@pytest.mark.parametrize("options", [*REPLANS, *TIES], ids=str)
+def test_bounds_never_fall_and_costs_never_rise(options: dict[str, Any]) -> None:
+    results = list(serendipity.plan_anytime(_switches(), discount="0.5", max_ties=100_000, **options))
+    assert _is_at_hand(results[0]) and _is_at_hand(results[1])
+    assert results[1].lower_bound  # what the team pays at least
+    for early, later in pairwise(results):
+        assert early.lower_bound is not None and later.lower_bound is not None
+        assert early.lower_bound <= later.lower_bound
+        assert early.cost is not None and later.cost is not None and later.cost <= early.cost
+
+
+def test_silent_help_begins_with_doing_nothing() -> None:
+    told: list[Result] = []
+    serendipity.plan(_switches(), mode="assistance", on_improvement=told.append)
+    assert told[0].status == "feasible"
+    assert told[0].policy is not None and not told[0].policy.decisions
+
+
+def test_people_are_told_that_the_plan_may_not_be_the_best() -> None:
+    """The text spoke of an optimal plan of theirs."""
+    for options in (REPLANS[0], TIES[0]):
+        result = next(serendipity.plan_anytime(_switches(), max_ties=100_000, **options))
+        text = plan_report(_switches(), result, serendipity.check(_switches(), result))
+        assert "may have a cheaper plan alone" in text
+        assert "optimal plans of the human" not in text
+
+
+def test_nothing_is_at_hand_where_robots_have_goals() -> None:
+    """Whether robots reach theirs beside such a plan is not known."""
+    task = build(goal="p", robot_goal="q", actions={"a h": "-> p", "b r": "-> q p"})
+    for options in ({"human_model": "observant"}, {"ties": "robust"}):
+        first, *_ = serendipity.plan_anytime(task, horizon=2, **options)
+        assert first.saving_alone is not None or first.status != "feasible"
+
+
+@pytest.mark.parametrize("options", [{}, {"mode": "communication"}, *REPLANS, *TIES], ids=str)
+def test_a_plan_that_takes_too_many_epochs_is_no_answer(options: dict[str, Any]) -> None:
+    """It was an error where a limit came: that the horizon is too short, which it is for that plan alone."""
+    task = _switches()
+    known = at_hand(PreparedTask(task), Options(), Deadline())
+    best = serendipity.plan(task, mode="individual").human_plan
+    assert known.plan is not None and best is not None and len(best) < len(known.plan)
+    for result in _ended({**options, "horizon": len(best)}):
+        assert serendipity.check(task, result).refuted is None
+        assert result.horizon in (None, len(best))
+
+
+def test_nor_is_it_an_error_where_better_ones_are_out_of_reach(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error was that the horizon is too short."""
+
+    def late(self: IndividualPlanner, state: int) -> None:
+        raise LimitReachedError("time-limit")
+
+    monkeypatch.setattr(IndividualPlanner, "canonical", late)
+    result = serendipity.plan(_switches(), horizon=3)
+    assert result.status == "unknown" or len(result.human_plan or ()) <= 3
+
+
+@pytest.mark.parametrize("options", ALL, ids=str)
+def test_what_was_told_on_the_way_is_not_taken_back(options: dict[str, Any]) -> None:
+    """In serendipity mode it was: the answer at hand, where a limit came before the human's optimum."""
+    told = True
+    for looks in range(1000, 0, -7):
+        before, told = told, False
+        limit = Countdown(looks)
+        try:
+            answers = list(serendipity.plan_anytime(_switches(), deadline=limit, max_ties=100_000, **options))
+        except LimitReachedError:
+            continue
+        told = answers[-1].cost is not None
+        assert told or all(answer.cost is None for answer in answers)
+        assert before or not told
+
+
+def test_the_bound_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its tables stayed for as long as the call."""
+    gone, free = [0], ClassicalPlanner.__del__
+
+    def freed(self: ClassicalPlanner) -> None:
+        gone[0] += 1
+        free(self)
+
+    known = at_hand(PreparedTask(_switches()), Options(), Deadline())
+    monkeypatch.setattr(ClassicalPlanner, "__del__", freed)
+    with no_collection():
+        *_, answer = known.answers(bounded=True)
+        assert answer.lower_bound
+        assert gone[0] == 1
