@@ -215,9 +215,10 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
             if (!go_on(s, entry.item)) return MEMORY;
             break;
         }
+        if (!landmarks_reserve(&s->evaluator.lm_cut.landmarks, &s->table)) return MEMORY;
         look_up(&s->evaluator, p, node, state);
         if (node->evaluated < N_TURNS && left_from(node) < INFINITE_COST && node->spent + left_from(node) == entry.key)
-            evaluate(&s->evaluator, p, s->relaxation, node, state);
+            evaluate(&s->evaluator, p, s->relaxation, &s->table, node, state);
         if (node->evaluated == N_TURNS && node->rest < INFINITE_COST && node->spent + left_from(node) == entry.key)
             evaluate_onward(&s->evaluator, p, s->relaxation, node, state);
         if (left_from(node) == INFINITE_COST || node->spent + left_from(node) != entry.key) {
@@ -247,7 +248,7 @@ static Cost glanced(const AStar *s, const Word *state) {
 /* Lower bound from a state; -1 where memory is missing.  A search that is under way goes on with what it says. */
 static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
     grant(&s->table, allowed);
-    if (!reserve(&s->table, 1)) return -1;
+    if (!reserve(&s->table, 1) || !landmarks_reserve(&s->evaluator.lm_cut.landmarks, &s->table)) return -1;
     int is_new;
     int32_t id = find(&s->table, asked, &is_new);
     Node *node = node_of(&s->table, id);
@@ -256,7 +257,7 @@ static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
     if (!node->evaluated && node->rest < INFINITE_COST) {
         int is_open = s->stamp && node->stamp == s->stamp && !node->closed;
         if (is_open && !heap_reserve(&s->open, 1, &s->table)) return -1;
-        evaluate(&s->evaluator, s->problem, s->relaxation, node, state);
+        evaluate(&s->evaluator, s->problem, s->relaxation, &s->table, node, state);
         if (is_open) open_node(s, id); /* its entry in the queue is no longer true */
     }
     return node->rest;

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include "cost_partitioning.h"
 #include "intended_effects.h"
+#include "landmarks.h"
 #include "lm_cut.h"
 #include "problem.h"
 #include "relaxation.h"
@@ -16,7 +17,8 @@
 #include "state_table.h"
 #include "values.h"
 
-enum { TRIALS = 500, SELDOM = 20 };
+/* The turn that begins without landmarks of the state before: what is handed down again and again says less. */
+enum { ANEW = N_PRIORITIES, TRIALS = 500, SELDOM = 20 };
 
 typedef struct {
     LmCut lm_cut;
@@ -73,16 +75,19 @@ static void look_onward(Evaluator *s, const Problem *p, const Relaxation *r, Nod
 }
 
 /* What the next turn of LM-cut says of a node. */
-static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, Node *node, const Word *state) {
+static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, const Table *t, Node *node, const Word *state) {
     int32_t turn = node->evaluated++;
     if (node->exact || turn >= N_TURNS || (turn && !pays(s, turn))) return;
     s->evaluated++, s->asked[turn]++;
-    Cost rest = lm_cut(&s->lm_cut, r, p, state, turn);
+    const int32_t *known = NULL;
+    if (turn != ANEW && node->parent != NONE) known = set_of(&s->lm_cut.landmarks, node_of(t, node->parent)->landmarks, turn);
+    Cost rest = lm_cut(&s->lm_cut, r, p, state, turn, known, node->op == NONE ? NONE : r->problem.class_of[node->op]);
     if (rest > node->rest) node->rest = rest, s->raised[turn]++;
     if (rest == INFINITE_COST) {
         node->exact = 1;
         return;
     }
+    node->landmarks = keep_set(&s->lm_cut.landmarks, &s->lm_cut.found, turn, node->landmarks);
     keep_rests(s, r, state, rest);
     look_onward(s, p, r, node, state, rest);
 }
@@ -91,7 +96,7 @@ static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, Node *node, 
 static void evaluate_onward(Evaluator *s, const Problem *p, Relaxation *r, Node *node, const Word *state) {
     if (node->onward || node->op == NONE || users_of(&s->intentions, p, &r->problem, node->op) < 0 || !pays(s, N_TURNS)) return;
     s->evaluated++, s->asked[N_TURNS]++;
-    look_onward(s, p, r, node, state, lm_cut(&s->lm_cut, r, p, state, 0));
+    look_onward(s, p, r, node, state, lm_cut(&s->lm_cut, r, p, state, 0, set_of(&s->lm_cut.landmarks, node->landmarks, 0), NONE));
     if (node->onward > node->rest) s->raised[N_TURNS]++;
 }
 

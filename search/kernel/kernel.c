@@ -13,6 +13,7 @@
      learning, evaluation, stubborn_sets   what A* learns of states; bounds of nodes; which operators it leaves out
      intended_effects                      operators that optimal plans need after others
      lm_cut, relaxed_plan                  bounds and first steps from the delete relaxation: LM-cut, FF
+     landmarks                             what LM-cut has found of states, for those after them
      cost_partitioning                     bounds from projections that add up
      relaxation, relaxed_problem           the problem without deletes, explored from a state
      fact_queue                            facts that wait meanwhile

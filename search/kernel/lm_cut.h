@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "landmarks.h"
 #include "lists.h"
 #include "problem.h"
 #include "relaxation.h"
@@ -25,6 +26,8 @@ typedef struct {
     uint32_t *op_mark; /* marks are of a round: in the goal zone, before it (+ 1), neither (+ 2) */
     int32_t *free_adder, *next_free; /* per fact the places in add.at of operators that cost nothing any more */
     Ints stack, cut;
+    Landmarks landmarks;
+    Ints found; /* the places of those of the state that was asked about last */
     const Cost *priority; /* breaks ties between facts, the greatest first; NULL: the one that was there */
     Cost *priorities;     /* the fewest operators that add it; of these most that ask for it, or the last */
 } LmCut;
@@ -49,7 +52,7 @@ static int lm_cut_new(LmCut *c, const RelaxedProblem *x) {
 
 static void lm_cut_free(LmCut *c) {
     free(c->explored), free(c->explored_cost), free(c->op_mark), free(c->free_adder), free(c->next_free);
-    free(c->stack.at), free(c->cut.at), free(c->priorities);
+    free(c->stack.at), free(c->cut.at), free(c->found.at), landmarks_free(&c->landmarks), free(c->priorities);
 }
 
 /* The dearest of some facts; of those the one that was it before, or that has the greatest priority. */
@@ -160,31 +163,63 @@ static Cost find_cut(LmCut *c, Relaxation *r, Cost least) {
     return cheapest;
 }
 
+/* A landmark takes what it costs of its operators' costs. */
+static void take(LmCut *c, Relaxation *r, const int32_t *ops, int32_t count, Cost cost) {
+    const Lists *add = &r->problem.add;
+    for (int32_t i = 0; i < count; i++) {
+        if (r->ops[ops[i]].cost -= cost) continue;
+        for (int32_t j = add->start[ops[i]]; j < add->start[ops[i] + 1]; j++)
+            c->next_free[j] = c->free_adder[add->at[j]], c->free_adder[add->at[j]] = j;
+    }
+}
+
+/* The landmarks of a set that an operator is not in; what they cost. */
+static Cost take_known(LmCut *c, Relaxation *r, const int32_t *set, int32_t without) {
+    Cost total = 0;
+    for (const int32_t *place = set + SET, *end = place + set[0]; place < end; place++) {
+        const int32_t *landmark = c->landmarks.pool.at + *place, *ops = landmark + LANDMARK;
+        int32_t count = landmark[3], i = 0;
+        while (i < count && ops[i] != without) i++;
+        if (i < count) continue;
+        take(c, r, ops, count, cost_of(landmark));
+        ints_push(&c->found, *place);
+        total += cost_of(landmark);
+    }
+    return total;
+}
+
 /* The LM-cut value of a state of the table, which is known by its address; operators keep what it has not taken of
-   their costs.  Ties are broken in one way per turn. */
-static Cost lm_cut(LmCut *c, Relaxation *r, const Problem *p, const Word *state, int32_t turn) {
+   their costs.  Ties are broken in one way per turn.  It begins with the landmarks of a set that an operator, which
+   has led to the state, is not in, if there is one. */
+static Cost lm_cut(LmCut *c, Relaxation *r, const Problem *p, const Word *state, int32_t turn, const int32_t *set, int32_t without) {
     const RelaxedProblem *x = &r->problem;
     size_t ops = (size_t)x->n_ops, facts = (size_t)x->n_facts;
     c->priority = turn < N_PRIORITIES ? c->priorities + (size_t)turn * (facts + 1) : NULL;
-    if (c->explored_from != state) {
-        c->explored_from = state, c->solvable = explore(r, p, state);
+    c->found.count = 0;
+    memset(c->free_adder, 0xFF, facts * sizeof *c->free_adder);
+    Cost total = 0;
+    if (set) {
+        start_from(r, p, state);
+        total = take_known(c, r, set, without);
+        if (!explore(r)) return INFINITE_COST;
+    } else if (c->explored_from != state) {
+        start_from(r, p, state);
+        c->explored_from = state, c->solvable = explore(r);
         memcpy(c->explored, r->ops, ops * sizeof *r->ops);
         memcpy(c->explored_cost, r->cost, facts * sizeof *r->cost);
     } else {
         memcpy(r->ops, c->explored, ops * sizeof *r->ops);
         memcpy(r->cost, c->explored_cost, facts * sizeof *r->cost);
     }
-    if (!c->solvable) return INFINITE_COST;
+    if (!set && !c->solvable) return INFINITE_COST;
     if (!x->goal.count) return 0;
     if (c->priority)
         for (size_t o = 0; o < ops; o++)
             if (!r->ops[o].unsatisfied && r->ops[o].supporter != NONE) r->ops[o].supporter = dearest_asked(c, r, (int32_t)o);
-    memset(c->free_adder, 0xFF, facts * sizeof *c->free_adder);
     if (r->round > UINT32_MAX / 2) {
         r->round = 0;
         memset(r->mark, 0, facts * sizeof *r->mark), memset(c->op_mark, 0, ops * sizeof *c->op_mark);
     }
-    Cost total = 0;
     int32_t goal = x->goal.at[0];
     for (;;) {
         goal = dearest(c, r, x->goal.at, (int32_t)x->goal.count, goal);
@@ -193,12 +228,9 @@ static Cost lm_cut(LmCut *c, Relaxation *r, const Problem *p, const Word *state,
         mark_zone(c, r, goal);
         Cost least = find_cut(c, r, most);
         total += least;
-        for (size_t i = 0; i < c->cut.count; i++) {
-            int32_t op = c->cut.at[i];
-            if (r->ops[op].cost -= least) continue;
-            for (int32_t j = x->add.start[op]; j < x->add.start[op + 1]; j++)
-                c->next_free[j] = c->free_adder[x->add.at[j]], c->free_adder[x->add.at[j]] = j;
-        }
+        int32_t place = place_of(&c->landmarks, c->cut.at, (int32_t)c->cut.count, least);
+        if (place != NONE) ints_push(&c->found, place);
+        take(c, r, c->cut.at, (int32_t)c->cut.count, least);
         explore_again(c, r);
     }
 }

@@ -96,10 +96,9 @@ static void start_from(Relaxation *r, const Problem *p, const Word *state) {
     for (size_t i = 0; i < r->initial.count; i++) reach(r, r->initial.at[i], 0);
 }
 
-/* h_max from a state, with the fact that supports each operator; whether the goal is reached. */
-static int explore(Relaxation *r, const Problem *p, const Word *state) {
+/* h_max from where it was started, with the fact that supports each operator; whether the goal is reached. */
+static int explore(Relaxation *r) {
     const RelaxedProblem *x = &r->problem;
-    start_from(r, p, state);
     for (size_t i = 0; i < x->always.count; i++) add_facts(r, &r->ops[x->always.at[i]], r->ops[x->always.at[i]].cost);
     RelaxedOp *ops = r->ops;
     while (r->queue.count) {

@@ -17,6 +17,7 @@ enum { SEVERAL = -1, CHUNK_BITS = 12, CHUNK = 1 << CHUNK_BITS };
 typedef struct {
     Cost spent, rest; /* spent in the search `stamp`; rest: no plan from here is cheaper */
     Cost onward;      /* no optimal plan that comes by `op` is cheaper from here; 0: not known; SEVERAL: of more than one */
+    int64_t landmarks; /* where its last set is, or NONE, see landmarks.h */
     int32_t parent, op;
     uint32_t stamp;
     uint8_t exact, evaluated, projected, closed;
@@ -136,7 +137,7 @@ static int32_t find(Table *t, const Word *state, int *is_new) {
     int32_t id = t->count++;
     t->slots[i] = id;
     memcpy(state_of(t, id), state, (size_t)t->words * sizeof *state);
-    *node_of(t, id) = (Node){.parent = NONE, .op = NONE};
+    *node_of(t, id) = (Node){.landmarks = NONE, .parent = NONE, .op = NONE};
     *is_new = 1;
     return id;
 }

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from ctypes import CDLL
 from functools import partial
 from random import Random
 
@@ -13,7 +14,8 @@ from search.classical import planner as planner_module
 from search.classical.planner import ClassicalPlanner
 from search.classical.problem import NO_PLAN
 from search.human.own_problem import own_planner
-from search.kernel.library import library
+from search.kernel.build import compile_kernel, compiler
+from search.kernel.library import BINARY, SOURCE, library, load
 from search.packed.cost_vector import INFINITE_KEY, own_weights
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
@@ -205,6 +207,30 @@ def test_what_was_allocated_is_kept_while_more_is_asked_for() -> None:
     assert found is not None
     assert assert_leads_to_goal(packed, packed.init, found) >= cost
     assert planner.first_plan(packed.init, Refusing(0)) == found
+
+
+@pytest.fixture(scope="module")
+def forgetful(tmp_path_factory: pytest.TempPathFactory) -> CDLL:
+    """A kernel that has room for few landmarks only."""
+    command, binary = compiler(), tmp_path_factory.mktemp("kernel") / BINARY.name
+    if command is None:
+        pytest.skip("there is no compiler here")
+    compile_kernel([*command, *LITTLE], binary)
+    kernel = load(binary, SOURCE)
+    assert kernel is not None
+    return kernel
+
+
+LITTLE = ("-DLONGEST=256", "-DMOST_LANDMARKS=2048", "-DMOST_SETS=65536")
+
+
+@pytest.mark.parametrize(("seed", "blocks"), [(4, 8), (2, 9), (4, 10)])
+def test_landmarks_that_were_forgotten_are_not_used(forgetful: CDLL, seed: int, blocks: int) -> None:
+    packed = packed_of(family_task("blocks", seed, blocks))
+    planner = planner_of(packed)
+    assert ClassicalPlanner(forgetful, planner.problem, Deadline()).cheapest(
+        packed.init, Deadline()
+    ) == planner.cheapest(packed.init, Deadline())
 
 
 @given(task=tasks())
