@@ -176,7 +176,7 @@ static int take_state(Epochs *e, const Word *state, Cost paid) {
 }
 
 /* What a set makes of the state under the cursor; 0: no need to go on. */
-static int take(Epochs *e, const Word *state, int32_t depth, Cost paid) {
+static int come_to(Epochs *e, const Word *state, int32_t depth, Cost paid) {
     int32_t words = e->problem.words;
     Word *made = e->row;
     const Word *kept = e->kept + (size_t)depth * words, *put = e->made + (size_t)depth * words;
@@ -228,7 +228,7 @@ static int can_follow(const Epochs *e, int32_t op, const Word *state, int32_t de
 
 /* All sets with more operators of agents from one on; 0: no need to go on. */
 static int go_through(Epochs *e, const Word *state, int32_t agent, uint64_t busy, int32_t depth, Cost paid) {
-    if (!take(e, state, depth, paid)) return 0;
+    if (!come_to(e, state, depth, paid)) return 0;
     const int in_vain = e->is_end && !e->target && e->hopeless;
     for (; agent < MOST_AGENTS && e->next_agent[agent] < e->sorted.count; agent++) {
         if (busy >> agent & 1) continue;
