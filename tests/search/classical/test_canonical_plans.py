@@ -87,7 +87,7 @@ class Ends(Deadline):
 
 
 def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("search.classical.planner._SLICE", 0)
+    monkeypatch.setattr("search.classical.planner.SLICE", 0)
     packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
     planner, cost = planner_of(packed), amounts(packed)[packed.init]
     kept = []

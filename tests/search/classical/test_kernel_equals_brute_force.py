@@ -111,7 +111,7 @@ def interrupted(packed: PackedTask, limit: int, asked: Callable[[], list[int]]) 
     """The cheapest amount in as many parts as there may be; bounds of states are asked for in between."""
     planner, found = planner_of(packed), None
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(planner_module, "_SLICE", 1e-6)
+        patch.setattr(planner_module, "SLICE", 1e-6)
         with suppress(LimitReachedError):
             found = planner.cheapest(packed.init, Impatient(), limit)
         while found is None:
@@ -184,7 +184,7 @@ class Refusing(Deadline):
 @pytest.fixture
 def frugal(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Memory is asked for before anything is allocated."""
-    monkeypatch.setattr(planner_module, "_ROOM", 0)
+    monkeypatch.setattr(planner_module, "ROOM", 0)
     return
 
 
