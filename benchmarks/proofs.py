@@ -27,6 +27,7 @@ from time import perf_counter
 from typing import Any, Final
 
 import serendipity
+from benchmarks.alone import may_alone
 from serendipity import Result, Task
 from serendipity.evaluation.benchmark.coverage import MODES, Problem, Roles, problems
 from serendipity.evaluation.benchmark.coverage.suite import roles
@@ -147,18 +148,7 @@ def _all_asked(arguments: argparse.Namespace) -> Iterator[Asked]:
 
 
 def _roles(problem: Problem) -> Roles:
-    return roles(problem, 2, _may_alone)
-
-
-def _may_alone(problem: Problem, who: Roles) -> bool:
-    """Whether the human alone may reach the goal, if nothing is ever deleted."""
-    task = serendipity.load_pddl(problem.domain_file, problem.problem_file, who.human, who.robots)
-    known = set(task.init)
-    waiting = [task.actions[i] for i in task.human_actions]
-    while ready := [action for action in waiting if known.issuperset(action.pre)]:
-        waiting = [action for action in waiting if not known.issuperset(action.pre)]
-        known.update(*(action.add for action in ready))
-    return known.issuperset(task.goal.positive)
+    return roles(problem, 2, may_alone)
 
 
 def _measured(asked: Asked, arguments: argparse.Namespace) -> Row:

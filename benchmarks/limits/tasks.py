@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Final, TypeVar
 
 import serendipity
+from benchmarks.alone import may_alone
 from serendipity import Task
 from serendipity.evaluation.benchmark.coverage import Problem, Roles, problems
 from serendipity.evaluation.benchmark.coverage.suite import roles
@@ -90,7 +91,7 @@ def tasks_of_suite(folder: Path, stride: int) -> Iterator[Named]:
 def _tasks_of_suite(folder: Path, stride: int) -> list[Named]:
     found = []
     for problem in problems(folder, stride=stride):
-        who = roles(problem, _ROBOTS, _may_alone)
+        who = roles(problem, _ROBOTS, may_alone)
         files = f"{problem.domain_file} {problem.problem_file} --human {who.human}"
         words = {
             "task": files + "".join(f" --robot {robot}" for robot in who.robots),
@@ -98,17 +99,6 @@ def _tasks_of_suite(folder: Path, stride: int) -> list[Named]:
         }
         found.append(Named(f"{problem.domain} {problem.name}", words, len(_read(problem, who).actions)))
     return found
-
-
-def _may_alone(problem: Problem, who: Roles) -> bool:
-    """Whether the human alone may reach the goal, if nothing is ever deleted."""
-    task = _read(problem, who)
-    known = set(task.init)
-    waiting = [task.actions[i] for i in task.human_actions]
-    while ready := [action for action in waiting if known.issuperset(action.pre)]:
-        waiting = [action for action in waiting if not known.issuperset(action.pre)]
-        known.update(*(action.add for action in ready))
-    return known.issuperset(task.goal.positive)
 
 
 def _read(problem: Problem, who: Roles) -> Task:

@@ -1,4 +1,4 @@
-"""One call asked of brute force and of the planner."""
+"""A call asked of brute force and of the planner."""
 
 import serendipity
 from serendipity import Result, UsageError
@@ -14,3 +14,12 @@ def exact_and_planned(call: Call) -> tuple[Optimum, Result] | None:
     except UsageError:
         return None
     return optimum, serendipity.plan(call.task, human_plan=call.human_plan_names, **call.keywords())
+
+
+def same_cost(call: Call) -> None:
+    """Assert that status and cost are those of brute force, where that answers the call."""
+    both = exact_and_planned(call)
+    if both is not None:
+        optimum, answer = both
+        expected = None if optimum.cost is None else float(optimum.cost)
+        assert (answer.status, answer.cost) == (optimum.status, expected)

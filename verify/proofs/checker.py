@@ -131,7 +131,7 @@ def _leaves(program: Program) -> Iterator[tuple[list[Any], Bounds]]:
 
 def _holds(program: Program, leaf: list[Any], bounds: Bounds, each: Callable[..., Any]) -> bool:
     """Whether the weighted sum of rows is out of reach within the bounds."""
-    weights = [_weight(program, each) for each in leaf]
+    weights = [_weight(program, one) for one in leaf]
     scale = 1
     for _, _, denominator in weights:
         scale = lcm(scale, denominator)
