@@ -32,7 +32,7 @@ _SHARE: Final = 0.25
 _MOST_STATES: Final = 10_000
 _MOST_TRANSITIONS: Final = 3_000_000
 _MOST_ORDERS: Final = 10
-_SAMPLES: Final = 50
+_SAMPLES: Final = 8
 
 _NONE: Final = -1
 """No operator."""
