@@ -20,7 +20,6 @@ from search.prediction import AtHand, Prediction, expected_plan, individual_answ
 from search.prepared_task import PreparedTask
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.timetable.all_together import all_together
 from serendipity.model.answers.answer import Answer, saved
 from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.options import INFINITE, Options
@@ -220,6 +219,8 @@ class _Call:
             yield from best_first(few, best, progress, context.deadline, self._ties())
             return True
         self.deadline.check()
+        from search.timetable.all_together import all_together  # only here: most calls come by without
+
         for every_window in (one_by_one, all_together):
             yield from every_window(self.context, self.plan, int(self.horizon), best, progress, longer)
             if self._is_settled():

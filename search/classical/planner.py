@@ -37,7 +37,7 @@ _SAMPLES: Final = 8
 _NONE: Final = -1
 """No operator."""
 
-_RUNNING, FOUND, _NOT_BELOW, _HOPELESS, MEMORY = range(5)
+RUNNING, FOUND, _NOT_BELOW, _HOPELESS, MEMORY = range(5)
 
 
 _SIGNATURES: Final = {
@@ -151,7 +151,7 @@ class ClassicalPlanner:
         """
         kernel, planner = self._kernel, self._planner
         assert self._is_open, "it was interrupted"
-        while self._allowed(lambda room: kernel.planner_run(planner, SLICE, room), deadline) == _RUNNING:
+        while self._allowed(lambda room: kernel.planner_run(planner, SLICE, room), deadline) == RUNNING:
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
@@ -190,8 +190,8 @@ class ClassicalPlanner:
         """
         kernel, planner, row = self._kernel, self._planner, self.told.row(state)
         self._allowed(lambda room: kernel.planner_begin_greedy(planner, row, room), deadline)
-        outcome = _RUNNING
-        while outcome == _RUNNING:
+        outcome = RUNNING
+        while outcome == RUNNING:
             deadline.check()
             outcome = self._allowed(lambda room: kernel.planner_run_greedy(planner, SLICE, room), deadline)
         if outcome != FOUND:

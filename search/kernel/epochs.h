@@ -17,7 +17,13 @@
 #include "successor_generator.h"
 #include "values.h"
 
-enum { MOST_AGENTS = 64, COST_SHIFT = 24 }; /* a cost is above so many bits of a number of actions */
+enum {
+    MOST_AGENTS = 64,
+    COST_SHIFT = 24,    /* a cost is above so many bits of a number of actions */
+    MOST_WAYS = 200000, /* sets from a state */
+};
+
+#define A_WHILE 0.008 /* seconds of new bounds from one state, at least, before the clock ends it */
 
 /* Something that can be left behind. */
 typedef struct {
@@ -46,6 +52,9 @@ typedef struct {
     const Word *target;  /* the state that it leads to */
     int32_t found;       /* how many operators are in it */
     int is_end, hopeless; /* whether nothing is given; see take_end */
+    int32_t sets;        /* of the state under the cursor so far */
+    int outcome, is_fresh; /* why a slice ends; whether there was no new bound in it yet */
+    double until;        /* when it ends */
     uint64_t last;       /* the agent to whom what follows is left: the last one, as a bit */
 } Epochs;
 
@@ -105,7 +114,16 @@ static int add_layer(Epochs *e) {
 }
 
 static int lacks(Epochs *e, const Table *t) {
-    e->wanted = t->wanted;
+    e->wanted = t->wanted, e->outcome = MEMORY;
+    return 0;
+}
+
+/* Whether there is time for one more bound: what was bounded before is passed quickly when a state is gone through again. */
+static int has_time(Epochs *e) {
+    double time = now();
+    if (e->is_fresh) e->is_fresh = 0, e->until = e->until > time + A_WHILE ? e->until : time + A_WHILE;
+    if (time < e->until) return 1;
+    e->outcome = RUNNING;
     return 0;
 }
 
@@ -156,6 +174,7 @@ static int take_end(Epochs *e, const Word *state, Cost paid) {
     }
     if (is_new) node->spent = INFINITE_COST, node->rest = weighed(e, glanced(e->after, e->row));
     if (!node->evaluated && !too_dear(e, paid, node->rest)) {
+        if (!has_time(e)) return 0;
         Cost rest = a_star_bound(e->after, e->row, t->allowed);
         if (rest < 0) return t->wanted = e->after->table.wanted, 0;
         node->rest = weighed(e, rest), node->evaluated = 1;
@@ -189,8 +208,9 @@ static int come_to(Epochs *e, const Word *state, int32_t depth, Cost paid) {
         e->found = depth;
         return 0;
     }
+    if (++e->sets > MOST_WAYS) return e->outcome = HOPELESS, 0;
     if (e->is_end ? take_end(e, made, paid) : take_state(e, made, paid)) return 1;
-    return lacks(e, e->is_end ? &e->ends : &e->layers[e->n_layers - 1]);
+    return e->outcome == RUNNING ? 0 : lacks(e, e->is_end ? &e->ends : &e->layers[e->n_layers - 1]);
 }
 
 static void choose(Epochs *e, int32_t op, int32_t depth) {
@@ -281,15 +301,17 @@ static int epochs_next(Epochs *e, int32_t given) {
     return e->is_end || add_layer(e);
 }
 
-/* A slice of it: what can be left behind if nothing is given, else the next layer.  What is not below the limit is left out. */
+/* A slice of it: what can be left behind if nothing is given, else the next layer.  What is not below the limit is left out.
+   HOPELESS: a state has too many sets. */
 static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
     double end = now() + seconds;
-    e->target = NULL, e->limit = limit;
+    e->target = NULL, e->limit = limit, e->until = end, e->is_fresh = 1;
     const Table *from = &e->layers[e->n_layers - (e->is_end ? 1 : 2)];
     grant(e->is_end ? &e->ends : &e->layers[e->n_layers - 1], allowed);
     for (; e->cursor < from->count; e->cursor++) {
         if (now() >= end) return RUNNING;
-        if (!from_state(e, state_of(from, e->cursor), node_of(from, e->cursor)->spent, e->given)) return MEMORY;
+        e->sets = 0, e->outcome = FOUND;
+        if (!from_state(e, state_of(from, e->cursor), node_of(from, e->cursor)->spent, e->given)) return e->outcome;
     }
     return FOUND;
 }

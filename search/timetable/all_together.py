@@ -24,7 +24,7 @@ from serendipity.model.task.task import HumanPlan
 _SHARE: Final = 0.9
 """What of the time that is left it may take."""
 
-_MOST_ACTIONS: Final = 3_000
+_MOST_ACTIONS: Final = 2_000
 """Every pair of them is told apart."""
 
 _MOST_AGENTS: Final = 63

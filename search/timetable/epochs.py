@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from search.classical.planner import FOUND, MEMORY, ROOM, SLICE, ClassicalPlanner
+from search.classical.planner import FOUND, MEMORY, ROOM, RUNNING, SLICE, ClassicalPlanner
 from search.classical.problem import ClassicalProblem
 from search.classical.told import Told, memory_for
 from search.packed.operators import Operator
@@ -20,6 +20,9 @@ from serendipity.model.task.task import Task
 
 _NONE: Final = -1
 """No operator."""
+
+_PER_PAIR: Final = 20
+"""Bytes for a pair of operators while they are compared."""
 
 _SIGNATURES: Final = {
     "epochs_new": (c_void_p, [c_void_p, c_void_p, c_char_p, c_void_p, c_char_p, c_char_p, c_int64]),
@@ -87,9 +90,9 @@ class Epochs:
         self._numbers = {op.action: number for number, op in enumerate(problem.operators)}
         self._operators = problem.operators
         self._given: list[int] = []
-        deadline.require(memory_for(problem) + len(problem.operators) ** 2)
+        deadline.require(memory_for(problem) + _PER_PAIR * len(problem.operators) ** 2)
         told, agents = Told(problem), array("Q", _human_last(task, problem.operators))
-        apart = conflicts(task, problem.operators, strict=strict).tobytes()
+        apart = conflicts(task, problem.operators, deadline, strict=strict).tobytes()
         planner, mask = after.handle, after.told.row(after.problem.mask)
         self._epochs = library.epochs_new(
             ctypes.byref(told.spec), agents.buffer_info()[0], apart, planner, mask, lost, unit
@@ -166,8 +169,8 @@ class Epochs:
         kernel, epochs = self._kernel, self._epochs
         if not kernel.epochs_turn(epochs, given):
             raise LimitReachedError("memory-limit")
-        outcome = None
-        while outcome != FOUND and self.states <= most:
+        outcome = RUNNING
+        while outcome == RUNNING and self.states <= most:
             self._deadline.check()
             self._after.prepare(self._deadline)
             outcome = self._allowed(lambda room: kernel.epochs_slice(epochs, limit, SLICE, room))
@@ -188,20 +191,23 @@ def _human_last(task: Task, operators: Sequence[Operator]) -> list[int]:
     return [op.agents & ~human | (last if op.agents & human else 0) for op in operators]
 
 
-def conflicts(task: Task, operators: Sequence[Operator], *, strict: bool) -> npt.NDArray[np.bool_]:
+def conflicts(
+    task: Task, operators: Sequence[Operator], deadline: Deadline, *, strict: bool
+) -> npt.NDArray[np.bool_]:
     """By pairs of operators whether they may not share an epoch (semantics 2), but for agents.
 
     Args:
         task: whose actions they are.
         operators: the operators.
+        deadline: polled.
         strict: strict interference.
     """
     actions = [task.actions[op.action] for op in operators]
     adds, deletes = _rows(task, [a.add for a in actions]), _rows(task, [a.delete for a in actions])
-    found = _share(deletes, deletes) | (one_way := _share(deletes, adds)) | one_way.T
+    found = _share(deletes, deletes, deadline) | (one_way := _share(deletes, adds, deadline)) | one_way.T
     if strict:
-        falsify = _share(deletes, _rows(task, [a.pre for a in actions]))
-        falsify |= _share(adds, _rows(task, [a.neg for a in actions]))
+        falsify = _share(deletes, _rows(task, [a.pre for a in actions]), deadline)
+        falsify |= _share(adds, _rows(task, [a.neg for a in actions]), deadline)
         found |= falsify | falsify.T
     return found
 
@@ -214,9 +220,12 @@ def _rows(task: Task, facts: Sequence[Collection[int]]) -> npt.NDArray[np.uint64
     return np.packbits(flags, axis=1).view(np.uint64)
 
 
-def _share(rows: npt.NDArray[np.uint64], others: npt.NDArray[np.uint64]) -> npt.NDArray[np.bool_]:
+def _share(
+    rows: npt.NDArray[np.uint64], others: npt.NDArray[np.uint64], deadline: Deadline
+) -> npt.NDArray[np.bool_]:
     """By pairs of rows whether they have a bit in common."""
     found = np.zeros((len(rows), len(others)), np.bool_)
     for column, other in zip(rows.T, others.T, strict=True):
+        deadline.check()
         found |= (column[:, None] & other[None, :]) != 0
     return found

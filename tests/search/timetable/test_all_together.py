@@ -128,9 +128,30 @@ def test_what_may_not_share_an_epoch(strict: bool) -> None:
         task = random_call(seed).task
         packed = PreparedTask(task).plain(Deadline()).packed
         operators = [*packed.own, *packed.joint, *packed.others]
-        found = epochs.conflicts(task, operators, strict=strict)
+        found = epochs.conflicts(task, operators, Deadline(), strict=strict)
         for row, one in enumerate(operators):
             for column, other in enumerate(operators):
                 if not one.agents & other.agents:
                     actions = task.actions[one.action], task.actions[other.action]
                     assert found[row, column] == conflicting(*actions, strict=strict)
+
+
+def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
+    """One state may have thousands of ways to act, each with a bound to be found."""
+    robots, choices = 3, 26
+    actions = {f"work_h_{i} h": f"-> done_{i} @ 3" for i in range(8)}
+    for robot in range(robots):
+        for choice in range(choices):
+            actions[f"turn_{robot}_{choice} r{robot}"] = f"!on_{robot}_{choice} -> on_{robot}_{choice} @ 1"
+            actions[f"use_{robot}_{choice} h"] = f"on_{robot}_{choice} -> done_{choice % 8} @ 1"
+    agents = " ".join(["h", *(f"r{i}" for i in range(robots))])
+    task = build(agents=agents, goal=" ".join(f"done_{i}" for i in range(8)), actions=actions)
+    context = SearchContext(PreparedTask(task), ONE_EPOCH.but(discount="9/10"), Deadline(0.3))
+    optimal = context.canonical_plan()
+    assert optimal is not None
+    incumbent = Incumbent(INFINITE_KEY - 1)
+    progress = Progress()
+    for _ in all_together(context, optimal.actions, 8, incumbent, progress, INFINITE_KEY):
+        pass
+    assert progress.bound == 0, "there was not enough time for all"
+    assert context.deadline.elapsed() < 0.5
