@@ -23,6 +23,7 @@ MemoryLimit = Annotated[
 
 PLANNING: Final = (
     "search.apart.short_windows",
+    "search.timetable.all_together",
     "search.classical.canonical",
     "search.classical.team",
     "search.human.own_problem",
