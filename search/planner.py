@@ -219,13 +219,20 @@ class _Call:
             yield from best_first(few, best, progress, context.deadline, self._ties())
             return True
         self.deadline.check()
-        from search.timetable.all_together import all_together  # only here: most calls come by without
-
-        for every_window in (one_by_one, all_together):
-            yield from every_window(self.context, self.plan, int(self.horizon), best, progress, longer)
-            if self._is_settled():
-                break
+        yield from self._in_one_epoch_each(longer)
         return False
+
+    def _in_one_epoch_each(self, longer: int) -> Iterator[Incumbent]:
+        """All agents together, if that is few states; else robots one by one, then all together after all."""
+        from search.timetable.all_together import AllTogether  # only here: most calls come by without
+
+        assert self.plan is not None, "there is a window"
+        asked = self.context, self.plan, int(self.horizon), self.best, self.progress, longer
+        together = AllTogether(*asked)
+        for ways in (together.soon, lambda: one_by_one(*asked), together.still):
+            yield from ways()
+            if self._is_settled():
+                return
 
     def _in_one_epoch(self) -> Iterator[Incumbent]:
         """Answers with the shortest window, where longer ones may be better, too; if time is limited."""

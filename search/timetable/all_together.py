@@ -5,7 +5,7 @@ the human follows ``pi_H`` robots are in their way, and there may be few enough 
 """
 
 from bisect import bisect_left
-from collections.abc import Collection, Generator
+from collections.abc import Collection, Iterator
 from typing import Final
 
 from search.apart.conditions import lost_values
@@ -17,19 +17,26 @@ from search.kernel.library import library
 from search.packed.cost_vector import own_costs
 from search.spaces.factory import suffix_rule
 from search.spaces.from_composite import Suggestions
-from search.timetable.epochs import Epochs
+from search.timetable.epochs import Epochs, Leaving
 from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 
-_SHARE: Final = 0.9
-"""What of the time that is left it may take."""
+_SOON: Final = 0.1
+"""What of the time that is left a first look may take."""
+
+_MOST: Final = 0.9
+"""The same where robots one by one have settled nothing."""
+
+_FEW_STATES: Final = 300_000
+"""As many as are looked at first: in less than a second."""
+
+_MOST_STATES: Final = 10_000_000
 
 _MOST_ACTIONS: Final = 2_000
 """Every pair of them is told apart."""
 
 _MOST_AGENTS: Final = 63
-
-_MOST_STATES: Final = 10_000_000
 
 _MOST_COST_BITS: Final = 24
 """Of an action, so that sums of many are no more than 64 bits with a number of actions."""
@@ -37,10 +44,8 @@ _MOST_COST_BITS: Final = 24
 _MOST_AMOUNT: Final = 1 << 62
 
 
-def all_together(
-    context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent, progress: Progress, longer: int
-) -> Generator[Incumbent, None, None]:
-    """Yield the incumbent whenever a window of one epoch has made it better; raise the bound after all.
+class AllTogether:
+    """Windows of one epoch, the earliest first, looked at in one go or in two.
 
     Args:
         context: of the call, in a mode with windows.
@@ -49,60 +54,100 @@ def all_together(
         best: the incumbent, which is made better.
         progress: what is known so far, which is brought up to date.
         longer: no plan with a longer window has a smaller key.
-
-    Raises:
-        LimitReachedError: the deadline of the call came, not only that of its part for this.
     """
-    part = context.under(context.deadline.part(_SHARE))
-    try:
-        epochs = _epochs(part)
-        if epochs is None:
+
+    def __init__(
+        self,
+        context: SearchContext,
+        plan: HumanPlan,
+        horizon: int,
+        best: Incumbent,
+        progress: Progress,
+        longer: int,
+    ) -> None:
+        self._context = context
+        self._plan = plan
+        self._horizon = horizon
+        self._best = best
+        self._progress = progress
+        self._longer = longer
+        self._suffix = suffix_rule(context, plan)
+        self._epochs: Epochs | None = None
+        self._epoch = 1
+        self._left: list[Leaving] | None = None
+        """What can be left behind in that epoch and was not looked at yet, the least total last."""
+        self._is_over = False
+
+    def soon(self) -> Iterator[Incumbent]:
+        """Yield the incumbent whenever it has become better, while states are few; raise the bound after all.
+
+        Raises:
+            LimitReachedError: the deadline of the call came, not only that of its part for this.
+        """
+        return self._within(_SOON, _FEW_STATES)
+
+    def still(self) -> Iterator[Incumbent]:
+        """The same with most of the time that is left, and with many states, from where it ended."""
+        return self._within(_MOST, _MOST_STATES)
+
+    def _within(self, share: float, most: int) -> Iterator[Incumbent]:
+        if self._is_over:
             return
-        is_whole = yield from _windows(part, epochs, plan, horizon, best)
-    except LimitReachedError:
-        context.deadline.check()
-        return
-    if is_whole:
-        progress.bound = max(progress.bound, min(longer, best.key))
+        deadline = self._context.deadline.part(share)
+        try:
+            self._epochs = self._epochs or _epochs(self._context, deadline)
+            if self._epochs is None:
+                self._is_over = True
+            else:
+                yield from self._windows(self._epochs, most, deadline)
+        except LimitReachedError:
+            self._context.deadline.check()
 
+    def _windows(self, epochs: Epochs, most: int, deadline: Deadline) -> Iterator[Incumbent]:
+        """All that are left, unless there are too many states."""
+        while self._epoch <= len(self._plan):
+            if self._left is None:
+                left = epochs.leave(self._amount(self._best.key - self._start()), most, deadline)
+                if left is None:
+                    break
+                self._left = left[::-1]
+            yield from self._look(epochs, self._left)
+            if self._epoch < len(self._plan):
+                op = self._context.packed.op(self._plan[self._epoch - 1])
+                limit = self._amount(self._best.key - self._context.keys.epoch_weight)
+                if not epochs.advance(op, limit, most, deadline):
+                    break
+            self._epoch, self._left = self._epoch + 1, None
+        else:
+            self._is_over = True
+            self._progress.bound = max(self._progress.bound, min(self._longer, self._best.key))
+        self._is_over = self._is_over or epochs.is_hopeless
 
-def _windows(
-    context: SearchContext, epochs: Epochs, plan: HumanPlan, horizon: int, best: Incumbent
-) -> Generator[Incumbent, None, bool]:
-    """Look at all windows of one epoch, the earliest first; whether there were few enough states."""
-    keys, suffix = context.keys, suffix_rule(context, plan)
-    for epoch, action in enumerate(plan, 1):
-        start = keys.epoch_weight + keys.of_start(epoch, horizon)
-        left = epochs.leave(_amount(context, best.key - start), _MOST_STATES)
-        if left is None:
-            return False
-        for leaving in left:
-            if start + context.amount_key(leaving.total) >= best.key:
-                break
-            limit = best.key - start - context.amount_key(leaving.paid)
-            if suffix.key(epochs.end(leaving), horizon - epoch, epoch, limit) < limit:
-                suggestions = Suggestions(context, plan, horizon, None, best.key)
-                for found in suggestions.exactly(epochs.ways(leaving)):
+    def _start(self) -> int:
+        """Key of a window in the epoch that is looked at."""
+        keys = self._context.keys
+        return keys.epoch_weight + keys.of_start(self._epoch, self._horizon)
+
+    def _look(self, epochs: Epochs, left: list[Leaving]) -> Iterator[Incumbent]:
+        """Whether things that can be left behind make the incumbent better."""
+        context, best, start = self._context, self._best, self._start()
+        while left and start + context.amount_key(left[-1].total) < best.key:
+            limit = best.key - start - context.amount_key(left[-1].paid)
+            state, epochs_left = epochs.end(left[-1]), self._horizon - self._epoch
+            if self._suffix.key(state, epochs_left, self._epoch, limit) < limit:
+                suggestions = Suggestions(context, self._plan, self._horizon, None, best.key)
+                for found in suggestions.exactly(epochs.ways(left[-1])):
                     best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
                     yield best
-        limit = _amount(context, best.key - keys.epoch_weight)
-        if epoch < len(plan) and not epochs.advance(context.packed.op(action), limit, _MOST_STATES):
-            return False
-    return True
+            left.pop()
+        left.clear()
+
+    def _amount(self, limit: int) -> int:
+        """The least amount of which the key is not below a limit."""
+        return bisect_left(range(_MOST_AMOUNT), limit, key=self._context.amount_key)
 
 
-def _flags(field: int, values: int, chosen: Collection[int]) -> bytes:
-    """For each value of a field 1 if it is among some."""
-    lowest = field & -field
-    return bytes(value * lowest in chosen for value in range(values))
-
-
-def _amount(context: SearchContext, limit: int) -> int:
-    """The least amount of which the key is not below a limit."""
-    return bisect_left(range(_MOST_AMOUNT), limit, key=context.amount_key)
-
-
-def _epochs(context: SearchContext) -> Epochs | None:
+def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
     """What the kernel looks at; None where it can't, or the mode's rules are others."""
     options, packed, kernel = context.options, context.packed, library()
     operators = (*packed.own, *packed.joint, *packed.others)
@@ -111,7 +156,7 @@ def _epochs(context: SearchContext) -> Epochs | None:
     plain = options.suffix == "replan" and options.preservation == "kernel" and not options.keep_prefix
     if not plain or options.max_cost is not None or context.task.robot_goal or context.weights.announces:
         return None
-    after = own_planner(packed, packed.goal, context.relevant, context.deadline)
+    after = own_planner(packed, packed.goal, context.relevant, deadline)
     costs = [context.weights.scaled_cost(op) for op in operators]
     if after is None or max(costs).bit_length() > _MOST_COST_BITS:
         return None
@@ -129,6 +174,12 @@ def _epochs(context: SearchContext) -> Epochs | None:
         dead,
         after.problem.unit * ratio,
         packed.init,
-        context.deadline,
+        deadline,
         strict=options.strict,
     )
+
+
+def _flags(field: int, values: int, chosen: Collection[int]) -> bytes:
+    """For each value of a field 1 if it is among some."""
+    lowest = field & -field
+    return bytes(value * lowest in chosen for value in range(values))

@@ -66,6 +66,9 @@ class Epochs:
         strict: strict interference.
         deadline: polled, and asked for memory.
 
+    Attributes:
+        is_hopeless: whether a state has more sets than are gone through.
+
     Raises:
         LimitReachedError: there is not enough memory.
     """
@@ -86,7 +89,7 @@ class Epochs:
         for name, (result, arguments) in _SIGNATURES.items():
             function = getattr(library, name)
             function.restype, function.argtypes = result, arguments
-        self._kernel, self._after, self._deadline = library, after, deadline
+        self._kernel, self._after, self.is_hopeless = library, after, False
         self._numbers = {op.action: number for number, op in enumerate(problem.operators)}
         self._operators = problem.operators
         self._given: list[int] = []
@@ -99,7 +102,8 @@ class Epochs:
         )
         if not self._epochs:
             raise LimitReachedError("memory-limit")
-        self._allowed(lambda room: library.epochs_start(self._epochs, told.row(state), room))
+        self._is_under_way = False
+        self._allowed(lambda room: library.epochs_start(self._epochs, told.row(state), room), deadline)
 
     def __del__(self) -> None:
         if getattr(self, "_epochs", None):
@@ -110,34 +114,37 @@ class Epochs:
         """How many were met so far, ends included."""
         return int(self._kernel.epochs_states(self._epochs))
 
-    def advance(self, op: Operator, limit: int, most: int) -> bool:
+    def advance(self, op: Operator, limit: int, most: int, deadline: Deadline) -> bool:
         """Go on by an epoch in which an operator is given.
 
         Args:
             op: the operator.
             limit: amount from which on nothing is of interest.
             most: states.
+            deadline: polled, and asked for memory.
 
         Returns:
-            Whether the states are no more than that.
+            Whether the states are no more than that; if they are, the same call goes on.
 
         Raises:
-            LimitReachedError: the deadline came.
+            LimitReachedError: the deadline came; the same call goes on.
         """
         number = self._numbers[op.action]
-        self._given.append(number)
-        return self._run(number, limit, most)
+        done = self._run(number, limit, most, deadline)
+        if done:
+            self._given.append(number)
+        return done
 
-    def leave(self, limit: int, most: int) -> list[Leaving] | None:
+    def leave(self, limit: int, most: int, deadline: Deadline) -> list[Leaving] | None:
         """What can be left behind by an epoch in which all are free, the least total first.
 
-        None: there are too many states.  What an earlier epoch could leave behind for less is not told
-        again.  Arguments as above.
+        None: there are more states; the same call goes on.  What an earlier epoch could leave behind
+        for less is not told again.  Arguments as above.
 
         Raises:
             LimitReachedError: the deadline came.
         """
-        if not self._run(_NONE, limit, most):
+        if not self._run(_NONE, limit, most, deadline):
             return None
         kernel, epochs = self._kernel, self._epochs
         count = kernel.epochs_leavings(epochs, None, None)
@@ -165,22 +172,25 @@ class Epochs:
         ]
         return sets[::-1]
 
-    def _run(self, given: int, limit: int, most: int) -> bool:
+    def _run(self, given: int, limit: int, most: int, deadline: Deadline) -> bool:
+        """Go through an epoch, from where that was interrupted, if it was."""
         kernel, epochs = self._kernel, self._epochs
-        if not kernel.epochs_turn(epochs, given):
+        if not self._is_under_way and not kernel.epochs_turn(epochs, given):
             raise LimitReachedError("memory-limit")
-        outcome = RUNNING
+        self._is_under_way, outcome = True, RUNNING
         while outcome == RUNNING and self.states <= most:
-            self._deadline.check()
-            self._after.prepare(self._deadline)
-            outcome = self._allowed(lambda room: kernel.epochs_slice(epochs, limit, SLICE, room))
-        return outcome == FOUND
+            deadline.check()
+            self._after.prepare(deadline)
+            outcome = self._allowed(lambda room: kernel.epochs_slice(epochs, limit, SLICE, room), deadline)
+        self._is_under_way = outcome != FOUND
+        self.is_hopeless = outcome not in (RUNNING, FOUND)
+        return not self._is_under_way
 
-    def _allowed(self, call: Callable[[int], int]) -> int:
+    def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
         outcome = call(ROOM)
         while outcome == MEMORY:
             wanted = self._kernel.epochs_wanted(self._epochs)
-            self._deadline.require(wanted)
+            deadline.require(wanted)
             outcome = call(wanted)
         return outcome
 

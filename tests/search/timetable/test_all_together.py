@@ -1,6 +1,7 @@
 """All agents at once beside the human's timetable: the best window of one epoch, against brute force."""
 
 from fractions import Fraction
+from itertools import chain
 from random import Random
 
 import pytest
@@ -14,7 +15,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.prepared_task import PreparedTask
 from search.timetable import all_together as room
 from search.timetable import epochs
-from search.timetable.all_together import all_together
+from search.timetable.all_together import AllTogether
 from serendipity.evaluation.crosscheck import random_call
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
@@ -56,13 +57,19 @@ def _looked_at(task: Task, options: Options) -> tuple[SearchContext, Incumbent, 
     idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
     incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
     progress = Progress()
-    for _ in all_together(context, plan, len(plan), incumbent, progress, INFINITE_KEY):
+    together = AllTogether(context, plan, len(plan), incumbent, progress, INFINITE_KEY)
+    for _ in chain(together.soon(), together.still()):
         pass
     return context, incumbent, progress
 
 
+@pytest.mark.parametrize("few", [300_000, 3])
 @pytest.mark.parametrize("draw", [_of_family, _drawn])
-def test_the_best_window_of_one_epoch_is_found(draw: object) -> None:
+def test_the_best_window_of_one_epoch_is_found(
+    draw: object, few: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In one go, and where the first look ends after a few states."""
+    monkeypatch.setattr(room, "_FEW_STATES", few)
     better = 0
     for seed in range(250):
         task, options = draw(seed)  # type: ignore[operator]
@@ -97,6 +104,7 @@ def test_a_call_that_it_settles(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_too_many_states_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(room, "_MOST_STATES", 0)
+    monkeypatch.setattr(room, "_FEW_STATES", 0)
     task = FAMILIES["blocks"](Random(1), 3, AGENTS[:2])
     found = _looked_at(task, ONE_EPOCH)
     assert found is not None
@@ -151,7 +159,7 @@ def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
     assert optimal is not None
     incumbent = Incumbent(INFINITE_KEY - 1)
     progress = Progress()
-    for _ in all_together(context, optimal.actions, 8, incumbent, progress, INFINITE_KEY):
+    for _ in AllTogether(context, optimal.actions, 8, incumbent, progress, INFINITE_KEY).still():
         pass
     assert progress.bound == 0, "there was not enough time for all"
     assert context.deadline.elapsed() < 0.5
