@@ -17,7 +17,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.task import HumanPlan
 
-_SHARE: Final = 0.4
+_SHARE: Final = 0.6
 """What of the time that is left the optimal plan may take, where other plans are at hand."""
 
 _SOON: Final = 0.1
