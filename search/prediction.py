@@ -102,10 +102,15 @@ class AtHand:
         """
         plans = () if self.plan is None else (_cheaper(self._context, self.plan).actions, self.plan)
         for plan in plans:
-            answer = self.beside(plan, optimal=self._context.task.cost_of(plan) <= _least(self._context))
+            answer = self.beside(plan, optimal=self._is_best(plan))
             if answer is not None:
                 return answer
         return Answer("unknown", reason=limit)
+
+    def _is_best(self, plan: HumanPlan) -> bool:
+        """Whether none costs less; over ties never, where it has to have the fewest actions of those, too."""
+        context = self._context
+        return context.options.ties == "fixed" and context.task.cost_of(plan) <= _least(context)
 
     def beside(self, plan: HumanPlan, *, optimal: bool) -> Answer | None:
         """Doing nothing beside a plan of the human's; None where robots have a goal, or ``T`` is too short.

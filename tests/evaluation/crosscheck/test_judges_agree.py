@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from serendipity import Deadline, Result, load
@@ -29,6 +29,7 @@ seeds = st.integers(0, 10**9)
 
 
 @given(seeds)
+@example(672)  # at a limit, over ties: a plan of the least cost, with more actions than there need be
 def test_search_and_automata_agree(seed: int) -> None:
     found = compare(random_call(seed), {name: JUDGES[name] for name in ("search", "automata")})
     assert found is None, str(found)
