@@ -228,22 +228,12 @@ static int fits(const Epochs *e, int32_t op, int32_t depth) {
     return 1;
 }
 
-static int is_applicable(const Problem *p, int32_t op, const Word *state) {
-    size_t row = (size_t)op * p->words;
-    if (!matches(state, p->need_mask + row, p->need + row, p->words)) return 0;
-    for (int32_t j = p->forbids.start[op]; j < p->forbids.start[op + 1]; j++) {
-        const Word *rows = p->forbidden + 2 * (size_t)p->forbids.at[j] * p->words;
-        if (matches(state, rows, rows + p->words, p->words)) return 0;
-    }
-    return 1;
-}
-
 /* Whether an operator could as well be done after a set. */
 static int can_follow(const Epochs *e, int32_t op, const Word *state, int32_t depth) {
     int32_t words = e->problem.words;
     const Word *kept = e->kept + (size_t)depth * words, *put = e->made + (size_t)depth * words;
     for (int32_t w = 0; w < words; w++) e->other[w] = (state[w] & kept[w]) | put[w];
-    return is_applicable(&e->problem, op, e->other);
+    return is_allowed(&e->problem, op, e->other);
 }
 
 /* All sets with more operators of agents from one on; 0: no need to go on. */
@@ -288,7 +278,7 @@ static void sort_by_agent(Epochs *e, const Word *state) {
 static int from_state(Epochs *e, const Word *state, Cost paid, int32_t given) {
     const Problem *p = &e->problem;
     memset(e->kept, 0xFF, (size_t)p->words * sizeof(Word)), memset(e->made, 0, (size_t)p->words * sizeof(Word));
-    if (given != NONE && !is_applicable(p, given, state)) return 1;
+    if (given != NONE && !is_allowed(p, given, state)) return 1;
     sort_by_agent(e, state);
     if (given == NONE) return go_through(e, state, 0, 0, 0, paid);
     choose(e, given, 0);

@@ -30,16 +30,6 @@ static void lookahead_free(Lookahead *l) {
     relaxed_plan_free(&l->relaxed_plan), free(l->state), free(l->row), free(l->plan.at), free(l->order.at);
 }
 
-static int is_allowed(const Problem *p, int32_t op, const Word *state) {
-    size_t row = (size_t)op * p->words;
-    if (!matches(state, p->need_mask + row, p->need + row, p->words)) return 0;
-    for (int32_t j = p->forbids.start[op]; j < p->forbids.start[op + 1]; j++) {
-        const Word *rows = p->forbidden + 2 * (size_t)p->forbids.at[j] * p->words;
-        if (matches(state, rows, rows + p->words, p->words)) return 0;
-    }
-    return 1;
-}
-
 /* Of the operators that a relaxed one stands for the cheapest that is applicable, or NONE. */
 static int32_t cheapest_member(const Problem *p, const RelaxedProblem *x, int32_t class, const Word *state) {
     int32_t best = NONE;

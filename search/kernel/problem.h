@@ -83,6 +83,17 @@ static int matches(const Word *state, const Word *mask, const Word *value, int32
     return 1;
 }
 
+/* Whether an operator is applicable in a state. */
+static int is_allowed(const Problem *p, int32_t op, const Word *state) {
+    size_t row = (size_t)op * p->words;
+    if (!matches(state, p->need_mask + row, p->need + row, p->words)) return 0;
+    for (int32_t j = p->forbids.start[op]; j < p->forbids.start[op + 1]; j++) {
+        const Word *rows = p->forbidden + 2 * (size_t)p->forbids.at[j] * p->words;
+        if (matches(state, rows, rows + p->words, p->words)) return 0;
+    }
+    return 1;
+}
+
 static int mentions(const Word *mask, const Field *field) { return code(mask, field) != 0; }
 
 /* The state that an operator makes of one. */
