@@ -238,11 +238,10 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
     return reserve(&s->table, (int32_t)s->plan.count + 1) ? finish(s, FOUND, s->limit) : MEMORY;
 }
 
-/* What projections say of a state, which is not kept. */
-static Cost glanced(const AStar *s, const Word *state) {
-    Node node = {0};
-    look_up(&s->evaluator, s->problem, &node, state);
-    return node.rest;
+/* What projections say of a state, which is not kept, or something that is enough. */
+static Cost glanced(const AStar *s, const Word *state, Cost enough) {
+    const Projections *all = &s->evaluator.projections;
+    return all->n_orders ? projected(all, s->problem, state, enough) : 0;
 }
 
 /* Lower bound from a state; -1 where memory is missing.  A search that is under way goes on with what it says. */

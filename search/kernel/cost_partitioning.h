@@ -32,7 +32,7 @@ typedef struct {
     Word *samples;
     Cost *best; /* what is said of each sample */
     Cost *left, *needed, *steps, *found;
-    int64_t *number;
+    int64_t *codes, *number; /* of the state that is asked about: of each field; in each projection, -1: not known */
     Heap heap;
 } Projections;
 
@@ -103,24 +103,41 @@ static int partition(Projections *all, const Problem *p, const Word *state, Cost
     return fine;
 }
 
+/* The number of a state in a projection, from its codes, once. */
+static inline int64_t number_in(const Projections *all, int32_t projection) {
+    int64_t number = all->number[projection];
+    if (number >= 0) return number;
+    const Projection *b = &all->at[projection];
+    number = 0;
+    for (size_t i = 0; i < b->fields.count; i++) number += all->codes[b->fields.at[i]] * b->strides[i];
+    return all->number[projection] = number;
+}
+
+/* The state that is asked about from now on. */
+static void ask_about(const Projections *all, const Problem *p, const Word *state) {
+    for (int32_t f = 0; f < p->n_fields; f++) all->codes[f] = (int64_t)code(state, &p->fields[f]);
+    memset(all->number, 0xFF, (size_t)all->count * sizeof *all->number);
+}
+
+/* What tables say of it. */
 static Cost summed(const Projections *all, Cost *const *tables) {
     Cost sum = 0;
     for (int32_t i = 0; i < all->count; i++) {
         if (!tables[i]) continue;
-        Cost value = tables[i][all->number[i]];
+        Cost value = tables[i][number_in(all, i)];
         if (value >= FAR) return INFINITE_COST;
         sum += value;
     }
     return sum;
 }
 
-static Cost projected(const Projections *all, const Problem *p, const Word *state) {
-    for (int32_t i = 0; i < all->count; i++) all->number[i] = number_of(p, &all->at[i], state);
+/* What they say of a state, or of what they say something that is enough. */
+static Cost projected(const Projections *all, const Problem *p, const Word *state, Cost enough) {
+    ask_about(all, p, state);
     Cost best = 0;
-    for (int32_t order = 0; order < all->n_orders; order++) {
+    for (int32_t order = 0; order < all->n_orders && best < enough; order++) {
         Cost sum = summed(all, all->tables + (size_t)order * all->count);
         if (sum > best) best = sum;
-        if (sum == INFINITE_COST) break;
     }
     return best;
 }
@@ -128,7 +145,7 @@ static Cost projected(const Projections *all, const Problem *p, const Word *stat
 static void projections_free(Projections *all) {
     for (int32_t i = 0; i < all->count * all->n_orders; i++) free(all->tables[i]);
     for (int32_t i = 0; i < all->count; i++) projection_free(&all->at[i]), free(all->alone[i].cost);
-    free(all->at), free(all->alone), free(all->tables), free(all->samples), free(all->best), free(all->number);
+    free(all->at), free(all->alone), free(all->tables), free(all->samples), free(all->best), free(all->codes), free(all->number);
     free(all->left), free(all->needed), free(all->steps), free(all->found), free(all->heap.at);
 }
 
@@ -176,7 +193,8 @@ static int samples_new(Projections *all, const Problem *p, int32_t count) {
     all->best = malloc(((size_t)count + 1) * sizeof(Cost));
     all->found = malloc((size_t)states * sizeof(Cost));
     all->number = malloc(((size_t)all->count + 1) * sizeof *all->number);
-    if (!all->samples || !all->best || !all->found || !all->number) return 0;
+    all->codes = malloc(((size_t)p->n_fields + 1) * sizeof *all->codes);
+    if (!all->samples || !all->best || !all->found || !all->codes || !all->number) return 0;
     for (int32_t i = 0; i < count; i++) all->best[i] = -1;
     return 1;
 }
@@ -193,7 +211,7 @@ static int add_order(Projections *all, const Problem *p, int32_t sample) {
     int better = 0, fine = partition(all, p, all->samples + (size_t)sample * p->words, tables);
     for (int32_t i = 0; fine && i < all->n_samples; i++) {
         const Word *state = all->samples + (size_t)i * p->words;
-        for (int32_t j = 0; j < all->count; j++) all->number[j] = number_of(p, &all->at[j], state);
+        ask_about(all, p, state);
         Cost value = summed(all, tables);
         if (value > all->best[i]) all->best[i] = value, better = 1;
     }

@@ -39,6 +39,9 @@ typedef struct {
     Word *mask;       /* the fields that matter to it */
     uint8_t *lost;    /* per fact whether nothing follows from it */
     Ints losing;      /* the fields that have such */
+    uint8_t *loses;   /* per operator whether it sets one */
+    Word *unsettled;  /* the fields of the state under the cursor that have such values; */
+    Word *settled;    /* a row per agent: those of them that operators of agents from this one on set */
     Cost unit;        /* what a unit of its costs weighs here */
     Table *layers, ends;
     int32_t n_layers, room, given; /* given: the operator of the epoch, or NONE */
@@ -52,6 +55,7 @@ typedef struct {
     const Word *target;  /* the state that it leads to */
     int32_t found;       /* how many operators are in it */
     int is_end, hopeless; /* whether nothing is given; see take_end */
+    int any_unsettled;
     int32_t sets;        /* of the state under the cursor so far */
     int outcome, is_fresh; /* why a slice ends; whether there was no new bound in it yet */
     double until;        /* when it ends */
@@ -63,6 +67,7 @@ static void epochs_free(Epochs *e) {
     for (int32_t i = 0; i < e->n_layers; i++) table_free(&e->layers[i]);
     table_free(&e->ends), problem_free(&e->problem);
     free(e->layers), free(e->leavings), free(e->agents), free(e->apart), free(e->mask), free(e->lost), free(e->losing.at);
+    free(e->loses), free(e->unsettled), free(e->settled);
     free(e->applicable.at), free(e->sorted.at), free(e->row), free(e->other), free(e->kept), free(e->made);
     free(e);
 }
@@ -73,11 +78,54 @@ static int find_losing(Epochs *e) {
     return 1;
 }
 
-static int is_lost(const Epochs *e, const Word *state) {
+static int is_lost(const Epochs *e, const Word *state, const Field *field) {
+    return e->lost[field->offset + (int32_t)code(state, field)];
+}
+
+/* Which operators set a value that nothing follows from. */
+static void find_losers(Epochs *e) {
+    const Problem *p = &e->problem;
+    for (int32_t op = 0; op < p->n_ops; op++)
+        for (size_t i = 0; i < e->losing.count && !e->loses[op]; i++) {
+            const Field *field = &p->fields[e->losing.at[i]];
+            const size_t row = (size_t)op * p->words;
+            e->loses[op] = code(p->keep + row, field) == 0 && is_lost(e, p->put + row, field);
+        }
+}
+
+static void set_field(Word *row, const Field *field) {
+    const int32_t word = field->shift >> 6, bit = field->shift & 63;
+    const uint64_t all = ((uint64_t)1 << field->width) - 1;
+    row[word] |= all << bit;
+    if (bit + field->width > 64) row[word + 1] |= all >> (64 - bit);
+}
+
+/* The fields of a state that have to be set by its end; who can. */
+static void find_unsettled(Epochs *e, const Word *state) {
+    const Problem *p = &e->problem;
+    const size_t words = (size_t)p->words;
+    memset(e->unsettled, 0, words * sizeof(Word));
+    e->any_unsettled = 0;
     for (size_t i = 0; i < e->losing.count; i++) {
-        const Field *field = &e->problem.fields[e->losing.at[i]];
-        if (e->lost[field->offset + (int32_t)code(state, field)]) return 1;
+        const Field *field = &p->fields[e->losing.at[i]];
+        if (is_lost(e, state, field)) set_field(e->unsettled, field), e->any_unsettled = 1;
     }
+    if (!e->any_unsettled) return;
+    memset(e->settled + MOST_AGENTS * words, 0, words * sizeof(Word));
+    for (int agent = MOST_AGENTS; agent-- > 0;) {
+        Word *row = e->settled + (size_t)agent * words;
+        memcpy(row, row + words, words * sizeof(Word));
+        for (size_t i = e->next_agent[agent]; i < e->next_agent[agent + 1]; i++)
+            for (size_t w = 0; w < words; w++) row[w] |= e->unsettled[w] & ~p->keep[(size_t)e->sorted.at[i] * words + w];
+    }
+}
+
+/* Whether a set leaves such a field as it is, but for those that are in `but`, if there is any. */
+static int is_unsettled(const Epochs *e, int32_t depth, const Word *but) {
+    const size_t words = (size_t)e->problem.words;
+    if (!e->any_unsettled) return 0;
+    for (size_t w = 0; w < words; w++)
+        if (e->unsettled[w] & e->kept[(size_t)depth * words + w] & ~(but ? but[w] : 0)) return 1;
     return 0;
 }
 
@@ -93,10 +141,13 @@ static Epochs *epochs_of(const Spec *spec, const uint64_t *agents, const uint8_t
     e->mask = copied(mask, (size_t)e->ends.words * sizeof(Word));
     e->applicable.at = malloc((ops + 1) * sizeof(int32_t)), e->sorted.at = malloc((ops + 1) * sizeof(int32_t));
     e->row = malloc(row), e->other = malloc(row), e->kept = malloc((MOST_AGENTS + 1) * row), e->made = malloc((MOST_AGENTS + 1) * row);
-    e->lost = copied(lost, (size_t)spec->n_facts);
-    if (problem_new(&e->problem, spec) && e->lost && find_losing(e) && plant_all(&e->problem) && e->agents && e->apart && e->mask && e->applicable.at &&
-        e->sorted.at && e->row && e->other && e->kept && e->made)
+    e->lost = copied(lost, (size_t)spec->n_facts), e->loses = calloc(ops + 1, 1);
+    e->unsettled = malloc(row), e->settled = malloc((MOST_AGENTS + 1) * row);
+    if (problem_new(&e->problem, spec) && e->lost && e->loses && e->unsettled && e->settled && find_losing(e) && plant_all(&e->problem) && e->agents && e->apart && e->mask && e->applicable.at &&
+        e->sorted.at && e->row && e->other && e->kept && e->made) {
+        find_losers(e);
         return e;
+    }
     epochs_free(e);
     return NULL;
 }
@@ -142,6 +193,11 @@ static Cost weighed(const Epochs *e, Cost rest) {
     return (rest >> COST_SHIFT) * e->unit * ((Cost)1 << COST_SHIFT) + (rest & (((Cost)1 << COST_SHIFT) - 1));
 }
 
+/* What is too dear after so much was paid, in units of what follows. */
+static Cost enough(const Epochs *e, Cost paid) {
+    return e->limit == INFINITE_COST ? e->limit : (((e->limit - paid) >> COST_SHIFT) / e->unit + 1) << COST_SHIFT;
+}
+
 static int too_dear(const Epochs *e, Cost paid, Cost rest) { return rest == INFINITE_COST || paid + rest >= e->limit; }
 
 static int leave(Epochs *e, Cost paid, Cost total, int32_t end) {
@@ -161,7 +217,6 @@ static int leave(Epochs *e, Cost paid, Cost total, int32_t end) {
 static int take_end(Epochs *e, const Word *state, Cost paid) {
     Table *t = &e->ends;
     e->hopeless = 0;
-    if (is_lost(e, state)) return e->hopeless = 1;
     if (!reserve(t, 1)) return 0;
     for (int32_t w = 0; w < t->words; w++) e->row[w] = state[w] & e->mask[w];
     int is_new;
@@ -172,7 +227,7 @@ static int take_end(Epochs *e, const Word *state, Cost paid) {
         e->hopeless = too_dear(e, paid, node->rest);
         return 1;
     }
-    if (is_new) node->spent = INFINITE_COST, node->rest = weighed(e, glanced(e->after, e->row));
+    if (is_new) node->spent = INFINITE_COST, node->rest = weighed(e, glanced(e->after, e->row, enough(e, paid)));
     if (!node->evaluated && !too_dear(e, paid, node->rest)) {
         if (!has_time(e)) return 0;
         Cost rest = a_star_bound(e->after, e->row, t->allowed);
@@ -238,9 +293,11 @@ static int can_follow(const Epochs *e, int32_t op, const Word *state, int32_t de
 
 /* All sets with more operators of agents from one on; 0: no need to go on. */
 static int go_through(Epochs *e, const Word *state, int32_t agent, uint64_t busy, int32_t depth, Cost paid) {
-    if (!come_to(e, state, depth, paid)) return 0;
-    const int in_vain = e->is_end && !e->target && e->hopeless;
+    const int unsettled = is_unsettled(e, depth, NULL);
+    if (!unsettled && !come_to(e, state, depth, paid)) return 0;
+    const int in_vain = unsettled || (e->is_end && !e->target && e->hopeless);
     for (; agent < MOST_AGENTS && e->next_agent[agent] < e->sorted.count; agent++) {
+        if (unsettled && is_unsettled(e, depth, e->settled + (size_t)agent * (size_t)e->problem.words)) return 1;
         if (busy >> agent & 1) continue;
         for (size_t i = e->next_agent[agent]; i < e->next_agent[agent + 1]; i++) {
             int32_t op = e->sorted.at[i];
@@ -260,10 +317,18 @@ static int first_agent(uint64_t agents) {
     return agent;
 }
 
-/* Applicable operators by the first of their agents. */
+static void leave_losers(Epochs *e) {
+    size_t kept = 0;
+    for (size_t i = 0; i < e->applicable.count; i++)
+        if (!e->loses[e->applicable.at[i]]) e->applicable.at[kept++] = e->applicable.at[i];
+    e->applicable.count = kept;
+}
+
+/* Applicable operators by the first of their agents, at an end without those that nothing follows from. */
 static void sort_by_agent(Epochs *e, const Word *state) {
     successors(&e->problem, state, &e->applicable);
     size_t count[MOST_AGENTS + 1] = {0};
+    if (e->is_end) leave_losers(e);
     for (size_t i = 0; i < e->applicable.count; i++) count[first_agent(e->agents[e->applicable.at[i]]) + 1]++;
     for (int agent = 0; agent < MOST_AGENTS; agent++) count[agent + 1] += count[agent];
     memcpy(e->next_agent, count, sizeof count);
@@ -280,6 +345,8 @@ static int from_state(Epochs *e, const Word *state, Cost paid, int32_t given) {
     memset(e->kept, 0xFF, (size_t)p->words * sizeof(Word)), memset(e->made, 0, (size_t)p->words * sizeof(Word));
     if (given != NONE && !is_allowed(p, given, state)) return 1;
     sort_by_agent(e, state);
+    e->any_unsettled = 0;
+    if (e->is_end) find_unsettled(e, state);
     if (given == NONE) return go_through(e, state, 0, 0, 0, paid);
     choose(e, given, 0);
     return go_through(e, state, 0, e->agents[given], 1, paid + p->weight[given]);

@@ -43,7 +43,7 @@ static void evaluator_free(Evaluator *s) {
 static void look_up(const Evaluator *s, const Problem *p, Node *node, const Word *state) {
     if (node->projected || !s->projections.n_orders) return;
     node->projected = 1;
-    Cost rest = projected(&s->projections, p, state);
+    Cost rest = projected(&s->projections, p, state, INFINITE_COST);
     if (rest > node->rest) node->rest = rest;
     if (rest == INFINITE_COST) node->exact = 1;
 }

@@ -39,6 +39,12 @@ static Word *state_of(const Table *t, int32_t id) {
 
 static Node *node_of(const Table *t, int32_t id) { return &t->nodes[id >> CHUNK_BITS][id & (CHUNK - 1)]; }
 
+static int is_same(const Word *a, const Word *b, int32_t words) {
+    for (int32_t w = 0; w < words; w++)
+        if (a[w] != b[w]) return 0;
+    return 1;
+}
+
 static size_t hash(const Word *state, int32_t words) {
     Word h = 0x9E3779B97F4A7C15u;
     for (int32_t i = 0; i < words; i++) {
@@ -122,7 +128,7 @@ static int heap_reserve(Heap *heap, size_t more, Table *t) {
 static int32_t met(const Table *t, const Word *state) {
     if (!t->n_slots) return NONE;
     for (size_t i = hash(state, t->words) & (t->n_slots - 1); t->slots[i] != NONE; i = (i + 1) & (t->n_slots - 1))
-        if (!memcmp(state_of(t, t->slots[i]), state, (size_t)t->words * sizeof *state)) return t->slots[i];
+        if (is_same(state_of(t, t->slots[i]), state, t->words)) return t->slots[i];
     return NONE;
 }
 
@@ -130,7 +136,7 @@ static int32_t met(const Table *t, const Word *state) {
 static int32_t find(Table *t, const Word *state, int *is_new) {
     size_t i = hash(state, t->words) & (t->n_slots - 1);
     for (; t->slots[i] != NONE; i = (i + 1) & (t->n_slots - 1))
-        if (!memcmp(state_of(t, t->slots[i]), state, (size_t)t->words * sizeof *state)) {
+        if (is_same(state_of(t, t->slots[i]), state, t->words)) {
             *is_new = 0;
             return t->slots[i];
         }
