@@ -22,14 +22,14 @@ from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 
-_SOON: Final = 0.1
+_SOON: Final = 0.35
 """What of the time that is left a first look may take."""
 
 _MOST: Final = 0.9
 """The same where robots one by one have settled nothing."""
 
-_FEW_STATES: Final = 300_000
-"""As many as are looked at first: in less than a second."""
+_FEW_STATES: Final = 3_000_000
+"""As many as are looked at first: in a few seconds."""
 
 _MOST_STATES: Final = 10_000_000
 
