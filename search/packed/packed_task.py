@@ -113,7 +113,6 @@ class PackedTask:
         # By ratio: the hash of a rational takes four times as long as all else about a cost.
         self._cost_index = {cost.as_integer_ratio(): i for i, cost in enumerate(self.costs)}
         self._ops: dict[int, Operator] = {}
-        self._compatible: dict[tuple[int, int, bool], bool] = {}
         self._sort_by_actor(deadline)
 
     def at(self, task: Task) -> "PackedTask":
@@ -223,13 +222,8 @@ class PackedTask:
 
     def compatible(self, first: int, second: int, strict: bool) -> bool:
         """Whether two actions may share an epoch (semantics 2)."""
-        key = (first, second, strict)
-        answer = self._compatible.get(key)
-        if answer is None:
-            actions = self.task.actions
-            answer = not conflicting(actions[first], actions[second], strict=strict)
-            self._compatible[key] = answer
-        return answer
+        actions = self.task.actions
+        return not conflicting(actions[first], actions[second], strict=strict)
 
     def mentioned(self, op: Operator) -> int:
         """The fields that an op asks for or sets."""

@@ -1,6 +1,7 @@
 """A search that has used up its memory ends with the best plan it knows."""
 
 import os
+import tracemalloc
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -8,7 +9,9 @@ from pathlib import Path
 import pytest
 
 import serendipity
+from search import PreparedTask
 from serendipity.model import Result
+from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.memory import resident
 from serendipity.testing.builders import task
 
@@ -52,3 +55,18 @@ def test_the_best_plan_so_far_is_the_answer(mode: str) -> None:
     assert 0 <= result.lower_bound < result.objective  # 0: used up before the first epoch was looked at
     assert result.statistics["elapsed_seconds"] < 50
     assert over < MORE
+
+
+def test_nothing_is_kept_for_each_pair_of_actions() -> None:
+    """Two robots with thousands of actions each have more pairs than there is memory for."""
+    deeds = {f"do{i} {robot}": f"-> done{i}" for i in range(100) for robot in ("r", "s")}
+    built = task(agents="h r s", goal=" ".join(f"done{i}" for i in range(100)), actions=deeds)
+    packed = PreparedTask(built).plain(Deadline()).packed
+    tracemalloc.start()
+    try:
+        for first in packed.useful:
+            assert sum(packed.compatible(first, second, strict=True) for second in packed.useful) == 100
+        used, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert used < 100_000

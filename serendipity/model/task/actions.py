@@ -115,10 +115,15 @@ def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
         b: another.
         strict: whether interference is strict.
     """
-    if any(agent in b.participants for agent in a.participants):
-        return True
-    if any(f in b.delete or f in b.add for f in a.delete) or any(f in b.delete for f in a.add):
-        return True
+    for agent in a.participants:  # loops: this is asked for millions of pairs
+        if agent in b.participants:
+            return True
+    for fact in a.delete:
+        if fact in b.delete or fact in b.add:
+            return True
+    for fact in b.delete:
+        if fact in a.add:
+            return True
     return strict and (disables(a, b) or disables(b, a))
 
 

@@ -62,9 +62,10 @@ def interference_of_an_earlier_call(patch: Patch) -> None:
 
     def compatible(self: Any, first: int, second: int, strict: bool) -> bool:
         actions, key = self.task.actions, (first, second)
-        if key not in self._compatible:
-            self._compatible[key] = not conflicting(actions[first], actions[second], strict=strict)
-        return bool(self._compatible[key])
+        kept = vars(self).setdefault("_compatible", {})
+        if key not in kept:
+            kept[key] = not conflicting(actions[first], actions[second], strict=strict)
+        return bool(kept[key])
 
     patch.setattr(PackedTask, "compatible", compatible)
 
