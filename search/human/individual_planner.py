@@ -18,6 +18,7 @@ from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import HumanPlan
 
 if TYPE_CHECKING:
     from search.classical.planner import ClassicalPlanner
@@ -93,6 +94,9 @@ class HumanOptimum(Protocol):
 
     def plans(self, state: int) -> PlanGraph | None:
         """All the human's optimal plans from a packed state; None if there is none."""
+
+    def proved(self, state: int, plan: HumanPlan) -> None:
+        """Note that a plan from a packed state is optimal, as was proved over another packing."""
 
 
 class IndividualPlanner:
@@ -324,6 +328,14 @@ class IndividualPlanner:
             return self._graph(start)
         except _TakenOverError:
             return self._graph(start)
+
+    def proved(self, state: int, plan: HumanPlan) -> None:
+        """See :class:`HumanOptimum`."""
+        ops = [self._packed.op(action) for action in plan]
+        rest = sum(map(self._weight, ops))
+        for op in ops:
+            self._known[state & self._mask] = rest
+            state, rest = state & op.keep | op.put, rest - self._weight(op)
 
     def _graph(self, start: int) -> PlanGraph | None:
         last = self._memory.plans

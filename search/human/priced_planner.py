@@ -7,6 +7,7 @@ from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Lookup
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import HumanPlan
 
 
 class PricedPlanner:
@@ -57,6 +58,10 @@ class PricedPlanner:
     def plans(self, state: int) -> PlanGraph | None:
         """See :class:`HumanOptimum`."""
         return self._alone.plans(state)
+
+    def proved(self, state: int, plan: HumanPlan) -> None:
+        """See :class:`HumanOptimum`."""
+        self._alone.proved(state, plan)
 
 
 def own_memory(packed: PackedTask) -> Memory:

@@ -72,6 +72,8 @@ def solve_for_human(
         human = Human(
             prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
         )
+        if human_plan is None:
+            human.alone.proved(human.packed.init, plan)
     except LIMITS as limit:
         if task.robot_goal:
             yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
