@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from verify.packed.layout import Layout, Words
 
 Ints = NDArray[np.int64]
+
+_AT_ONCE: Final = 1 << 16
+"""Operators that are looked at in one go, for several states together: each takes some hundred bytes."""
 
 
 class Operator(NamedTuple):
@@ -123,19 +126,25 @@ class OperatorTable:
 
     def applicable(self, states: Words) -> tuple[Ints, Ints]:
         """Pairs of a state's row and an operator that is applicable there, by rows."""
-        count = len(states)
         values = (states[:, self._key_word] >> self._key_shift) & self._key_mask
         keys = values.astype(np.int64) + self._key_base
-        first = self._start[keys].ravel()
-        sizes = self._start[keys + 1].ravel() - first
-        total = int(sizes.sum())
-        ends = np.cumsum(sizes)
-        offsets = np.arange(total) - np.repeat(ends - sizes, sizes)
-        chosen = self._listed[np.repeat(first, sizes) + offsets]
-        rows = np.repeat(np.repeat(np.arange(count), len(self._key_word)), sizes)
+        first = self._start[keys]
+        sizes = self._start[keys + 1] - first
+        looked_at = np.cumsum(sizes.sum(axis=1) + len(self._always))
+        parts = np.split(np.arange(len(states)), np.flatnonzero(np.diff(looked_at // _AT_ONCE)) + 1)
+        found = [self._fitting(states, here, first[here].ravel(), sizes[here]) for here in parts]
+        rows, chosen = zip(*found, strict=True)
+        return np.concatenate(rows), np.concatenate(chosen)
+
+    def _fitting(self, states: Words, here: Ints, first: Ints, sizes: Ints) -> tuple[Ints, Ints]:
+        """The same for some rows, of what is listed for them: from where on, and how many."""
+        of_each = sizes.ravel()
+        offsets = np.arange(of_each.sum()) - np.repeat(np.cumsum(of_each) - of_each, of_each)
+        chosen = self._listed[np.repeat(first, of_each) + offsets]
+        rows = np.repeat(here, sizes.sum(axis=1))
         if len(self._always):
-            rows = np.concatenate((rows, np.repeat(np.arange(count), len(self._always))))
-            chosen = np.concatenate((chosen, np.tile(self._always, count)))
+            rows = np.concatenate((rows, np.repeat(here, len(self._always))))
+            chosen = np.concatenate((chosen, np.tile(self._always, len(here))))
         fits = ((states[rows] & self.mask[chosen]) == self.value[chosen]).all(axis=1)
         rows, chosen = rows[fits], chosen[fits]
         if len(self._forbidden):

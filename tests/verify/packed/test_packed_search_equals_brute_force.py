@@ -1,17 +1,21 @@
 """Packed states, exclusive facts, bounds and cheapest paths, against plain sets and dictionaries."""
 
+import tracemalloc
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis.strategies import sampled_from
 
 from serendipity.model import Deadline, Task
+from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
 from verify.base.execution import State, after, applicable, states_of_pi_h
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
+from verify.packed import operators as packed
 from verify.packed.bounds import LITTLE
 from verify.packed.mutexes import Pairs
 from verify.packed.operators import Operator
@@ -105,13 +109,15 @@ def test_in_families(name: str, seed: int, size: int) -> None:
     agree(family_task(name, seed, size))
 
 
-@given(tasks())
-def test_successors_are_those_of_sets(task: Task) -> None:
+@given(tasks(), sampled_from((1, 10, packed._AT_ONCE)))
+def test_successors_are_those_of_sets(task: Task, at_once: int) -> None:
     problem = team_problem(task)
     states = reached(task)[:50]
     rows = problem.pack(states)
     assert rows is not None
-    by, chosen = problem.table.applicable(rows)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(packed, "_AT_ONCE", at_once)
+        by, chosen = problem.table.applicable(rows)
     new = problem.table.after(rows[by], chosen)
     found = {(int(k), problem.layout.facts_of(row)) for k, row in zip(by, new, strict=True)}
     kept = set(problem.layout.place)
@@ -121,6 +127,22 @@ def test_successors_are_those_of_sets(task: Task) -> None:
         for action in task.actions
         if applicable(action, state)
     }
+
+
+def test_what_is_looked_at_for_many_states_takes_little_memory() -> None:
+    """1.6 million operators that a state may allow by one of two values, and each does not by the other."""
+    deeds = {f"do{number} h": "p q -> done" for number in range(200)}
+    task = build(goal="done", actions={**deeds, "begin r": "-> p", "go r": "-> q"})
+    problem = team_problem(task)
+    row = problem.pack([frozenset({task.facts.index("p")})])
+    assert row is not None
+    tracemalloc.start()
+    try:
+        by, _ = problem.table.applicable(np.repeat(row, 8192, axis=0))
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert len(by) == 2 * 8192 and peak < 2**24
 
 
 def test_what_excludes_each_other_is_a_field() -> None:
