@@ -29,7 +29,7 @@ class Prediction(NamedTuple):
 
     Attributes:
         actions: its actions.
-        optimal: whether it is proved to cost least; unless a limit came it is the canonical one then.
+        optimal: whether it is known to be the canonical one; another may cost as little.
     """
 
     actions: HumanPlan
@@ -85,7 +85,7 @@ class AtHand:
         """
         if self.plan is None:
             return
-        answer = self.beside(self.plan, optimal=False)
+        answer = self.beside(self.plan)
         if answer is None:
             return
         yield answer
@@ -102,22 +102,16 @@ class AtHand:
         """
         plans = () if self.plan is None else (_cheaper(self._context, self.plan).actions, self.plan)
         for plan in plans:
-            answer = self.beside(plan, optimal=self._is_best(plan))
+            answer = self.beside(plan)
             if answer is not None:
                 return answer
         return Answer("unknown", reason=limit)
 
-    def _is_best(self, plan: HumanPlan) -> bool:
-        """Whether none costs less; over ties never, where it has to have the fewest actions of those, too."""
-        context = self._context
-        return context.options.ties == "fixed" and context.task.cost_of(plan) <= _least(context)
-
-    def beside(self, plan: HumanPlan, *, optimal: bool) -> Answer | None:
+    def beside(self, plan: HumanPlan) -> Answer | None:
         """Doing nothing beside a plan of the human's; None where robots have a goal, or ``T`` is too short.
 
         Args:
             plan: the plan.
-            optimal: whether none costs less, so that there is nothing that they could gain alone.
         """
         context = self._context
         if context.task.robot_goal or not _fits(context.options, plan):
@@ -125,7 +119,6 @@ class AtHand:
         return _some(context, FoundPlan(plan, 0, 0), proved=False)._replace(
             horizon=horizon_of(context.task, context.options, plan),
             lower_bound=self.least,
-            saving_alone=Fraction(0) if optimal else None,
         )
 
     def _bound(self) -> None:
@@ -187,7 +180,7 @@ def expected_plan(
         best = next((plan for plan in plans if _fits(context.options, plan)), None)
         if best is None:
             raise
-        return Prediction(best, optimal=context.task.cost_of(best) <= _least(context))
+        return Prediction(best, optimal=False)
     assert optimal is not None, "there is a plan"
     return Prediction(optimal.actions, optimal=True)
 

@@ -40,6 +40,7 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
                 break
             if number in refuted:
                 continue
+            deadline.check()
             op = operators[number]
             after, amount = state & op.keep | op.put, left - amounts[number]
             if amount >= 0 and planner.cheapest(after, deadline, amount + 1, before=number) == amount:

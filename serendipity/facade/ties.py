@@ -96,8 +96,9 @@ def _beside_all(call: Call, known: AtHand, graph: PlanGraph) -> Answer:
     everyone = len(found) == count
     answer = combined(found, options.ties, bounded=bounded, everyone=everyone, limit=call.deadline.reached())
     if answer.status == "unknown":
-        idle = known.beside(found[0].human_plan or (), optimal=True)
-        answer = answer if idle is None else _by_itself(call, idle)
+        idle = known.beside(found[0].human_plan or ())
+        if idle is not None:  # beside one of their best plans, so that they gain nothing alone
+            answer = _by_itself(call, idle._replace(saving_alone=Fraction(0)))
     elif answer.status == "feasible":
         answer = answer._replace(lower_bound=max(known.least, answer.lower_bound or Fraction(0)))
     return answer._replace(optimal_plans=count)

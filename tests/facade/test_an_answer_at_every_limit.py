@@ -1,6 +1,7 @@
 """From the first plan of the human's on there is an answer, whatever limit comes."""
 
 import json
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -107,6 +108,24 @@ def test_such_an_answer_breaks_no_rule_and_is_not_refuted(options: dict[str, Any
         assert serendipity.verify(_switches(), result, deadline=Countdown(200)).refuted is None
         written = json.dumps(result.to_dict())
         assert Result.from_dict(json.loads(written)).to_dict() == result.to_dict()
+
+
+def test_only_the_canonical_plan_is_called_the_human_s_best() -> None:
+    """Another one may cost as little, and leave other help to be given."""
+    actions = {f"{kind}_{i} h": f"-> p_{i}" for i in range(4) for kind in ("do", "also")}
+    goal = " ".join(f"p_{i}" for i in range(4))
+    task = build(goal=goal, actions={**actions, "help r": "-> p_3"})
+    last, others, looks = serendipity.plan(replace(task)), 0, 0
+    limit = Countdown(looks)
+    while looks == 0 or limit.ran_out:
+        limit = Countdown(looks)
+        with suppress(LimitReachedError):
+            result = serendipity.plan(replace(task), deadline=limit)
+            if result.human_plan is not None and result.human_plan != last.human_plan:
+                others += result.human_cost == last.human_cost
+                assert (result.status, result.saving_alone, result.opportunity) == ("feasible", None, False)
+        looks += 1
+    assert others, "no limit came while the canonical plan was looked for"
 
 
 @pytest.mark.parametrize("options", [*REPLANS, *TIES], ids=str)

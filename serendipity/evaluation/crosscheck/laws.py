@@ -172,6 +172,16 @@ def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
                 agent_costs=final.agent_costs,
                 realised=final.realised,
             )
+        if early.mode == "individual" and call.human_plan is None and early.cost == final.cost:
+            # Their cost is proved; the plan is the canonical one only as far as the search got.
+            early = replace(
+                early,
+                human_plan=final.human_plan,
+                plan=final.plan,
+                horizon=final.horizon,
+                agent_costs=final.agent_costs,
+                realised=final.realised,
+            )
         yield from _differences(early.status, early, final)
         return
     if final.status == "infeasible":

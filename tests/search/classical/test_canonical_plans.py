@@ -105,6 +105,22 @@ def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -
         assert assert_leads_to_goal(packed, packed.init, plan) >= cost
 
 
+def test_the_clock_is_looked_at_before_each_question(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Most are answered in less than a slice, and there may be thousands."""
+    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
+    planner, clock, asked = planner_of(packed), Ends(10**6), []
+    cheapest = planner.cheapest
+
+    def noted(state: int, deadline: Deadline, *rest: object, **more: object) -> int:
+        asked.append(clock.looks)
+        return cheapest(state, deadline, *rest, **more)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(planner, "cheapest", noted)
+    canonical_plan(planner, packed.init, clock)
+    assert len(asked) > 3
+    assert len({*asked}) == len(asked)
+
+
 def test_operators_that_have_nothing_to_do_with_each_other_are_sorted() -> None:
     def op(asks: int, sets: int, forbids: int = 0) -> Operator:
         return Operator(asks, 0, ~sets, sets, ((forbids, forbids),) if forbids else (), 0, 1, 0)
