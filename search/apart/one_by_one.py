@@ -11,7 +11,7 @@ from serendipity.model.task.task import HumanPlan
 FIRST: Final = 500
 """Nodes that are searched before."""
 
-_SHARE: Final = 0.35
+_SHARE: Final = 0.5
 """What of the time that is left it may take."""
 
 

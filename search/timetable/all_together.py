@@ -22,14 +22,23 @@ from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 
-_SOON: Final = 0.35
+_SOON: Final = 0.1
 """What of the time that is left a first look may take."""
+
+_HOPEFUL: Final = 3
+"""One part in so many of the epochs has to be behind it then, for it to go on at once: states multiply at
+first, and are fewer where goals have been reached."""
+
+_LONGER: Final = 0.35
+"""What of the time that is left it may take if it goes on."""
 
 _MOST: Final = 0.9
 """The same where robots one by one have settled nothing."""
 
-_FEW_STATES: Final = 3_000_000
-"""As many as are looked at first: in a few seconds."""
+_FEW_STATES: Final = 300_000
+"""As many as are looked at first: in less than a second."""
+
+_MANY_STATES: Final = 3_000_000
 
 _MOST_STATES: Final = 10_000_000
 
@@ -84,7 +93,9 @@ class AllTogether:
         Raises:
             LimitReachedError: the deadline of the call came, not only that of its part for this.
         """
-        return self._within(_SOON, _FEW_STATES)
+        yield from self._within(_SOON, _FEW_STATES)
+        if _HOPEFUL * self._epoch >= len(self._plan):
+            yield from self._within(_LONGER, _MANY_STATES)
 
     def still(self) -> Iterator[Incumbent]:
         """The same with most of the time that is left, and with many states, from where it ended."""
