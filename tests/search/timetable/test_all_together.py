@@ -63,13 +63,14 @@ def _looked_at(task: Task, options: Options) -> tuple[SearchContext, Incumbent, 
     return context, incumbent, progress
 
 
-@pytest.mark.parametrize("few", [300_000, 3])
+@pytest.mark.parametrize(("few", "many"), [(300_000, 3_000_000), (3, 12), (3, 3)])
 @pytest.mark.parametrize("draw", [_of_family, _drawn])
 def test_the_best_window_of_one_epoch_is_found(
-    draw: object, few: int, monkeypatch: pytest.MonkeyPatch
+    draw: object, few: int, many: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """In one go, and where the first look ends after a few states."""
+    """In one go, and where the first looks end after a few states."""
     monkeypatch.setattr(room, "_FEW_STATES", few)
+    monkeypatch.setattr(room, "_MANY_STATES", many)
     better = 0
     for seed in range(250):
         task, options = draw(seed)  # type: ignore[operator]
@@ -105,6 +106,7 @@ def test_a_call_that_it_settles(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_too_many_states_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(room, "_MOST_STATES", 0)
     monkeypatch.setattr(room, "_FEW_STATES", 0)
+    monkeypatch.setattr(room, "_MANY_STATES", 0)
     task = FAMILIES["blocks"](Random(1), 3, AGENTS[:2])
     found = _looked_at(task, ONE_EPOCH)
     assert found is not None
