@@ -142,7 +142,7 @@ def _same_rank(task: Task, found: Result, expected: Result) -> Result:
     )
     if not alike or check(task, found).refuted is not None:
         return found
-    return replace(found, plan=expected.plan, agent_costs=expected.agent_costs, realised=expected.realised)
+    return _with(found, expected, "plan", "agent_costs", "realised")
 
 
 def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
@@ -152,36 +152,16 @@ def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
         yield f"refuted: {refuted.claim}: {refuted.reason}"
     if early.status in ("optimal", "infeasible"):
         if early.realised.items() <= final.realised.items():  # verdicts come after the proof
-            early = replace(early, realised=final.realised)
+            early = _with(early, final, "realised")
         if early.human_plan is None and early.mode == "composite" and early.horizon == final.horizon:
             # The joint optimum waits neither for pi_H nor for what is counted from it (semantics, Decisions).
-            early = replace(
-                early,
-                human_plan=final.human_plan,
-                human_cost=final.human_cost,
-                saving=final.saving,
-                saving_alone=final.saving_alone,
-                opportunity=final.opportunity,
-            )
+            early = _with(early, final, "human_plan", "human_cost", "saving", "saving_alone", "opportunity")
         if _is_shared(call.task) and (early.objective, early.cost) == (final.objective, final.cost):
             # The proof is of the objective; ties are settled as far as the search got (semantics, Decisions).
-            early = replace(
-                early,
-                plan=final.plan,
-                window=final.window,
-                agent_costs=final.agent_costs,
-                realised=final.realised,
-            )
+            early = _with(early, final, "plan", "window", "agent_costs", "realised")
         if early.mode == "individual" and call.human_plan is None and early.cost == final.cost:
             # Their cost is proved; the plan is the canonical one only as far as the search got.
-            early = replace(
-                early,
-                human_plan=final.human_plan,
-                plan=final.plan,
-                horizon=final.horizon,
-                agent_costs=final.agent_costs,
-                realised=final.realised,
-            )
+            early = _with(early, final, "human_plan", "horizon", "plan", "agent_costs", "realised")
         yield from _differences(early.status, early, final)
         return
     if final.status == "infeasible":
@@ -194,6 +174,11 @@ def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
         yield f"objective {early.objective}, but the optimum is {final.objective}"
     if early.opportunity and call.options.get("ties", "fixed") == "fixed":
         yield from _opportunity_faults(early, final)
+
+
+def _with(answer: Result, other: Result, *names: str) -> Result:
+    """An answer with some of another one's fields."""
+    return replace(answer, **{name: getattr(other, name) for name in names})
 
 
 def _is_shared(task: Task) -> bool:
