@@ -223,14 +223,15 @@ class _Call:
         return False
 
     def _in_one_epoch_each(self, longer: int) -> Iterator[Incumbent]:
-        """All agents together, if that is few states; else robots one by one, then all together after all."""
+        """Robots by numbers, all agents together if there are few states, robots one by one, all together."""
         from search.timetable.all_together import AllTogether  # only here: most calls come by without
 
         assert self.plan is not None, "there is a window"
         asked = self.context, self.plan, int(self.horizon), self.best, self.progress, longer
         together = AllTogether(*asked)
-        for ways in (together.soon, lambda: one_by_one(*asked), together.still):
-            yield from ways()
+        alike = one_by_one(*asked, by_numbers=True)
+        for ways in (alike, together.soon(), one_by_one(*asked), together.still()):
+            yield from ways
             if self._is_settled():
                 return
 

@@ -55,7 +55,12 @@ def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operat
     """The human's actions with robots' ones that may happen in the same state and undo what they ask for."""
     words = max(1, -(-packed.all_ones.bit_length() // 64))
     others = packed.others
-    if not others:
+    concerned = [
+        own
+        for own in deadline.each(packed.own)
+        if packed.outside & (own.need_mask | sum(field for field, _ in own.forbidden))
+    ]
+    if not others or not concerned:
         return
     need_mask, need = (
         _table(words, [op.need_mask for op in others]),
@@ -63,8 +68,7 @@ def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operat
     )
     keep = _table(words, [op.keep & packed.all_ones for op in others])
     put = _table(words, [op.put for op in others])
-    for own in packed.own:
-        deadline.tick()
+    for own in deadline.each(concerned):
         mask, value = column(own.need_mask, words), column(own.need, words)
         disabled = (((value & keep | put) ^ value) & mask).any(axis=0)
         for field, forbidden in own.forbidden:

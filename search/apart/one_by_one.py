@@ -14,9 +14,19 @@ FIRST: Final = 500
 _SHARE: Final = 0.5
 """What of the time that is left it may take."""
 
+_SHARE_OF_NUMBERS: Final = 0.7
+"""The same where things are alike: what does not end by then has far too many states otherwise."""
+
 
 def one_by_one(
-    context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent, progress: Progress, longer: int
+    context: SearchContext,
+    plan: HumanPlan,
+    horizon: int,
+    best: Incumbent,
+    progress: Progress,
+    longer: int,
+    *,
+    by_numbers: bool = False,
 ) -> Iterator[Incumbent]:
     """Yield the incumbent whenever a window of one epoch has made it better; then raise the bound.
 
@@ -27,6 +37,7 @@ def one_by_one(
         best: the incumbent, which is made better.
         progress: what is known so far, which is brought up to date.
         longer: no plan with a longer window has a smaller key.
+        by_numbers: only where robots see to things that are alike, by how many of them; this is soon done.
 
     Raises:
         LimitReachedError: the deadline of the call came, not only that of its part for this.
@@ -36,10 +47,11 @@ def one_by_one(
     )  # only here: it loads what most calls come by without
 
     short = None
+    share = _SHARE_OF_NUMBERS if by_numbers else _SHARE
     try:
-        short = short_windows(context.under(context.deadline.part(_SHARE)), plan, horizon, best)
+        short = short_windows(context.under(context.deadline.part(share)), plan, horizon, best)
         if short is not None:
-            for _ in short.answers():
+            for _ in short.by_numbers() if by_numbers else short.one_by_one():
                 yield best
     except LimitReachedError:
         context.deadline.check()

@@ -1,36 +1,22 @@
 """What robots can have left behind if the window is in one epoch, and what that is worth."""
 
-from bisect import bisect_left
-from collections.abc import Collection, Mapping, Sequence
-from typing import Final
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
+from search.apart.conditions import lost_values
 from search.apart.landmarks import FAR, Landmark, Landmarks
 from search.apart.outcomes import Outcomes, Together, outcomes
-from search.apart.provision import Value
+from search.apart.provision import Provision, Value
 from search.apart.remaining import Remaining, left_to_pay, values
 from search.apart.rows import Amounts, column, states
 from search.apart.timeline import Timeline, TooManyStatesError
+from search.apart.window import ACTION, FEW, Window
 from search.context import SearchContext
-from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 
-ACTION: Final = 1 << 24
-"""Amounts are costs in these units, and a number of actions."""
 
-_MOST_AMOUNT: Final = 1 << 62
-
-_FEW: Final = 50
-"""So many outcomes are told one by one sooner than by landmarks."""
-
-
-def amount_from(context: SearchContext, limit: int) -> int:
-    """The least amount of which the key is not below a limit."""
-    return bisect_left(range(_MOST_AMOUNT), limit, key=context.amount_key)
-
-
-class OneWindow:
+class OneWindow(Window):
     """What robots can have left behind by the end of a window of one epoch, in which the human waits.
 
     Args:
@@ -41,9 +27,6 @@ class OneWindow:
         base: the packed state before it without them.
         start: key of what comes before it, and of the window.
         limit: key from which on nothing is of interest.
-
-    Attributes:
-        found: the least key of what was looked at.
     """
 
     def __init__(
@@ -56,23 +39,16 @@ class OneWindow:
         start: int,
         limit: int,
     ) -> None:
-        self._context = context
-        self._landmarks = landmarks
-        self._base = base
-        self._start = start
+        super().__init__(context, landmarks, base, start)
         self._epochs = timelines[0].epochs
         self._timelines = timelines
-        self.found = INFINITE_KEY
         self._fields = [field for field in context.packed.fields if field & context.relevant]
         self._shared: list[int] = []
         self._apart: list[Outcomes] = []
         self._leave_behind(lost)
-        self._is_exact = all(timeline.is_exact for timeline in timelines)
+        self.is_exact = all(timeline.is_exact for timeline in timelines)
         self._given = self._values()
         self._together: Together | None = None
-        self._remaining: Remaining | None = None
-        self._least = 0
-        """The amount that nothing is below, where there are too many outcomes."""
         self._join(limit)
 
     def _leave_behind(self, lost: Mapping[int, Collection[int]]) -> None:
@@ -96,9 +72,9 @@ class OneWindow:
 
     def _join(self, limit: int) -> None:
         """Put together what each of them leaves behind."""
-        most = amount_from(self._context, limit - self._start)
+        most = self._most(limit)
         pairs = np.prod([len(apart.amounts) for apart in self._apart], dtype=np.float64)
-        found = self._landmarks.of(self._base, self._given) if pairs > _FEW else []
+        found = self._landmarks.of(self._base, self._given) if pairs > FEW else []
         finite = [landmark for landmark in found if landmark.cost < FAR]
         own = sum(landmark.cost for landmark in finite)
         nets = [apart.amounts - self._saved(apart, finite, own) for apart in self._apart]
@@ -123,43 +99,6 @@ class OneWindow:
         """What of landmarks the human need not pay for after each of a robot's outcomes."""
         return own - left_to_pay(landmarks, apart.rows ^ column(self._base, len(apart.rows)))
 
-    @property
-    def bound(self) -> int:
-        """No plan with this window has a smaller key, but for what was too dear when it was asked for."""
-        least = self._least
-        if self._remaining is not None:
-            if not len(self._remaining):
-                return self.found
-            least = self._remaining.least
-        return min(self.found, self._start + self._context.amount_key(least))
-
-    def is_open(self, limit: int) -> bool:
-        """Whether something is left that may be below a limit."""
-        if self._remaining is None or (self.found < limit and not self._is_exact):
-            return False
-        self._remaining.drop(amount_from(self._context, limit - self._start))
-        return len(self._remaining) > 0
-
-    def look(self, limit: int) -> int | None:
-        """Look at an outcome: its place if it is below a limit.
-
-        Raises:
-            LimitReachedError: the deadline came.
-        """
-        context, alone = self._context, self._context.alone
-        assert self._remaining is not None, "it is open"
-        context.deadline.check()
-        place, state, amount = self._remaining.take()
-        paid = self._start + context.amount_key(amount)
-        if paid + alone.least(state) < limit:
-            key = paid + alone.key(state, limit - paid)
-            if key < limit:
-                self.found = min(self.found, key)
-                return place if self._is_exact else None
-        if len(self._remaining) > _FEW:
-            self._remaining.learn(self._landmarks.of(state, self._given))
-        return None
-
     def ways(self, place: int) -> list[list[Operator]]:
         """What robots do epoch by epoch for something that they leave behind."""
         assert self._together is not None, "there is something"
@@ -178,3 +117,56 @@ class OneWindow:
                 if op is not None:
                     epochs[epoch].append(op)
         return epochs
+
+
+class RobotsApart:
+    """Robots one by one beside the human's plan, each told by the states that it can bring about.
+
+    Args:
+        context: of the call.
+        steps: the human's plan.
+        others: per robot what it takes from others for nothing.
+        amount: of an operator.
+    """
+
+    def __init__(
+        self,
+        context: SearchContext,
+        steps: Sequence[Operator],
+        others: Mapping[int, Provision],
+        amount: Callable[[Operator], int],
+    ) -> None:
+        packed, deadline = context.packed, context.deadline
+        self._context = context
+        self._lost = lost_values(packed)
+        self._landmarks = Landmarks(packed, amount, deadline)
+        strict, relevant = context.options.strict, context.relevant
+        self._timelines = [
+            Timeline(packed, robot, steps, provided, relevant, amount, strict=strict, deadline=deadline)
+            for robot, provided in others.items()
+        ]
+
+    def window(self, base: int, start: int, limit: int) -> OneWindow:
+        """A window in the next epoch.
+
+        Args:
+            base: the packed state before it without robots.
+            start: key of what comes before it, and of the window.
+            limit: key from which on nothing is of interest.
+
+        Raises:
+            LimitReachedError: there are too many states, or the deadline came.
+        """
+        return OneWindow(self._context, self._timelines, self._landmarks, self._lost, base, start, limit)
+
+    def follow(self, _: Operator, most: int) -> None:
+        """One more epoch of the human's plan.
+
+        Args:
+            most: states that cost as much are left out.
+
+        Raises:
+            LimitReachedError: there are too many states, or the deadline came.
+        """
+        for timeline in self._timelines:
+            timeline.follow(most)

@@ -6,15 +6,17 @@ together in every way, and what the human pays from there on their own, exactly.
 another, each may help itself to what others can have provided by then, for nothing: then it is a lower bound.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
-from typing import Final
+from typing import Final, Protocol
 
-from search.apart.conditions import are_apart, lost_values
-from search.apart.landmarks import FAR, Landmarks
-from search.apart.one_window import ACTION, OneWindow, amount_from
+from search.apart.alike.robots import counted_robots
+from search.apart.conditions import are_apart
+from search.apart.landmarks import FAR
+from search.apart.one_window import RobotsApart
 from search.apart.provision import Provision, by_others, provisions
-from search.apart.timeline import Timeline, TooManyStatesError
+from search.apart.timeline import TooManyStatesError
+from search.apart.window import ACTION, Window, amount_from
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.packed.cost_vector import INFINITE_KEY
@@ -28,6 +30,9 @@ _MOST_AMOUNT: Final = 1 << 62
 
 _SOON: Final = 0.3
 """What of the time that is left robots may take who don't rely on one another."""
+
+_WORTH: Final = 4
+"""What a window promises is tried out at once if it is one part in so many of what can be hoped for."""
 
 _TRIALS: Final = 20
 """Of what costs least in an epoch so many are tried out, until one can be done."""
@@ -48,14 +53,14 @@ class ShortWindows:
         self._plan = plan
         self._horizon = horizon
         self._best = best
-        self._pass: _Pass | None = None
+        self._through_all: _Pass | None = None
 
     @property
     def bound(self) -> int:
         """No plan with a window of one epoch has a smaller key, but the incumbent."""
-        return 0 if self._pass is None else self._pass.bound
+        return 0 if self._through_all is None else self._through_all.bound
 
-    def answers(self) -> Iterator[None]:
+    def one_by_one(self) -> Iterator[None]:
         """Yield whenever the incumbent has become better; in the end the bound is as good as it gets.
 
         What robots come to who don't rely on one another comes first: most of that can be done.
@@ -71,11 +76,27 @@ class ShortWindows:
         if any(_relies(packed, robot, others[robot]) for robot in robots):
             soon = context.under(context.deadline.part(_SOON))
             with suppress(LimitReachedError):
-                nobody = dict.fromkeys(robots, Provision())
-                yield from _Pass(soon, self._plan, self._horizon, self._best, nobody).answers()
+                nobody = RobotsApart(soon, steps, dict.fromkeys(robots, Provision()), self._amount)
+                yield from self._pass(soon, nobody).answers()
             context.deadline.check()
-        self._pass = _Pass(context, self._plan, self._horizon, self._best, others)
-        yield from self._pass.answers()
+        yield from self._through(context, RobotsApart(context, steps, others, self._amount))
+
+    def by_numbers(self) -> Iterator[None]:
+        """The same where robots see to things that are alike, by how many; elsewhere nothing is looked at."""
+        robots = counted_robots(self._context, self._plan, self._amount)
+        if robots is not None:
+            yield from self._through(self._context, robots)
+
+    def _through(self, context: SearchContext, robots: "Robots") -> Iterator[None]:
+        """All windows, as a bound as well."""
+        self._through_all = self._pass(context, robots)
+        yield from self._through_all.answers()
+
+    def _pass(self, context: SearchContext, robots: "Robots") -> "_Pass":
+        return _Pass(context, self._plan, self._horizon, self._best, robots)
+
+    def _amount(self, op: Operator) -> int:
+        return self._context.weights.scaled_cost(op) * ACTION + 1
 
 
 def _relies(packed: PackedTask, robot: int, others: Provision) -> bool:
@@ -91,27 +112,49 @@ def _relies(packed: PackedTask, robot: int, others: Provision) -> bool:
     return False
 
 
+class Robots(Protocol):
+    """Robots beside the human's plan, epoch by epoch."""
+
+    def window(self, base: int, start: int, limit: int) -> Window:
+        """What they can have left behind by the end of a window in the next epoch.
+
+        Args:
+            base: the packed state before it without robots.
+            start: key of what comes before it, and of the window.
+            limit: key from which on nothing is of interest.
+
+        Raises:
+            LimitReachedError: there is too much, or the deadline came.
+        """
+
+    def follow(self, step: Operator, most: int) -> None:
+        """One more epoch of the human's plan.
+
+        Args:
+            step: of the human's plan.
+            most: nothing that costs as much is of interest.
+
+        Raises:
+            LimitReachedError: there is too much, or the deadline came.
+        """
+
+
 class _Pass:
     """Windows of one epoch, one after another; arguments as above.
 
     Args:
-        others: per robot what it takes from others for nothing.
+        robots: what they can do.
     """
 
     def __init__(
-        self,
-        context: SearchContext,
-        plan: HumanPlan,
-        horizon: int,
-        best: Incumbent,
-        others: Mapping[int, Provision],
+        self, context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent, robots: Robots
     ) -> None:
         self._context = context
         self._plan = plan
         self._horizon = horizon
         self._best = best
-        self._others = others
-        self._windows: list[OneWindow] = []
+        self._robots = robots
+        self._windows: list[Window] = []
         self._ahead = 0
 
     @property
@@ -127,7 +170,10 @@ class _Pass:
         best = self._best
         with suppress(TooManyStatesError):
             for window in self._each():
-                if window.is_open(best.key) and self._tries(window, window.look(best.key)):
+                hoped = best.key - window.bound
+                if hoped * _WORTH < best.key - self._ahead or not window.is_open(best.key):
+                    continue
+                if self._tries(window, window.look(best.key)):
                     yield
         for window in sorted(self._windows, key=lambda window: window.bound):
             trials = 0
@@ -138,56 +184,33 @@ class _Pass:
                 elif place is not None:
                     trials += 1
 
-    def _each(self) -> Iterator[OneWindow]:
+    def _each(self) -> Iterator[Window]:
         """Windows of one epoch, the earliest first."""
         context, packed, best = self._context, self._context.packed, self._best
-        steps = [packed.op(action) for action in self._plan]
         base, spent = packed.init, context.keys.epoch_weight
-        lost, timelines = lost_values(packed), self._timelines(steps)
-        landmarks = Landmarks(packed, self._amount, context.deadline)
-        for epoch, step in enumerate(steps, 1):
+        for epoch, step in enumerate(map(packed.op, self._plan), 1):
             self._ahead = spent
             if spent >= best.key:
                 return
             start = spent + context.keys.of_start(epoch, self._horizon)
-            self._windows.append(OneWindow(context, timelines, landmarks, lost, base, start, best.key))
+            self._windows.append(self._robots.window(base, start, best.key))
             yield self._windows[-1]
             spent += context.weights.team(step)
-            if epoch < len(steps) and spent < best.key:
+            if epoch < len(self._plan) and spent < best.key:
                 self._ahead = spent
-                most = amount_from(context, best.key - spent)
-                for timeline in timelines:
-                    timeline.follow(most)
+                self._robots.follow(step, amount_from(context, best.key - spent))
             base = base & step.keep | step.put
         self._ahead = INFINITE_KEY
 
-    def _timelines(self, steps: Sequence[Operator]) -> list[Timeline]:
-        context = self._context
-        return [
-            Timeline(
-                context.packed,
-                robot,
-                steps,
-                others,
-                context.relevant,
-                self._amount,
-                strict=context.options.strict,
-                deadline=context.deadline,
-            )
-            for robot, others in self._others.items()
-        ]
-
-    def _amount(self, op: Operator) -> int:
-        return self._context.weights.scaled_cost(op) * ACTION + 1
-
-    def _tries(self, window: OneWindow, place: int | None) -> bool:
+    def _tries(self, window: Window, place: int | None) -> bool:
         """Whether robots can leave something behind together, and it is the best so far."""
         best = self._best
-        if place is None:
+        ways = None if place is None else window.ways(place)
+        if ways is None:
             return False
         suggestions = Suggestions(self._context, self._plan, self._horizon, None, best.key)
         improved = False
-        for found in suggestions.on_time(window.ways(place)):
+        for found in suggestions.on_time(ways):
             best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
             improved = True
         return improved

@@ -49,7 +49,7 @@ def bound_and_cost(task: Task, options: Options) -> tuple[Fraction, Fraction] | 
     if asked is None:
         return None
     context, windows, incumbent = asked
-    for _ in windows.answers():
+    for _ in windows.one_by_one():
         pass
     bound = context.keys.objective(min(windows.bound, incumbent.key)) - options.window_weight
     return bound, context.keys.cost(incumbent.key)
@@ -173,7 +173,7 @@ def test_an_epoch_of_many_ways_is_left_when_the_time_for_it_is_up(monkeypatch: p
         up.set()
         end(self, *arguments)
 
-    def next_step(*_: object) -> Iterator[Incumbent]:
+    def next_step(*_: object, **__: object) -> Iterator[Incumbent]:
         raise LimitReachedError("time-limit")
 
     monkeypatch.setattr(Windowed, "_end", offered)
@@ -213,7 +213,7 @@ def test_a_limit_leaves_a_bound(seed: int) -> None:
         return
     context, windows, incumbent = asked
     optimum = best(task, ONE_EPOCH).cost
-    answers = windows.answers()
+    answers = windows.one_by_one()
     next(answers, None)
     assert optimum is not None
     bound = context.keys.objective(min(windows.bound, incumbent.key))

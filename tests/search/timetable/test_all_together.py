@@ -91,7 +91,7 @@ def test_the_best_window_of_one_epoch_is_found(
 def test_a_call_that_it_settles(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two robots who hand things to each other, so that neither does any good by itself."""
     monkeypatch.setattr(search.planner, "FIRST", 0)
-    monkeypatch.setattr(search.planner, "one_by_one", lambda *_: iter(()))
+    monkeypatch.setattr(search.planner, "one_by_one", lambda *_, **__: iter(()))
     for seed in range(40):
         task, options = _of_family(seed)
         answer = serendipity.plan(task, discount=options.discount, interference=options.interference)
