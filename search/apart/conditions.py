@@ -6,7 +6,7 @@ import numpy as np
 
 from search.apart.mutexes import Pairs
 from search.apart.rows import Rows, column
-from search.packed.operators import Operator
+from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 
@@ -55,11 +55,7 @@ def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operat
     """The human's actions with robots' ones that may happen in the same state and undo what they ask for."""
     words = max(1, -(-packed.all_ones.bit_length() // 64))
     others = packed.others
-    concerned = [
-        own
-        for own in deadline.each(packed.own)
-        if packed.outside & (own.need_mask | sum(field for field, _ in own.forbidden))
-    ]
+    concerned = [own for own in deadline.each(packed.own) if packed.outside & asked_by(own)]
     if not others or not concerned:
         return
     need_mask, need = (

@@ -24,11 +24,8 @@ def leaves(packed: PackedTask) -> list[int]:
     """Fields of which this is so: robots' operators that ask for one, or set it, set nothing else."""
     found = set(packed.fields)
     for op in packed.others:
-        asked = op.need_mask
-        for field, _ in op.forbidden:
-            asked |= field
         sets = packed.all_ones & ~op.keep
-        found -= {field for field in found if field & (asked | sets) and sets & ~field}
+        found -= {field for field in found if field & packed.mentioned(op) and sets & ~field}
     return [field for field in packed.fields if field in found]
 
 

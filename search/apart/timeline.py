@@ -14,7 +14,7 @@ import numpy as np
 from search.apart.detours import NEVER, detours, leaves
 from search.apart.provision import Provision
 from search.apart.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
-from search.packed.operators import Operator, split
+from search.packed.operators import Operator, asked_by, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
@@ -121,9 +121,7 @@ class Timeline:
             self._local |= packed.mentioned(op)
         self._asked = self._local & ~self.changes
         for op in ops:
-            self._asked |= op.need_mask
-            for field, _ in op.forbidden:
-                self._asked |= field
+            self._asked |= asked_by(op)
         self._relevant = relevant
         lent = {field for field, _ in others}
         self._detours = {

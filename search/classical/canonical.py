@@ -11,7 +11,7 @@ from heapq import heapify, heappop, heappush
 
 from search.classical.planner import ClassicalPlanner
 from search.classical.problem import NO_PLAN
-from search.packed.operators import Operator
+from search.packed.operators import Operator, asked_by
 from serendipity.model.resources.deadline import Deadline
 
 
@@ -83,16 +83,9 @@ def in_order(operators: Sequence[Operator], plan: Sequence[int]) -> list[int]:
 
 def _independent(a: Operator, b: Operator) -> bool:
     """Whether neither sets what the other one asks for or sets: then their order does not matter."""
-    return not (_sets(a) & (_asks(b) | _sets(b)) or _sets(b) & _asks(a))
+    return not (_sets(a) & (asked_by(b) | _sets(b)) or _sets(b) & asked_by(a))
 
 
 def _sets(op: Operator) -> int:
     """The bits that an operator may change; all beyond the fields are kept."""
     return ~op.keep
-
-
-def _asks(op: Operator) -> int:
-    asked = op.need_mask
-    for mask, _ in op.forbidden:
-        asked |= mask
-    return asked

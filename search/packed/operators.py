@@ -104,6 +104,14 @@ def split(mask: int, by_lowest_bit: dict[int, int]) -> Iterator[int]:
         mask &= ~field
 
 
+def asked_by(op: Operator) -> int:
+    """The fields that an op's precondition looks at."""
+    asked = op.need_mask
+    for field, _ in op.forbidden:
+        asked |= field
+    return asked
+
+
 def applicable(op: Operator, state: int) -> bool:
     """Whether an op's precondition holds in a packed state."""
     return state & op.need_mask == op.need and all(state & m != value for m, value in op.forbidden)

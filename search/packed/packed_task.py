@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from search.packed.operator_index import by_most_asked
-from search.packed.operators import Operator, Signature, forms_of, set_by
+from search.packed.operators import Operator, Signature, asked_by, forms_of, set_by
 from search.packed.relevance import relevant_to_goals
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
@@ -227,10 +227,7 @@ class PackedTask:
 
     def mentioned(self, op: Operator) -> int:
         """The fields that an op asks for or sets."""
-        mask = op.need_mask | self.all_ones & ~op.keep
-        for field, _ in op.forbidden:
-            mask |= field
-        return mask
+        return asked_by(op) | self.all_ones & ~op.keep
 
     def changed_by(self, ops: Iterable[Operator]) -> int:
         """The union of the fields that some of ``ops`` set."""

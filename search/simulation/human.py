@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from search.context import SearchContext
 from search.human.individual_planner import canonical
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Operator, applicable
+from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask, TaskTables
 from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
@@ -76,7 +76,7 @@ class Human:
         task = prepared.task
         for i in actions:
             if task.actions[i].participants == (task.human,):
-                self.concern |= _asked_by(self.packed.op(i))
+                self.concern |= asked_by(self.packed.op(i))
         self._looks: dict[tuple[int, int], Glance] = {}
 
     def decide(self, belief: int, intention: Intention) -> Glance:
@@ -114,7 +114,7 @@ class Human:
 
     def learn(self, belief: int, state: int, op: Operator) -> int:
         """The belief after the human tried an action in vain: its preconditions as they are."""
-        mask = _asked_by(op)
+        mask = asked_by(op)
         return belief & ~mask | state & mask
 
     def key_of(self, cost: int) -> int:
@@ -145,14 +145,6 @@ def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
         if action.participants == (task.human,) and not packed.is_useful(i):
             missing |= {*action.pre, *action.neg, *action.add, *action.delete}
     return frozenset(missing)
-
-
-def _asked_by(op: Operator) -> int:
-    """The fields that an op's precondition looks at."""
-    mask = op.need_mask
-    for field, _ in op.forbidden:
-        mask |= field
-    return mask
 
 
 def _eyes(prepared: PreparedTask, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from search.apart.alike.things import Things
 from search.apart.provision import Value
-from search.packed.operators import split
+from search.packed.operators import asked_by, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 
@@ -81,8 +81,7 @@ def _counted(packed: PackedTask, relevant: int, things: Things, deadline: Deadli
     found: dict[int, int] = {}
     for op in deadline.each((*packed.others, *packed.own)):
         is_robots = op.agents != packed.human_bit
-        asked = op.need_mask | sum(field for field, _ in op.forbidden)
-        if is_robots and asked & fields:
+        if is_robots and asked_by(op) & fields:
             return {}
         for field in split(fields & ~op.keep, things.fields):
             if found.setdefault(field, op.put & field) != op.put & field:

@@ -7,7 +7,7 @@ import pytest
 from search.apart.conditions import are_apart, lost_values
 from search.apart.mutexes import Pairs
 from search.context import SearchContext
-from search.packed.operators import applicable
+from search.packed.operators import applicable, asked_by
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask
 from serendipity.model import Options, Task
@@ -59,6 +59,18 @@ def test_who_drives_is_not_told_by_one_variable() -> None:
         actions[f"load_{agent} {agent}"] = f"drives_{agent} van_b -> loaded"
     packed = _packed(build(agents="h r", init="empty van_a", goal="loaded van_a", actions=actions))
     assert are_apart(packed, Deadline(), strict=False)
+
+
+def test_two_values_of_a_field_that_must_not_be() -> None:
+    """The field is asked for once: a sum of its masks is another field."""
+    places = "abcd"
+    actions = {f"go_{a}{b} r": f"at_{a} -> at_{b} !at_{a}" for a in places for b in places if a != b}
+    task = build(agents="h r", init="at_a", goal="done", actions=actions | {"watch h": "!at_a !at_b -> done"})
+    packed = _packed(task)
+    (watch,) = packed.own
+    assert len(watch.forbidden) == 2
+    assert asked_by(watch) == packed.outside
+    assert not are_apart(packed, Deadline(), strict=False)
 
 
 @pytest.mark.parametrize(("strict", "apart"), [(False, False), (True, True)])
