@@ -1,38 +1,27 @@
 """From a task and options to answers: which space, from which incumbent (semantics 3)."""
 
-from collections.abc import Generator, Iterator
-from contextlib import suppress
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Final
 
-from search.apart.one_by_one import FIRST, one_by_one
 from search.composite import CompositeCall, team_for
 from search.context import SearchContext
-from search.engine.best_first import Incumbent, Node, Progress, Space, Ties, best_first
-from search.engine.few import EnoughError, Few
+from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.heuristics.first_interaction import no_team_bound
-from search.joint_plans import JointPlans
+from search.improvements import Improvements, is_settled
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.prediction import AtHand, Prediction, expected_plan, individual_answers
 from search.prepared_task import PreparedTask
-from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
 from serendipity.model.answers.answer import Answer, saved
-from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
+from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans import Step, Window
 from serendipity.model.task.task import HumanPlan
-
-_SOON: Final = 0.1
-"""What of the time that is left a search for short windows may take, or one for ties."""
-
-_FEW: Final = 1_000
-"""Nodes for the sake of a better window for the same objective."""
 
 
 def solve(
@@ -146,12 +135,15 @@ class _Call:
         """Each better answer, then the last one with what is proved of it."""
         try:
             self.leave_alone()
-            self._improve_alone()
+            improvements = Improvements(
+                self.context, self.plan, self.epochs, self.baseline.key, self.best, self.progress
+            )
+            self._improve_alone(improvements)
             self.progress.bound = self._least()
             if self._answer().key < INFINITE_KEY:
                 yield self._outcome("feasible")
             if self.epochs != 0 or self._answer().key == INFINITE_KEY:
-                for _ in self._improvements():
+                for _ in improvements.each():
                     yield self._outcome(self._unfinished())
             self.progress.bound = self.best.key
             status = "infeasible"
@@ -159,102 +151,9 @@ class _Call:
                 status = "optimal" if self.settled else "feasible"
         except LIMITS as limit:
             self.limit = limit_reason(limit)
-            status = "optimal" if self.settled and self._is_settled() else self._unfinished()
+            is_best = self.settled and is_settled(self.context, self.best, self.progress)
+            status = "optimal" if is_best else self._unfinished()
         yield self._outcome(status)
-
-    def _improvements(self) -> Iterator[Incumbent]:
-        """Each better incumbent, and now and then the same one; on return it is optimal."""
-        if self.context.distances_say_little:
-            joint = JointPlans(
-                self.context, self.plan, self.epochs, self._most_cost(), self.best, self.progress
-            )
-            joint.without_horizon()
-            yield self.best
-            if not self._is_settled() and (yield from self._in_short_windows()):
-                return
-            if not self._is_settled():
-                for _ in joint.along_human_plan():
-                    yield self.best
-                yield from self._in_one_epoch()
-            if joint.decide and not self._is_settled():
-                for _ in joint.soon_within_horizon(self._known()):
-                    yield self.best
-                joint.still_without_horizon()
-                yield self.best
-                if not self._is_settled():
-                    for _ in joint.within_horizon(self._known()):
-                        yield self.best
-        if self._is_settled():
-            yield from self._settle_ties()
-            return
-        for _ in best_first(self._space(), self.best, self.progress, self.deadline, self._ties()):
-            yield self.best
-
-    def _known(self) -> int:
-        """The key of the best plan so far, one with a window or not."""
-        return min(self.baseline.key, self.best.key)
-
-    def _settle_ties(self) -> Iterator[Incumbent]:
-        """Better windows and fewer actions for the same objective, as far as they come soon."""
-        context = self.context.under(self.deadline.part(_SOON))
-        with suppress(LimitReachedError):
-            for _ in best_first(
-                self._space(context), self.best, self.progress, context.deadline, self._ties()
-            ):
-                yield self.best
-        self.deadline.check()
-
-    def _ties(self) -> Ties | None:
-        return Ties(self.keys.objective_shift, _FEW) if self.context.distances_say_little else None
-
-    def _in_short_windows(self) -> Generator[Incumbent, None, bool]:
-        """Windows of one epoch, where longer ones can't be better; whether a short search did."""
-        best, progress = self.best, self.progress
-        longer = INFINITE_KEY if self.options.max_window == 1 else progress.bound + self.keys.epoch_weight
-        if not self.options.windowed or not self.plan or best.key >= longer:
-            return False
-        with suppress(EnoughError, LimitReachedError):
-            context = self.context.under(self.deadline.part(_SOON))
-            few = Few(self._space(context), FIRST)
-            yield from best_first(few, best, progress, context.deadline, self._ties())
-            return True
-        self.deadline.check()
-        yield from self._in_one_epoch_each(longer)
-        return False
-
-    def _in_one_epoch_each(self, longer: int) -> Iterator[Incumbent]:
-        """Robots by numbers, all agents together if there are few states, robots one by one, all together."""
-        from search.timetable.all_together import AllTogether  # only here: most calls come by without
-
-        assert self.plan is not None, "there is a window"
-        asked = self.context, self.plan, int(self.horizon), self.best, self.progress, longer
-        together = AllTogether(*asked)
-        alike = one_by_one(*asked, by_numbers=True)
-        for ways in (alike, together.soon(), one_by_one(*asked), together.still()):
-            yield from ways
-            if self._is_settled():
-                return
-
-    def _in_one_epoch(self) -> Iterator[Incumbent]:
-        """Answers with the shortest window, where longer ones may be better, too; if time is limited."""
-        options, plan = self.options, self.plan
-        if not options.windowed or not plan or options.max_window == 1 or self.deadline.left() is None:
-            return
-        if options.window_weight >= self.task.cost_of(plan):
-            return
-        with suppress(LimitReachedError):
-            context = self.context.under(self.deadline.part(_SOON))
-            space = self._space(context, max_window=1)
-            for _ in best_first(space, self.best, Progress(), context.deadline):
-                yield self.best
-        self.deadline.check()
-
-    def _is_settled(self) -> bool:
-        """Whether the objective can't be beaten, where that is enough (Decisions: objective first)."""
-        best, bound = self.best.key, self.progress.bound
-        if not self.context.distances_say_little or best >= INFINITE_KEY:
-            return False
-        return self.keys.objective(best) <= self.keys.objective(bound)
 
     def _unfinished(self) -> str:
         """The status while nothing is proved; an infinite bound is a proof."""
@@ -304,7 +203,7 @@ class _Call:
         team = context.team_bound
         return (context.bound(init) if team is no_team_bound else team(init)) + window
 
-    def _improve_alone(self) -> None:
+    def _improve_alone(self, improvements: Improvements) -> None:
         """A given plan may not be optimal: what the human gains alone (semantics 1)."""
         if not self.given or self.plan is None:
             return
@@ -312,28 +211,13 @@ class _Call:
         self.improvable = self.task.cost_of(self.plan) > self.keys.cost(optimum)
         if self.improvable:
             known = self.best.key
-            for _ in best_first(self._space(idle=True), self.best, Progress(), self.deadline):
+            for _ in best_first(improvements.space(idle=True), self.best, Progress(), self.deadline):
                 pass
             if not self.task.robot_goal:
                 self.idle = replace(self.best)
             elif self.best.key < known:
                 self.unaided = replace(self.best)
         self.settled = True
-
-    def _space(
-        self, context: SearchContext | None = None, *, idle: bool = False, max_window: int | None = None
-    ) -> Space[Node, Incumbent]:
-        context, most_cost = context or self.context, self._most_cost()
-        if self.options.windowed:
-            assert self.plan is not None and self.epochs is not None
-            return window_space(
-                context, self.plan, self.epochs, most_cost, self.best.key, idle=idle, max_window=max_window
-            )
-        return free_space(context, self.epochs, most_cost, self.best.key, idle=idle)
-
-    def _most_cost(self) -> int | None:
-        """``max_cost`` (eq. 11), scaled and rounded down."""
-        return self.keys.most_cost(self.options.max_cost, self.baseline.key)
 
     def _helps(self) -> bool:
         """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import search.planner
+import search.improvements
 import serendipity
 from search.apart import timeline
 from search.apart.short_windows import ShortWindows, short_windows
@@ -102,7 +102,7 @@ def test_bounds_where_robots_have_too_many_states(monkeypatch: pytest.MonkeyPatc
 
 def test_answers_equal_brute_force(monkeypatch: pytest.MonkeyPatch) -> None:
     """Robots one by one from the first node on, in every option."""
-    monkeypatch.setattr(search.planner, "FIRST", 0)
+    monkeypatch.setattr(search.improvements, "FIRST", 0)
 
     @given(calls(modes=("serendipity",), of=family_tasks(), ties=False))
     def law(call: Call) -> None:
@@ -148,7 +148,7 @@ def test_robots_who_do_not_need_one_another(robots: int, places: int, cost: str)
 
 
 def test_a_call_that_robots_one_by_one_settle(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(search.planner, "FIRST", 0)
+    monkeypatch.setattr(search.improvements, "FIRST", 0)
     task = _errands(2, 5)
     answer = serendipity.plan(task, discount="0.9")
     assert (answer.status, answer.cost) == ("optimal", 4.5)
@@ -178,7 +178,7 @@ def test_an_epoch_of_many_ways_is_left_when_the_time_for_it_is_up(monkeypatch: p
 
     monkeypatch.setattr(Windowed, "_end", offered)
     monkeypatch.setattr(Deadline, "part", lambda self, _: self.within(cancelled=up))
-    monkeypatch.setattr(search.planner, "one_by_one", next_step)
+    monkeypatch.setattr(search.improvements, "one_by_one", next_step)
     assert serendipity.plan(task, discount="0.9").status == "feasible"
     assert 0 < len(ends) < 2_000
 

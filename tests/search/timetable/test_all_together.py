@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-import search.planner
+import search.improvements
 import serendipity
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress
@@ -90,8 +90,8 @@ def test_the_best_window_of_one_epoch_is_found(
 
 def test_a_call_that_it_settles(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two robots who hand things to each other, so that neither does any good by itself."""
-    monkeypatch.setattr(search.planner, "FIRST", 0)
-    monkeypatch.setattr(search.planner, "one_by_one", lambda *_, **__: iter(()))
+    monkeypatch.setattr(search.improvements, "FIRST", 0)
+    monkeypatch.setattr(search.improvements, "one_by_one", lambda *_, **__: iter(()))
     for seed in range(40):
         task, options = _of_family(seed)
         answer = serendipity.plan(task, discount=options.discount, interference=options.interference)

@@ -60,7 +60,7 @@ PLACES = {
     "limits of the space of a fixed plan": "search.spaces.fixed_human_plan:FixedHumanPlan.__init__",
     "longest window that may pay": "search.spaces.factory:_reach",
     # the planner
-    "best-first search": "search.planner:best_first",
+    "best-first search": "search.improvements:best_first",
     "whether an answer is an opportunity": "search.planner:_Call._helps",
     "improving a given plan": "search.planner:_Call._improve_alone",
     # lower bounds

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import search.planner
+import search.improvements
 import serendipity
 from search.apart.short_windows import ShortWindows, counted_robots
 from search.context import SearchContext
@@ -75,7 +75,7 @@ def test_bounds_and_answers_are_what_brute_force_says() -> None:
 
 def test_bounds_and_answers_are_what_search_says(monkeypatch: pytest.MonkeyPatch) -> None:
     """Robots' ways with names can be found for all that is worth it, beside these plans of the human's."""
-    monkeypatch.setattr(search.planner._Call, "_in_short_windows", lambda _: iter(()))
+    monkeypatch.setattr(search.improvements.Improvements, "_in_short_windows", lambda _: iter(()))
     asked = 0
     for seed in range(110):
         dice = Random(f"search {seed}")
@@ -92,7 +92,7 @@ def test_bounds_and_answers_are_what_search_says(monkeypatch: pytest.MonkeyPatch
 
 
 def test_calls_that_are_settled_by_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(search.planner, "FIRST", 0)
+    monkeypatch.setattr(search.improvements, "FIRST", 0)
     settled = []
     by_numbers = ShortWindows.by_numbers
 
@@ -107,7 +107,7 @@ def test_calls_that_are_settled_by_numbers(monkeypatch: pytest.MonkeyPatch) -> N
         answer = serendipity.plan(task, discount=discount)
         assert serendipity.check(task, answer).verdict != "refuted"
         with monkeypatch.context() as patched:
-            patched.setattr(search.planner._Call, "_in_one_epoch_each", lambda *_: iter(()))
+            patched.setattr(search.improvements.Improvements, "_in_one_epoch_each", lambda *_: iter(()))
             plain = serendipity.plan(task, discount=discount)
         assert (answer.status, answer.objective) == (plain.status, plain.objective)
     assert sum(settled) > 4
