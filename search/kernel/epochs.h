@@ -100,12 +100,13 @@ static void set_field(Word *row, const Field *field) {
     if (bit + field->width > 64) row[word + 1] |= all >> (64 - bit);
 }
 
-/* The fields of a state that have to be set by its end; who can. */
+/* The fields of a state that have to be set by the end, if this is it; who can. */
 static void find_unsettled(Epochs *e, const Word *state) {
     const Problem *p = &e->problem;
     const size_t words = (size_t)p->words;
-    memset(e->unsettled, 0, words * sizeof(Word));
     e->any_unsettled = 0;
+    if (!e->is_end) return;
+    memset(e->unsettled, 0, words * sizeof(Word));
     for (size_t i = 0; i < e->losing.count; i++) {
         const Field *field = &p->fields[e->losing.at[i]];
         if (is_lost(e, state, field)) set_field(e->unsettled, field), e->any_unsettled = 1;
@@ -345,8 +346,7 @@ static int from_state(Epochs *e, const Word *state, Cost paid, int32_t given) {
     memset(e->kept, 0xFF, (size_t)p->words * sizeof(Word)), memset(e->made, 0, (size_t)p->words * sizeof(Word));
     if (given != NONE && !is_allowed(p, given, state)) return 1;
     sort_by_agent(e, state);
-    e->any_unsettled = 0;
-    if (e->is_end) find_unsettled(e, state);
+    find_unsettled(e, state);
     if (given == NONE) return go_through(e, state, 0, 0, 0, paid);
     choose(e, given, 0);
     return go_through(e, state, 0, e->agents[given], 1, paid + p->weight[given]);
