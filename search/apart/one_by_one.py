@@ -49,9 +49,11 @@ def one_by_one(
     short = None
     share = _SHARE_OF_NUMBERS if by_numbers else _SHARE
     try:
-        short = short_windows(context.under(context.deadline.part(share)), plan, horizon, best)
+        short = short_windows(
+            context.under(context.deadline.part(share)), plan, horizon, best, by_numbers=by_numbers
+        )
         if short is not None:
-            for _ in short.by_numbers() if by_numbers else short.one_by_one():
+            for _ in short.answers():
                 yield best
     except LimitReachedError:
         context.deadline.check()

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Final, Protocol
 
-from search.apart.alike.robots import counted_robots
+from search.apart.alike.robots import CountedRobots
+from search.apart.alike.tally import Tally, tally
 from search.apart.conditions import are_apart
 from search.apart.landmarks import FAR
 from search.apart.one_window import RobotsApart
@@ -46,13 +47,22 @@ class ShortWindows:
         plan: ``pi_H``.
         horizon: ``T``.
         best: the call's incumbent, which is made better.
+        counted: how what robots do is counted, where they are told by numbers; else None.
     """
 
-    def __init__(self, context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent) -> None:
+    def __init__(
+        self,
+        context: SearchContext,
+        plan: HumanPlan,
+        horizon: int,
+        best: Incumbent,
+        counted: Tally | None = None,
+    ) -> None:
         self._context = context
         self._plan = plan
         self._horizon = horizon
         self._best = best
+        self._counted = counted
         self._through_all: _Pass | None = None
 
     @property
@@ -60,14 +70,20 @@ class ShortWindows:
         """No plan with a window of one epoch has a smaller key, but the incumbent."""
         return 0 if self._through_all is None else self._through_all.bound
 
-    def one_by_one(self) -> Iterator[None]:
+    def answers(self) -> Iterator[None]:
         """Yield whenever the incumbent has become better; in the end the bound is as good as it gets.
-
-        What robots come to who don't rely on one another comes first: most of that can be done.
 
         Raises:
             LimitReachedError: the deadline came, or there are too many states; what is known by then is kept.
         """
+        if self._counted is None:
+            yield from self._one_by_one()
+        else:
+            robots = CountedRobots(self._context, self._plan, self._counted, self._amount)
+            yield from self._through(self._context, robots)
+
+    def _one_by_one(self) -> Iterator[None]:
+        """What robots come to who don't rely on one another first: most of that can be done."""
         context, packed = self._context, self._context.packed
         steps = [packed.op(action) for action in self._plan]
         provided = provisions(packed, steps, len(steps), context.deadline)
@@ -80,12 +96,6 @@ class ShortWindows:
                 yield from self._pass(soon, nobody).answers()
             context.deadline.check()
         yield from self._through(context, RobotsApart(context, steps, others, self._amount))
-
-    def by_numbers(self) -> Iterator[None]:
-        """The same where robots see to things that are alike, by how many; elsewhere nothing is looked at."""
-        robots = counted_robots(self._context, self._plan, self._amount)
-        if robots is not None:
-            yield from self._through(self._context, robots)
 
     def _through(self, context: SearchContext, robots: "Robots") -> Iterator[None]:
         """All windows, as a bound as well."""
@@ -217,7 +227,7 @@ class _Pass:
 
 
 def short_windows(
-    context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent
+    context: SearchContext, plan: HumanPlan, horizon: int, best: Incumbent, *, by_numbers: bool = False
 ) -> ShortWindows | None:
     """Plans with a window of one epoch, robots one by one; None where they can't be looked at so.
 
@@ -226,6 +236,7 @@ def short_windows(
         plan: ``pi_H``.
         horizon: ``T``.
         best: the call's incumbent.
+        by_numbers: robots are told by numbers.
 
     Raises:
         LimitReachedError: the deadline came.
@@ -234,11 +245,14 @@ def short_windows(
     plain = options.suffix == "replan" and options.preservation == "kernel" and not options.keep_prefix
     if not plain or options.max_cost is not None or context.task.robot_goal or not packed.others:
         return None
-    if context.weights.announces or not are_apart(packed, context.deadline, strict=options.strict):
+    counted = tally(packed, context.relevant, context.deadline) if by_numbers else None
+    if context.weights.announces or (by_numbers and counted is None):
+        return None
+    if not are_apart(packed, context.deadline, strict=options.strict):
         return None
     dearest = max(map(context.weights.scaled_cost, packed.others))
     if dearest * ACTION * len(plan) * len(context.task.robots) >= _MOST_AMOUNT:
         return None
     if sum(map(context.weights.scaled_cost, packed.own)) * ACTION + len(packed.own) >= FAR:
         return None
-    return ShortWindows(context, plan, horizon, best)
+    return ShortWindows(context, plan, horizon, best, counted)

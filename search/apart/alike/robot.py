@@ -9,7 +9,6 @@ from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 from search.apart.alike.tally import Tally
-from search.apart.alike.things import Things
 from search.apart.provision import Value
 from search.apart.timeline import TooManyStatesError
 from search.packed.operators import Operator, applicable, split
@@ -53,7 +52,6 @@ class Robot:
         packed: the packed task.
         ops: the robot's operators, with what each costs.
         tally: how what robots do is counted.
-        things: of the task.
         deadline: polled.
 
     Attributes:
@@ -68,15 +66,14 @@ class Robot:
         packed: PackedTask,
         ops: Sequence[tuple[Operator, int]],
         tally: Tally,
-        things: Things,
         deadline: Deadline,
     ) -> None:
         self._tally = tally
-        self._things = things
+        self._things = tally.things
         self._deadline = deadline
         self._counted = sum(tally.counter_of)
         self._value = {field: value for counter in tally.counters for field, value in counter.values}
-        self._names = {field: things.mentioned[field, value] for field, value in self._value.items()}
+        self._names = {field: tally.things.mentioned[field, value] for field, value in self._value.items()}
         self._ops = ops
         mask = 0
         for op, _ in ops:

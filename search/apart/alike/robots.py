@@ -4,12 +4,10 @@ from collections.abc import Callable
 
 from search.apart.alike.counts import Counts
 from search.apart.alike.robot import Robot
-from search.apart.alike.tally import Tally, tally
-from search.apart.alike.things import Things
+from search.apart.alike.tally import Tally
 from search.apart.alike.window import AlikeWindow, Until
 from search.apart.landmarks import Landmarks
 from search.apart.provision import Value
-from search.apart.timeline import TooManyStatesError
 from search.context import SearchContext
 from search.packed.operators import Operator
 from serendipity.model.task.task import HumanPlan
@@ -22,11 +20,11 @@ class CountedRobots:
         context: of the call.
         plan: ``pi_H``.
         tally: how what they do is counted.
-        things: of the task.
         amount: of an operator.
 
     Raises:
-        LimitReachedError: there are too many places, or the deadline came.
+        TooManyStatesError: a robot has too many places, or too many numbers.
+        LimitReachedError: the deadline came.
     """
 
     def __init__(
@@ -34,19 +32,17 @@ class CountedRobots:
         context: SearchContext,
         plan: HumanPlan,
         tally: Tally,
-        things: Things,
         amount: Callable[[Operator], int],
     ) -> None:
         packed, deadline = context.packed, context.deadline
         self._context = context
         self._plan = plan
         self._tally = tally
-        self._things = things
         self._landmarks = Landmarks(packed, amount, deadline)
         self._robots = []
         for agents in sorted({op.agents for op in packed.others}):
             ops = [(op, amount(op)) for op in packed.others if op.agents == agents]
-            self._robots.append(Robot(packed, ops, tally, things, deadline))
+            self._robots.append(Robot(packed, ops, tally, deadline))
         most = [len(counter.values) for counter in tally.counters]
         self._counts = [Counts(robot, most, deadline) for robot in self._robots]
         self._given = self._values()
@@ -85,7 +81,9 @@ class CountedRobots:
             field
             for counter in self._tally.counters
             for field, value in counter.values
-            if not self._spoken.isdisjoint(self._things.mentioned[field, value] & self._tally.kinds.keys())
+            if not self._spoken.isdisjoint(
+                self._tally.things.mentioned[field, value] & self._tally.kinds.keys()
+            )
         }
         until = Until(self._robots, self._counts, self._tally, spoken, self._epochs, self._given, self._known)
         return AlikeWindow(self._context, self._landmarks, base, start, until, limit)
@@ -101,29 +99,5 @@ class CountedRobots:
             LimitReachedError: the deadline came.
         """
         self._epochs += 1
-        self._spoken |= self._things.of(step)
+        self._spoken |= self._tally.things.of(step)
         self._grow()
-
-
-def counted_robots(
-    context: SearchContext, plan: HumanPlan, amount: Callable[[Operator], int]
-) -> CountedRobots | None:
-    """All robots, told by numbers; None where they can't be.
-
-    Args:
-        context: of the call; robots are apart.
-        plan: ``pi_H``.
-        amount: of an operator.
-
-    Raises:
-        LimitReachedError: the deadline came.
-    """
-    packed, deadline = context.packed, context.deadline
-    things = Things(packed, deadline)
-    counted = tally(packed, context.relevant, things, deadline)
-    if counted is None:
-        return None
-    try:
-        return CountedRobots(context, plan, counted, things, amount)
-    except TooManyStatesError:
-        return None

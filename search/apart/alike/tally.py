@@ -28,30 +28,32 @@ class Tally(NamedTuple):
     """All that robots can leave behind for the human.
 
     Attributes:
+        things: of the task.
         counters: how it is counted.
         counter_of: by field the number of its counter.
         kinds: by name the number of its kind; names of no kind are left out.
         names: the names of each kind.
     """
 
+    things: Things
     counters: tuple[Counter, ...]
     counter_of: Mapping[int, int]
     kinds: Mapping[str, int]
     names: Sequence[Sequence[str]]
 
 
-def tally(packed: PackedTask, relevant: int, things: Things, deadline: Deadline) -> Tally | None:
+def tally(packed: PackedTask, relevant: int, deadline: Deadline) -> Tally | None:
     """How what robots can do for the human is counted; None where that can't be, or there is nothing alike.
 
     Args:
         packed: the packed task.
         relevant: the fields that matter to the human, or to a goal.
-        things: of the task.
         deadline: polled.
 
     Raises:
         LimitReachedError: it came.
     """
+    things = Things(packed, deadline)
     counted = _counted(packed, relevant, things, deadline)
     if not counted or _take_from_others(packed, counted, deadline):
         return None
@@ -72,7 +74,7 @@ def tally(packed: PackedTask, relevant: int, things: Things, deadline: Deadline)
         return None
     counters = tuple(Counter(tuple(values)) for values in members.values())
     counter_of = {field: number for number, counter in enumerate(counters) for field, _ in counter.values}
-    return Tally(counters, counter_of, kinds, names)
+    return Tally(things, counters, counter_of, kinds, names)
 
 
 def _counted(packed: PackedTask, relevant: int, things: Things, deadline: Deadline) -> dict[int, int]:

@@ -49,7 +49,7 @@ def bound_and_cost(task: Task, options: Options) -> tuple[Fraction, Fraction] | 
     if asked is None:
         return None
     context, windows, incumbent = asked
-    for _ in windows.one_by_one():
+    for _ in windows.answers():
         pass
     bound = context.keys.objective(min(windows.bound, incumbent.key)) - options.window_weight
     return bound, context.keys.cost(incumbent.key)
@@ -213,7 +213,7 @@ def test_a_limit_leaves_a_bound(seed: int) -> None:
         return
     context, windows, incumbent = asked
     optimum = best(task, ONE_EPOCH).cost
-    answers = windows.one_by_one()
+    answers = windows.answers()
     next(answers, None)
     assert optimum is not None
     bound = context.keys.objective(min(windows.bound, incumbent.key))

@@ -1,6 +1,7 @@
 """Robots told by numbers of things that are alike: bounds and answers against brute force and search."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 
 import search.improvements
 import serendipity
-from search.apart.short_windows import ShortWindows, counted_robots
+from search.apart.short_windows import ShortWindows, short_windows
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.prepared_task import PreparedTask
@@ -46,14 +47,12 @@ def counted(task: Task, options: Options) -> tuple[Fraction, Fraction] | None:
     if optimal is None or not optimal.actions:
         return None
     incumbent = _incumbent(context, optimal.actions)
-    windows = ShortWindows(context, optimal.actions, len(optimal.actions), incumbent)
-    robots = counted_robots(context, optimal.actions, windows._amount)
-    if robots is None:
+    windows = short_windows(context, optimal.actions, len(optimal.actions), incumbent, by_numbers=True)
+    if windows is None:
         return None
-    only = windows._pass(context, robots)
-    for _ in only.answers():
+    for _ in windows.answers():
         pass
-    bound = context.keys.objective(min(only.bound, incumbent.key)) - options.window_weight
+    bound = context.keys.objective(min(windows.bound, incumbent.key)) - options.window_weight
     return bound, context.keys.cost(incumbent.key)
 
 
@@ -94,13 +93,13 @@ def test_bounds_and_answers_are_what_search_says(monkeypatch: pytest.MonkeyPatch
 def test_calls_that_are_settled_by_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(search.improvements, "FIRST", 0)
     settled = []
-    by_numbers = ShortWindows.by_numbers
+    answers = ShortWindows.answers
 
     def seen(self: ShortWindows) -> Iterator[None]:
-        yield from by_numbers(self)
-        settled.append(self.bound >= self._best.key)
+        yield from answers(self)
+        settled.append(self._counted is not None and self.bound >= self._best.key)
 
-    monkeypatch.setattr(ShortWindows, "by_numbers", seen)
+    monkeypatch.setattr(ShortWindows, "answers", seen)
     for seed in range(40):
         dice = Random(f"calls {seed}")
         task, discount = survey(dice, 6, 1), dice.choice(["1/2", "9/10"])
@@ -137,12 +136,12 @@ def test_a_limit_leaves_a_bound(seed: int, looks: int) -> None:
     optimal = context.canonical_plan()
     assert optimal is not None
     incumbent = _incumbent(context, optimal.actions)
-    windows = ShortWindows(context.under(Countdown(looks)), optimal.actions, len(optimal.actions), incumbent)
-    answers = windows.by_numbers()
-    try:
-        for _ in answers:
+    plan, windows = optimal.actions, None
+    with suppress(LimitReachedError):
+        hurried = context.under(Countdown(looks))
+        windows = short_windows(hurried, plan, len(plan), incumbent, by_numbers=True)
+        for _ in windows.answers() if windows else ():
             pass
-    except LimitReachedError:
-        pass
-    bound = context.keys.objective(min(windows.bound, incumbent.key)) - options.window_weight
+    known = 0 if windows is None else windows.bound
+    bound = context.keys.objective(min(known, incumbent.key)) - options.window_weight
     assert bound <= exact[0] <= context.keys.cost(incumbent.key)

@@ -2,7 +2,8 @@
 
 from random import Random
 
-from search.apart.alike.robots import counted_robots
+from search.apart.alike.robots import CountedRobots
+from search.apart.alike.tally import tally
 from search.apart.landmarks import FAR
 from search.apart.one_window import RobotsApart
 from search.apart.short_windows import Robots
@@ -39,9 +40,10 @@ def test_windows_of_every_epoch_come_to_the_same() -> None:
         def amount(op: Operator, context: SearchContext = context) -> int:
             return context.weights.scaled_cost(op) * ACTION + 1
 
-        numbers = counted_robots(context, plan, amount)
-        if numbers is None:
+        counted = tally(context.packed, context.relevant, context.deadline)
+        if counted is None:
             continue
+        numbers = CountedRobots(context, plan, counted, amount)
         steps = [context.packed.op(action) for action in plan]
         apart = RobotsApart(context, steps, {robot.agents: {} for robot in context.packed.others}, amount)
         both: tuple[Robots, Robots] = numbers, apart

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from search.apart.alike.robots import counted_robots
+from search.apart.alike.robots import CountedRobots
 from search.apart.alike.tally import tally
 from search.apart.alike.things import Things
 from search.context import SearchContext
@@ -85,8 +85,7 @@ def test_places_that_differ_in_one_thing(task: Task, kinds: list[list[str]]) -> 
 def counters(task: Task) -> list[int] | None:
     """How many values each counter counts."""
     context = SearchContext(PreparedTask(task), Options(), Deadline())
-    things = Things(context.packed, context.deadline)
-    found = tally(context.packed, context.relevant, things, context.deadline)
+    found = tally(context.packed, context.relevant, context.deadline)
     return None if found is None else [len(counter.values) for counter in found.counters]
 
 
@@ -135,6 +134,7 @@ def test_places_of_the_robot_up_to_exchanging() -> None:
     context = SearchContext(PreparedTask(task), Options(), Deadline())
     plan = context.canonical_plan()
     assert plan is not None
-    robots = counted_robots(context, plan.actions, lambda _: 1)
-    assert robots is not None
+    counted = tally(context.packed, context.relevant, context.deadline)
+    assert counted is not None
+    robots = CountedRobots(context, plan.actions, counted, lambda _: 1)
     assert [len(robot.edges) for robot in robots._robots] == [3]
