@@ -78,7 +78,7 @@ class Robot:
         mask = 0
         for op, _ in ops:
             mask |= packed.mentioned(op)
-        self._mask = mask & ~self._counted
+        self._mask = mask & ~tally.fields
         self._fields = [field for field in packed.fields if field & self._mask]
         self._moves = _Moves(ops, self._fields)
         self._short: dict[tuple[Value, tuple[tuple[str, str], ...]], Value] = {}

@@ -29,13 +29,15 @@ class Tally(NamedTuple):
 
     Attributes:
         things: of the task.
-        counters: how it is counted.
+        fields: all of it, with what has been done from the start.
+        counters: how the rest is counted.
         counter_of: by field the number of its counter.
         kinds: by name the number of its kind; names of no kind are left out.
         names: the names of each kind.
     """
 
     things: Things
+    fields: int
     counters: tuple[Counter, ...]
     counter_of: Mapping[int, int]
     kinds: Mapping[str, int]
@@ -54,8 +56,11 @@ def tally(packed: PackedTask, relevant: int, deadline: Deadline) -> Tally | None
         LimitReachedError: it came.
     """
     things = Things(packed, deadline)
-    counted = _counted(packed, relevant, things, deadline)
-    if not counted or _take_from_others(packed, counted, deadline):
+    known = _counted(packed, relevant, things, deadline)
+    if not known or _take_from_others(packed, known, deadline):
+        return None
+    counted = {field: value for field, value in known.items() if packed.init & field != value}
+    if any(value not in things.mentioned for value in counted.items()):
         return None
     names = [
         kind
@@ -74,7 +79,7 @@ def tally(packed: PackedTask, relevant: int, deadline: Deadline) -> Tally | None
         return None
     counters = tuple(Counter(tuple(values)) for values in members.values())
     counter_of = {field: number for number, counter in enumerate(counters) for field, _ in counter.values}
-    return Tally(things, counters, counter_of, kinds, names)
+    return Tally(things, sum(known), counters, counter_of, kinds, names)
 
 
 def _counted(packed: PackedTask, relevant: int, things: Things, deadline: Deadline) -> dict[int, int]:
@@ -88,10 +93,7 @@ def _counted(packed: PackedTask, relevant: int, things: Things, deadline: Deadli
         for field in split(fields & ~op.keep, things.fields):
             if found.setdefault(field, op.put & field) != op.put & field:
                 return {}
-    is_new = all(
-        packed.init & field != value and (field, value) in things.mentioned for field, value in found.items()
-    )
-    return found if is_new else {}
+    return found
 
 
 def _take_from_others(packed: PackedTask, counted: Iterable[int], deadline: Deadline) -> bool:

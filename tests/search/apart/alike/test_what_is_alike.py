@@ -91,6 +91,7 @@ def counters(task: Task) -> list[int] | None:
 
 def test_what_is_seen_is_counted() -> None:
     assert counters(survey()) == [4]
+    assert counters(survey(init="seen:c")) == [3]
 
 
 @pytest.mark.parametrize(
