@@ -13,7 +13,7 @@ def _unchecked(self: Any, epoch: int, state: int) -> Iterable[Any]:
     return (part(self, "steps of pi_H")[epoch - 1][1],)
 
 
-def _taken_for_optimal(self: Any) -> None:
+def _taken_for_optimal(self: Any, _: object) -> None:
     self.settled = True
 
 
