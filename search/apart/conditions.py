@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from search.apart.mutexes import Pairs
+from search.abstractions.mutexes import Pairs
 from search.apart.rows import Rows, column
 from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
@@ -29,10 +29,15 @@ def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
     pairs = None
     for own, other in _in_the_way(packed, deadline):
         if packed.compatible(own.action, other.action, strict=False):
-            pairs = pairs or Pairs(packed, deadline)
+            pairs = pairs or _pairs(packed, deadline)
             if pairs.may_share_a_state(own, other):
                 return False
     return True
+
+
+def _pairs(packed: PackedTask, deadline: Deadline) -> Pairs:
+    fields = ((field, packed.values(field)) for field in packed.fields)
+    return Pairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, deadline)
 
 
 def lost_values(packed: PackedTask) -> dict[int, set[int]]:

@@ -2,7 +2,8 @@
 
 What it learns of states serves later questions: exact costs along plans, and of every state that was
 expanded that it costs no less than what was left then (Koenig and Likhachev 2005).  It begins with LM-cut
-alone; tables of projections follow once a question turns out to be worth them.
+alone; tables of projections, and whether plans' lengths are even or odd, follow once a question turns out
+to be worth them.
 """
 
 import ctypes
@@ -12,6 +13,7 @@ from ctypes import c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void
 from typing import Final
 
 from search.abstractions.patterns import Field, patterns
+from search.classical.parity import Parity, parity_of
 from search.classical.problem import NO_PLAN, ClassicalProblem
 from search.classical.told import Told, memory_for
 from serendipity.model.errors import LimitReachedError
@@ -24,10 +26,10 @@ ROOM: Final = 1 << 24
 """Bytes that may be allocated before memory is asked for again."""
 
 _MANY: Final = 2_000
-"""Evaluations after which tables are worth their time."""
+"""Evaluations after which tables are worth their time, and a look at the parity of plans' lengths is."""
 
 _SHARE: Final = 0.25
-"""What of the time that is left they may take."""
+"""What of the time that is left either may take."""
 
 _MOST_STATES: Final = 10_000
 _MOST_TRANSITIONS: Final = 3_000_000
@@ -44,6 +46,7 @@ _SIGNATURES: Final = {
     "planner_new": (c_void_p, [c_void_p]),
     "planner_free": (None, [c_void_p]),
     "planner_begin": (c_int, [c_void_p, c_char_p, c_int32, c_int64, c_size_t]),
+    "planner_parity": (None, [c_void_p, c_int64, c_int32]),
     "planner_run": (c_int, [c_void_p, c_double, c_size_t]),
     "planner_begin_greedy": (c_int, [c_void_p, c_char_p, c_size_t]),
     "planner_run_greedy": (c_int, [c_void_p, c_double, c_size_t]),
@@ -99,7 +102,8 @@ class ClassicalPlanner:
         self._planner = self._kernel.planner_new(ctypes.byref(self.told.spec))
         if not self._planner:
             raise LimitReachedError("memory-limit")
-        self._tables = False
+        self._tables = self._is_parity_sought = False
+        self._parity: Parity | None = None
         self._asked: int | None = None
         self._is_open = False
 
@@ -133,6 +137,7 @@ class ClassicalPlanner:
         kernel, planner = self._kernel, self._planner
         row, most = self.told.row(state), self.problem.limit(limit)
         self._asked, self._is_open = state & self._mask, False
+        self._tell_parity(state)
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
         self._is_open = True
         return self.go_on(deadline, on_bound)
@@ -155,6 +160,7 @@ class ClassicalPlanner:
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
+            self._find_parity(deadline)
             self.prepare(deadline)
         self._is_open = False
         return self.least
@@ -277,6 +283,27 @@ class ClassicalPlanner:
             outcome = call(wanted)
         return outcome
 
+    # -- whether plans' lengths are even or odd
+
+    def _find_parity(self, deadline: Deadline) -> None:
+        """Look for it from where the search began, once it is worth the time; all steps weigh alike then."""
+        if self._is_parity_sought or self.counts()[2] < _MANY:
+            return
+        self._is_parity_sought = True
+        assert self._asked is not None, "a search is under way"
+        if len({*self.problem.weights}) > 1:
+            return
+        try:
+            self._parity = parity_of(self.problem, self._asked, deadline.part(_SHARE))
+        except LimitReachedError:
+            deadline.check()
+        self._tell_parity(self._asked)
+
+    def _tell_parity(self, state: int) -> None:
+        odd = None if self._parity is None else self._parity.of(state)
+        step = 0 if odd is None else self.problem.weights[0]
+        self._kernel.planner_parity(self._planner, step, odd or 0)
+
     # -- tables
 
     def prepare(self, deadline: Deadline) -> None:
@@ -286,11 +313,11 @@ class ClassicalPlanner:
             LimitReachedError: the deadline came first.
         """
         if not self._tables and self.counts()[2] >= _MANY:
+            self._tables = True
             self._make_tables(deadline)
 
     def _make_tables(self, deadline: Deadline) -> None:
         """Projections that add up, as many as there is time for."""
-        self._tables = True
         kernel, planner = self._kernel, self._planner
         part = deadline.part(_SHARE)
         room, made = _MOST_TRANSITIONS, 0

@@ -1,51 +1,19 @@
-"""Pairs of values that are never reached together, and where robots are in nobody's way."""
-
-from random import Random
+"""Where robots are in nobody's way, and what the human never gets away from."""
 
 import pytest
 
 from search.apart.conditions import are_apart, lost_values
-from search.apart.mutexes import Pairs
 from search.context import SearchContext
-from search.packed.operators import applicable, asked_by
+from search.packed.operators import asked_by
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
-from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
-
-_MOST = 3_000
 
 
 def _packed(task: Task) -> PackedTask:
     return SearchContext(PreparedTask(task), Options(), Deadline()).packed
-
-
-def _reached(packed: PackedTask) -> list[int]:
-    """Packed states that agents reach one action after another, in breadth-first order."""
-    found = [packed.init]
-    seen = {packed.init}
-    for state in found:
-        for op in (*packed.own, *packed.joint, *packed.others):
-            if applicable(op, state) and (after := state & op.keep | op.put) not in seen:
-                seen.add(after)
-                found.append(after)
-        if len(found) > _MOST:
-            break
-    return found
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_what_can_happen_in_a_state_is_not_excluded(seed: int) -> None:
-    dice = Random(seed)
-    family = dice.choice(sorted(FAMILIES))
-    size, agents = dice.choice(SMALL[family])
-    packed = _packed(FAMILIES[family](dice, size, AGENTS[:agents]))
-    pairs = Pairs(packed, Deadline())
-    for state in dice.sample(reached := _reached(packed), min(60, len(reached))):
-        able = [op for op in (*packed.own, *packed.others) if applicable(op, state)]
-        assert all(pairs.may_share_a_state(a, b) for a in able for b in able)
 
 
 def test_who_drives_is_not_told_by_one_variable() -> None:

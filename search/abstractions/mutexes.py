@@ -3,14 +3,13 @@
 Source: Haslum and Geffner, Admissible heuristics for optimal planning (2000), with ``m = 2``.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from search.packed.operators import Operator, split
-from search.packed.packed_task import PackedTask
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
@@ -29,40 +28,53 @@ class Pairs:
     """Pairs of values that may be reached together.
 
     Args:
-        packed: the packed task.
+        fields: masks of the fields, with their values.
+        operators: what may be done.
+        state: the packed state to begin in.
         deadline: polled.
+
+    Attributes:
+        mask: all fields.
 
     Raises:
         LimitReachedError: the deadline came, or there are too many values.
     """
 
-    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
-        self._lowest = {field & -field: field for field in packed.fields}
+    def __init__(
+        self,
+        fields: Iterable[tuple[int, Sequence[int]]],
+        operators: Iterable[Operator],
+        state: int,
+        deadline: Deadline,
+    ) -> None:
+        self._lowest: dict[int, int] = {}
         self._number: dict[tuple[int, int], int] = {}
-        for field in packed.fields:
-            for value in packed.values(field):
+        for field, values in fields:
+            self._lowest[field & -field] = field
+            for value in values:
                 self._number[field, value] = len(self._number)
         size = len(self._number)
         if size > _MOST_VALUES:
             raise LimitReachedError("too-many-values")
         deadline.require(size * size)
-        at_first = self._numbers(packed.all_ones, packed.init)
+        self.mask = sum(self._lowest.values())
+        at_first = self._numbers(self.mask, state)
         self._together = np.zeros((size, size), dtype=np.bool_)
         self._together[np.ix_(at_first, at_first)] = True
-        self._reach(self._changes(packed, deadline), deadline)
+        self._reach(self._changes(operators, deadline), deadline)
 
     def _numbers(self, mask: int, state: int) -> NDArray[np.intp]:
         return np.array([self._number[f, state & f] for f in split(mask, self._lowest)], dtype=np.intp)
 
-    def _changes(self, packed: PackedTask, deadline: Deadline) -> list[_Change]:
+    def _changes(self, operators: Iterable[Operator], deadline: Deadline) -> list[_Change]:
         kept: dict[int, NDArray[np.bool_]] = {}
         found = []
-        for op in (*packed.own, *packed.joint, *packed.others):
+        for op in operators:
             deadline.tick()
             if op.keep not in kept:
                 kept[op.keep] = np.array([bool(field & op.keep) for field, _ in self._number])
             needs = self._numbers(op.need_mask, op.need)
-            sets = self._numbers(packed.all_ones & ~op.keep, op.put)
+            sets = self._numbers(self.mask & ~op.keep, op.put)
             found.append(_Change(needs, sets, kept[op.keep]))
         return found
 
@@ -83,3 +95,8 @@ class Pairs:
         """Whether what two operators ask for may be true at once."""
         asked = [self._numbers(op.need_mask, op.need) for op in (first, second)]
         return bool(self._together[np.ix_(asked[0], asked[1])].all())
+
+    def may_hold(self, mask: int, state: int) -> bool:
+        """Whether what some fields hold in a packed state may be true at once."""
+        numbers = self._numbers(mask, state)
+        return bool(self._together[np.ix_(numbers, numbers)].all())

@@ -1,0 +1,75 @@
+"""Pairs of values that are never reached together."""
+
+from random import Random
+
+import pytest
+
+from search.abstractions.mutexes import Pairs
+from search.context import SearchContext
+from search.packed.operators import applicable
+from search.packed.packed_task import PackedTask
+from search.prepared_task import PreparedTask
+from serendipity.model import Options, Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.testing.builders import task as build
+from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+
+_MOST = 3_000
+
+
+def _packed(task: Task) -> PackedTask:
+    return SearchContext(PreparedTask(task), Options(), Deadline()).packed
+
+
+def _reached(packed: PackedTask) -> list[int]:
+    """Packed states that agents reach one action after another, in breadth-first order."""
+    found = [packed.init]
+    seen = {packed.init}
+    for state in found:
+        for op in (*packed.own, *packed.joint, *packed.others):
+            if applicable(op, state) and (after := state & op.keep | op.put) not in seen:
+                seen.add(after)
+                found.append(after)
+        if len(found) > _MOST:
+            break
+    return found
+
+
+def _pairs(packed: PackedTask) -> Pairs:
+    fields = ((field, packed.values(field)) for field in packed.fields)
+    return Pairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, Deadline())
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_what_can_happen_in_a_state_is_not_excluded(seed: int) -> None:
+    dice = Random(seed)
+    family = dice.choice(sorted(FAMILIES))
+    size, agents = dice.choice(SMALL[family])
+    packed = _packed(FAMILIES[family](dice, size, AGENTS[:agents]))
+    pairs = _pairs(packed)
+    for state in dice.sample(reached := _reached(packed), min(60, len(reached))):
+        able = [op for op in (*packed.own, *packed.others) if applicable(op, state)]
+        assert pairs.may_hold(packed.all_ones, state)
+        assert all(pairs.may_share_a_state(a, b) for a in able for b in able)
+
+
+def test_a_lamp_is_not_left_on_behind_a_closed_door() -> None:
+    task = build(
+        goal="seen sealed",
+        actions={
+            "open h": "!open -> open",
+            "light h": "open -> lamp",
+            "see h": "lamp -> seen",
+            "quench h": "lamp -> !lamp",
+            "close h": "open !lamp -> !open",
+            "seal h": "!open -> sealed",
+        },
+    )
+    packed = _packed(task)
+    pairs = _pairs(packed)
+    door, lamp = (packed.fact_bits[task.facts.index(fact)] for fact in ("open", "lamp"))
+    assert door is not None
+    assert lamp is not None
+    both = door[0] | lamp[0]
+    held = {state: pairs.may_hold(both, state) for state in (0, door[1], lamp[1], door[1] | lamp[1])}
+    assert held == {0: True, door[1]: True, lamp[1]: False, door[1] | lamp[1]: True}
