@@ -18,13 +18,18 @@ if TYPE_CHECKING:  # loaded by the calls that it serves
     from search.classical.team import Team
 
 
-def team_for(context: SearchContext) -> "Team | None":
-    """The team's problem, where the kernel can answer the call; None where the general search has to."""
+def team_for(context: SearchContext, *, alone: bool = True) -> "Team | None":
+    """The team's problem, where the kernel can answer the call; None where the general search has to.
+
+    Args:
+        context: of the call.
+        alone: whether the human may have a plan without others.
+    """
     options, task = context.options, context.task
     endless = options.horizon == INFINITE
     if options.mode != "composite" or not endless or options.max_cost is not None or task.robot_goal:
         return None
-    return context.team if context.distances_say_little else None
+    return context.team if context.distances_say_little or not alone else None
 
 
 class CompositeCall:

@@ -56,8 +56,11 @@ def solve(
         at_hand = AtHand(context, human_plan)
         yield from at_hand.answers()
         expected = expected_plan(context, human_plan, at_hand.plan)
+        team = team_for(context, alone=False) if expected is None else None
         if expected is None and (options.mode == "serendipity" or options.keep_prefix):
             answers = iter((Answer("infeasible", reason="no-human-plan"),))
+        elif team is not None:
+            answers = CompositeCall(context, team, human_plan).answers()
         else:
             answers = _Call(context, expected, given=human_plan is not None).answers()
     except LIMITS as limit:

@@ -135,3 +135,18 @@ def test_where_the_joint_optimum_is_interrupted_and_goes_on(monkeypatch: pytest.
 
     law()
     assert any(went_on), "else this test says nothing"
+
+
+@pytest.mark.skipif(library() is None, reason="there is no kernel here")
+@pytest.mark.parametrize(("bridge", "status", "most"), [("de", "optimal", 12), ("", "infeasible", 0)])
+def test_what_only_others_bring(bridge: str, status: str, most: int) -> None:
+    """The human's own distances say nothing of what has to come first; there are 36 states before."""
+    actions = {"open h": "box_f lid_f -> done"}
+    for thing in ("box", "lid"):
+        for here, there in filter(None, ("ab", "bc", "cd", bridge, "ef")):
+            actions[f"push_{thing}_{here} r"] = f"{thing}_{here} -> {thing}_{there} !{thing}_{here}"
+            actions[f"pull_{thing}_{here} s"] = f"{thing}_{there} -> {thing}_{here} !{thing}_{there}"
+    task = build(agents="h r s", init="box_a lid_a", goal="done", actions=actions)
+    answer = serendipity.plan(task, mode="composite", horizon=INFINITE)
+    assert answer.status == status
+    assert answer.statistics["expanded"] <= most
