@@ -5,9 +5,11 @@ from contextlib import suppress
 from typing import Final
 
 from search.apart.one_by_one import FIRST, one_by_one
+from search.composite import is_for_kernel
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, Ties, best_first
 from search.engine.few import EnoughError, Few
+from search.engine.one_level import OneLevel
 from search.joint_plans import JointPlans
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_space, window_space
@@ -63,6 +65,7 @@ class Improvements:
 
         Raises:
             LimitReachedError: the deadline came.
+            EnoughError: private distances turn out to say little, and the kernel can go on.
         """
         if self._context.distances_say_little:
             joint = JointPlans(
@@ -87,8 +90,18 @@ class Improvements:
         if self._is_settled():
             yield from self._settle_ties()
             return
-        for _ in best_first(self.space(), self._best, self._progress, self._context.deadline, self._ties()):
+        for _ in best_first(
+            self._last_space(), self._best, self._progress, self._context.deadline, self._ties()
+        ):
             yield self._best
+
+    def _last_space(self) -> Space[Node, Incumbent]:
+        """What is searched at the end; where the kernel can do it, for as long as bounds are exact."""
+        space, context = self.space(), self._context
+        if context.distances_say_little or not is_for_kernel(context):
+            return space
+        shift = context.keys.objective_shift
+        return OneLevel(space, self._progress, shift, lambda: context.team is not None)
 
     def _known(self) -> int:
         """The key of the best plan so far, one with a window or not."""

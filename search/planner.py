@@ -4,9 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from search.composite import CompositeCall, team_for
+from search.composite import CompositeCall, Known, team_for
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.few import EnoughError
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.heuristics.first_interaction import no_team_bound
 from search.improvements import Improvements, is_settled
@@ -56,17 +57,29 @@ def solve(
         at_hand = AtHand(context, human_plan)
         yield from at_hand.answers()
         expected = expected_plan(context, human_plan, at_hand.plan)
-        team = team_for(context, alone=False) if expected is None else None
+        team = team_for(context, otherwise=True) if expected is None else None
         if expected is None and (options.mode == "serendipity" or options.keep_prefix):
             answers = iter((Answer("infeasible", reason="no-human-plan"),))
         elif team is not None:
             answers = CompositeCall(context, team, human_plan).answers()
         else:
-            answers = _Call(context, expected, given=human_plan is not None).answers()
+            answers = _answers(_Call(context, expected, given=human_plan is not None))
     except LIMITS as limit:
         reason = limit_reason(limit)
         answers = iter((Answer("unknown", reason=reason) if at_hand is None else at_hand.last(reason),))
     yield from answers
+
+
+def _answers(call: "_Call") -> Iterator[Answer]:
+    """Answers to a call; the kernel goes on where private distances turn out to say little."""
+    try:
+        yield from call.answers()
+    except EnoughError:
+        team = team_for(call.context, otherwise=True)
+        assert team is not None, "it can go on"
+        yield from CompositeCall(
+            call.context, team, call.plan if call.given else None, call.known()
+        ).answers()
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +148,11 @@ class _Call:
         self.limit: str | None = None
 
     def answers(self) -> Iterator[Answer]:
-        """Each better answer, then the last one with what is proved of it."""
+        """Each better answer, then the last one with what is proved of it.
+
+        Raises:
+            EnoughError: the kernel should go on.
+        """
         try:
             self.leave_alone()
             improvements = Improvements(
@@ -157,6 +174,14 @@ class _Call:
             is_best = self.settled and is_settled(self.context, self.best, self.progress)
             status = "optimal" if is_best else self._unfinished()
         yield self._outcome(status)
+
+    def known(self) -> Known:
+        """What another search of all plans without a window could go on with."""
+        best, sets = self.best, None
+        if best.key < INFINITE_KEY:
+            alone: list[tuple[int, ...]] = [(action,) for action in self.plan or ()]
+            sets = alone if best.node is None else path_sets(best.node)
+        return Known(sets, self.progress.bound, self.progress.expanded, self.progress.generated)
 
     def _unfinished(self) -> str:
         """The status while nothing is proved; an infinite bound is a proof."""

@@ -150,3 +150,38 @@ def test_what_only_others_bring(bridge: str, status: str, most: int) -> None:
     answer = serendipity.plan(task, mode="composite", horizon=INFINITE)
     assert answer.status == status
     assert answer.statistics["expanded"] <= most
+
+
+def _ride(cabs: int) -> dict[str, str]:
+    """Somebody walks along a street, or is taken by cabs that come from its end and have to keep apart."""
+    actions = {}
+    places = range(8)
+    for a, b in [(i, j) for i in places for j in places if abs(i - j) == 1]:
+        actions[f"walk {a} {b} h"] = f"at_{a} -> at_{b} !at_{a}"
+        for cab in "rs"[:cabs]:
+            actions[f"drive {a} {b} {cab}"] = f"{cab}_{a} free_{b} -> {cab}_{b} !{cab}_{a} free_{a} !free_{b}"
+    for i in places:
+        for cab in "rs"[:cabs]:
+            actions[f"enter {cab}_ {i} h"] = f"at_{i} {cab}_{i} -> in_{cab} !at_{i}"
+            actions[f"leave {cab}_ {i} h"] = f"in_{cab} {cab}_{i} -> at_{i} !in_{cab}"
+    return actions
+
+
+@pytest.mark.skipif(library() is None, reason="there is no kernel here")
+@pytest.mark.parametrize(("cabs", "cost"), [(1, 3.3), (2, 4.2)])
+def test_where_robots_have_more_to_do_than_come(cabs: int, cost: float) -> None:
+    """The bound tells what it takes until a cab has come, not what it takes until it is there.
+
+    A second cab stands at the end, so that the human has to walk there from the place before.
+    """
+    init = "at_0 r_6 free_0 free_1 free_2 free_3 free_4 free_5 " + ("s_7" if cabs == 2 else "free_7")
+    task = build(agents="h r s"[: 1 + 2 * cabs], init=init, goal="at_7", actions=_ride(cabs))
+    answers = list(serendipity.plan_anytime(task, mode="composite", horizon=INFINITE, discount="0.9"))
+    assert answers[-1].status == "optimal"
+    assert answers[-1].cost == cost
+    assert answers[-1].saving == 7 - cost
+    assert answers[-1].statistics["expanded"] < 100
+    bounds = [answer.lower_bound for answer in answers]
+    assert bounds == sorted(bounds)
+    assert all(answer.cost <= 7 for answer in answers), "they could walk"
+    assert serendipity.verify(task, answers[-1]).verdict == "proved"
