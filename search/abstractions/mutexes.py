@@ -6,9 +6,6 @@ Source: Haslum and Geffner, Admissible heuristics for optimal planning (2000), w
 from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from search.packed.operators import Operator, split
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
@@ -17,11 +14,13 @@ _MOST_VALUES: Final = 4_000
 
 
 class _Change(NamedTuple):
-    """An operator: what it asks for, what it sets, and which values it leaves alone."""
+    """An operator: the values that it asks for and sets, also as bit sets, and those that it leaves alone."""
 
-    needs: NDArray[np.intp]
-    sets: NDArray[np.intp]
-    kept: NDArray[np.bool_]
+    needs: tuple[int, ...]
+    asked: int
+    sets: tuple[int, ...]
+    put: int
+    kept: int
 
 
 class Pairs:
@@ -56,47 +55,68 @@ class Pairs:
         size = len(self._number)
         if size > _MOST_VALUES:
             raise LimitReachedError("too-many-values")
-        deadline.require(size * size)
+        deadline.require(size * size // 8)
         self.mask = sum(self._lowest.values())
+        self._beside = [0] * size
+        """Per value those that may be reached together with it, as a bit set."""
         at_first = self._numbers(self.mask, state)
-        self._together = np.zeros((size, size), dtype=np.bool_)
-        self._together[np.ix_(at_first, at_first)] = True
-        self._reach(self._changes(operators, deadline), deadline)
+        for number in at_first:
+            self._beside[number] = _bits(at_first)
+        self._reach(_bits(at_first), self._changes(operators, deadline), deadline)
 
-    def _numbers(self, mask: int, state: int) -> NDArray[np.intp]:
-        return np.array([self._number[f, state & f] for f in split(mask, self._lowest)], dtype=np.intp)
+    def _numbers(self, mask: int, state: int) -> tuple[int, ...]:
+        return tuple(self._number[field, state & field] for field in split(mask, self._lowest))
 
     def _changes(self, operators: Iterable[Operator], deadline: Deadline) -> list[_Change]:
-        kept: dict[int, NDArray[np.bool_]] = {}
+        kept: dict[int, int] = {}
         found = []
         for op in operators:
             deadline.tick()
             if op.keep not in kept:
-                kept[op.keep] = np.array([bool(field & op.keep) for field, _ in self._number])
-            needs = self._numbers(op.need_mask, op.need)
-            sets = self._numbers(self.mask & ~op.keep, op.put)
-            found.append(_Change(needs, sets, kept[op.keep]))
+                kept[op.keep] = _bits(n for (field, _), n in self._number.items() if field & op.keep)
+            needs, sets = self._numbers(op.need_mask, op.need), self._numbers(self.mask & ~op.keep, op.put)
+            found.append(_Change(needs, _bits(needs), sets, _bits(sets), kept[op.keep]))
         return found
 
-    def _reach(self, changes: Sequence[_Change], deadline: Deadline) -> None:
-        together, known = self._together, -1
-        while (count := int(together.sum())) != known:
-            known = count
-            for needs, sets, kept in changes:
+    def _reach(self, reached: int, changes: Sequence[_Change], deadline: Deadline) -> None:
+        beside, is_new = self._beside, True
+        while is_new:
+            is_new = False
+            for needs, asked, sets, put, kept in changes:
                 deadline.tick()
-                if not together[np.ix_(needs, needs)].all():
+                found = reached
+                for number in needs:
+                    found &= beside[number]
+                if found & asked != asked:
                     continue
-                beside = together[needs].all(axis=0) & kept & together.diagonal()
-                together[sets] |= beside
-                together[:, sets] |= beside[:, None]
-                together[np.ix_(sets, sets)] = True
+                found = found & kept | put
+                for number in sets:
+                    if new := found & ~beside[number]:
+                        is_new = True
+                        self._join(number, new)
+                reached |= put
+
+    def _join(self, number: int, others: int) -> None:
+        """A value may be reached together with others."""
+        self._beside[number] |= others
+        while others:
+            lowest = others & -others
+            self._beside[lowest.bit_length() - 1] |= 1 << number
+            others ^= lowest
 
     def may_share_a_state(self, first: Operator, second: Operator) -> bool:
         """Whether what two operators ask for may be true at once."""
-        asked = [self._numbers(op.need_mask, op.need) for op in (first, second)]
-        return bool(self._together[np.ix_(asked[0], asked[1])].all())
+        beside = _bits(self._numbers(second.need_mask, second.need))
+        return all(
+            self._beside[number] & beside == beside for number in self._numbers(first.need_mask, first.need)
+        )
 
     def may_hold(self, mask: int, state: int) -> bool:
         """Whether what some fields hold in a packed state may be true at once."""
         numbers = self._numbers(mask, state)
-        return bool(self._together[np.ix_(numbers, numbers)].all())
+        held = _bits(numbers)
+        return all(self._beside[number] & held == held for number in numbers)
+
+
+def _bits(numbers: Iterable[int]) -> int:
+    return sum(1 << number for number in numbers)

@@ -7,14 +7,12 @@ equations modulo 2.
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
+from search.abstractions.mutexes import Pairs
 from search.classical.problem import ClassicalProblem
 from search.packed.operators import Operator
 from serendipity.model.resources.deadline import Deadline
-
-if TYPE_CHECKING:
-    from search.abstractions.mutexes import Pairs
 
 _ODD: Final = 1
 """The bit of an equation for what it is equal to."""
@@ -32,7 +30,7 @@ class Parity:
         pairs: what may hold in states that can be reached.
     """
 
-    def __init__(self, black: Iterable[_Value], at_goals: int, pairs: "Pairs") -> None:
+    def __init__(self, black: Iterable[_Value], at_goals: int, pairs: Pairs) -> None:
         self._black = tuple(black)
         self._at_goals = at_goals
         self._pairs = pairs
@@ -57,8 +55,6 @@ def parity_of(problem: ClassicalProblem, state: int, deadline: Deadline) -> Pari
     """
     if not _Colours(problem).add_all(lambda op: not ~op.keep & ~op.need_mask, deadline):
         return None  # steps of which one sees what they change say so
-    from search.abstractions.mutexes import Pairs  # only here: it loads numpy, and few problems come so far
-
     colours = _Colours(problem)
     colours.pairs = pairs = Pairs(colours.values.items(), problem.operators, state, deadline)
     if not colours.add_all(lambda op: pairs.may_hold(op.need_mask, op.need), deadline):

@@ -28,7 +28,6 @@ PLANNING: Final = (
     "search.classical.team",
     "search.human.own_problem",
     "search.abstractions.bound",
-    "search.abstractions.mutexes",
     "search.abstractions.reachability",
 )
 """What planning loads where it turns out to be long: arrays, and what asks the kernel."""
