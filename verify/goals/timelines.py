@@ -106,9 +106,8 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
                 if found is not None:
                     place = "" if found.epoch is None else f"epoch {found.epoch}: "
                     what = "" if found.action is None else f"'{found.action}': "
-                    return (
-                        f"goal '{line.name}': {rule.name} (SPEC {rule.section}): {place}{what}{found.message}"
-                    )
+                    broken = f"{rule.name} (semantics {rule.section})"
+                    return f"goal '{line.name}': {broken}: {place}{what}{found.message}"
     return None
 
 

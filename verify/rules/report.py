@@ -31,7 +31,7 @@ class Violation:
     def __str__(self) -> str:
         place = "" if self.epoch is None else f"epoch {self.epoch}: "
         what = "" if self.action is None else f"'{self.action}': "
-        return f"{self.rule} (SPEC {self.section}): {place}{what}{self.message}"
+        return f"{self.rule} (semantics {self.section}): {place}{what}{self.message}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -216,7 +216,9 @@ def test_a_plan_that_is_broken() -> None:
     refuted = serendipity.verify(task, Result.from_dict(answer)).refuted
     assert refuted is not None
     assert refuted.claim == "replay"
-    assert refuted.reason == ("goal 'z': precondition (SPEC 2): epoch 2: 'keep h': precondition: 'q' is true")
+    assert refuted.reason == (
+        "goal 'z': precondition (semantics 2): epoch 2: 'keep h': precondition: 'q' is true"
+    )
 
 
 def test_dearer_help_is_not_the_best() -> None:

@@ -89,7 +89,7 @@ def _prefer_early(original: Any, self: Any, start: int, horizon: int) -> Any:
     return start << self.start_shift
 
 
-_TIES = "a tie: 'optimal' stands for objective and cost, not for the order beyond (SPEC 3.1)"
+_TIES = "a tie: 'optimal' stands for objective and cost, not for the order beyond (semantics 3.1)"
 
 BUGS = (
     Bug("weights of operators", "epochs of the window are free", wrapped(_free_windows)),
