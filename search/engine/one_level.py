@@ -46,7 +46,8 @@ class OneLevel(Generic[N, Best]):
         """
         if not self._stays:
             level = self._progress.bound >> self._shift
-            self._level = self._level or level
+            if self._level is None:
+                self._level = level
             if level > self._level:
                 if self._leave():
                     raise EnoughError
