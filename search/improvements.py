@@ -8,8 +8,7 @@ from search.apart.one_by_one import FIRST, one_by_one
 from search.composite import is_for_kernel
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, Ties, best_first
-from search.engine.few import EnoughError, Few
-from search.engine.one_level import OneLevel
+from search.engine.until import EnoughError, Until, few, risen
 from search.joint_plans import JointPlans
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_space, window_space
@@ -101,7 +100,7 @@ class Improvements:
         if context.distances_say_little or not is_for_kernel(context):
             return space
         shift = context.keys.objective_shift
-        return OneLevel(space, self._progress, shift, lambda: context.team is not None)
+        return Until(space, risen(self._progress, shift, lambda: context.team is not None))
 
     def _known(self) -> int:
         """The key of the best plan so far, one with a window or not."""
@@ -129,8 +128,8 @@ class Improvements:
             return False
         with suppress(EnoughError, LimitReachedError):
             context = self._soon()
-            few = Few(self.space(context), FIRST)
-            yield from best_first(few, best, progress, context.deadline, self._ties())
+            space = Until(self.space(context), few(FIRST))
+            yield from best_first(space, best, progress, context.deadline, self._ties())
             return True
         self._context.deadline.check()
         yield from self._in_one_epoch_each(longer)

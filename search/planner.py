@@ -7,8 +7,8 @@ from fractions import Fraction
 from search.composite import CompositeCall, Known, team_for
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
-from search.engine.few import EnoughError
 from search.engine.paths import path_sets, path_steps, plan_steps
+from search.engine.until import EnoughError
 from search.heuristics.first_interaction import no_team_bound
 from search.improvements import Improvements, is_settled
 from search.packed.cost_vector import INFINITE_KEY
