@@ -1,5 +1,6 @@
 """Where goals speak of what robots change, too: the kernel's bounds, and where it has none."""
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import pytest
@@ -11,9 +12,10 @@ import serendipity
 from search.classical.planner import ClassicalPlanner
 from search.joint_plans import JointPlans
 from search.kernel.library import library
-from serendipity.model import Deadline, Options, UsageError
+from serendipity.model import Deadline, LimitReachedError, Options, UsageError
 from serendipity.model.options import INFINITE
 from serendipity.testing.builders import task as build
+from serendipity.testing.builders import usar
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, family_tasks
 from tests.search.exact_answers import same_cost
@@ -185,3 +187,41 @@ def test_where_robots_have_more_to_do_than_come(cabs: int, cost: float) -> None:
     assert bounds == sorted(bounds)
     assert all(answer.cost <= 7 for answer in answers), "they could walk"
     assert serendipity.verify(task, answers[-1]).verdict == "proved"
+
+
+def _interrupted(plans: list[list[tuple[int, ...]]]) -> Callable[..., Iterator[list[tuple[int, ...]]]]:
+    """A team that comes by some plans until a limit comes."""
+
+    def better_plans(*_: object) -> Iterator[list[tuple[int, ...]]]:
+        yield from plans
+        raise LimitReachedError("time-limit")
+
+    return better_plans
+
+
+@pytest.mark.skipif(library() is None, reason="there is no kernel here")
+@pytest.mark.parametrize("detour", [0, 1])
+def test_what_was_known_before_the_kernel_went_on_is_kept(
+    detour: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    init = "at_0 r_6 free_0 free_1 free_2 free_3 free_4 free_5 free_7"
+    task = build(agents="h r", init=init, goal="at_7", actions=_ride(1))
+    numbers = {action.name: number for number, action in enumerate(task.actions)}
+    steps = ["walk 0 1 h", "walk 1 0 h"] * detour + [f"walk {i} {i + 1} h" for i in range(7)]
+    dearer = [[(numbers[name],) for name in steps]] * detour
+    monkeypatch.setattr(search.classical.team.Team, "better_plans", _interrupted(dearer))
+    *_, answer = serendipity.plan_anytime(task, mode="composite", horizon=INFINITE, discount="0.9")
+    assert (answer.status, answer.cost, answer.human_cost) == ("feasible", 7, 7)
+    assert 2 < answer.lower_bound < 3.3
+
+
+@pytest.mark.skipif(library() is None, reason="there is no kernel here")
+def test_in_buildings_the_kernel_is_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise AssertionError("it takes longer than all the rest")
+
+    monkeypatch.setattr(search.classical.team, "team_planner", refuse)
+    task = usar("a-b-c-d b-s", human="a", robots={"r": "s"}, kits={"m": "s"}, triage="d")
+    answer = serendipity.plan(task, mode="composite", horizon=INFINITE, discount="0.9")
+    assert answer.status == "optimal"
+    assert answer.cost < answer.human_cost

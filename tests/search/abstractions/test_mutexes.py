@@ -55,7 +55,7 @@ def test_what_can_happen_in_a_state_is_not_excluded(seed: int) -> None:
 
 def test_a_lamp_is_not_left_on_behind_a_closed_door() -> None:
     task = build(
-        goal="seen sealed",
+        goal="seen sealed burnt",
         actions={
             "open h": "!open -> open",
             "light h": "open -> lamp",
@@ -63,6 +63,7 @@ def test_a_lamp_is_not_left_on_behind_a_closed_door() -> None:
             "quench h": "lamp -> !lamp",
             "close h": "open !lamp -> !open",
             "seal h": "!open -> sealed",
+            "burn h": "lamp !open -> burnt",
         },
     )
     packed = _packed(task)
@@ -72,4 +73,5 @@ def test_a_lamp_is_not_left_on_behind_a_closed_door() -> None:
     assert lamp is not None
     both = door[0] | lamp[0]
     held = {state: pairs.may_hold(both, state) for state in (0, door[1], lamp[1], door[1] | lamp[1])}
+    assert not pairs.may_hold(packed.goal.need_mask, packed.goal.need), "it can't burn"
     assert held == {0: True, door[1]: True, lamp[1]: False, door[1] | lamp[1]: True}

@@ -1,12 +1,16 @@
 """Where all plans have an even number of steps, or all an odd one: it is so, and costs stay what they are."""
 
 from collections import deque
+from itertools import product
+from random import Random
 
 import pytest
 from hypothesis import given
 
 from search.classical import planner as planner_module
+from search.classical.canonical import canonical_plan
 from search.classical.parity import Parity, parity_of
+from search.classical.planner import ClassicalPlanner
 from search.kernel.library import library
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
@@ -15,6 +19,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
 from tests.search.abstractions.test_bounds_are_admissible import packed_of
+from tests.search.classical.test_canonical_plans import first_of_all
 from tests.search.classical.test_kernel_equals_brute_force import amounts, planner_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
@@ -71,6 +76,14 @@ def test_on_a_grid_every_other_place_is_black() -> None:
     assert known.of(packed.init) == 1
 
 
+@pytest.mark.parametrize("text", ["wings at_b -> at_d !at_b", "at_c -> at_c"])
+def test_what_changes_nothing_does_not_matter(text: str) -> None:
+    packed = walk("ab", "bc", "cd", other=text)
+    known = parity(packed)
+    assert known is not None
+    assert known.of(packed.init) == 1
+
+
 @pytest.mark.parametrize(
     "packed",
     [
@@ -105,6 +118,70 @@ def test_costs_stay_what_they_are(task: Task) -> None:
         planner = planner_of(packed)
         for state, cost in amounts(packed).items():
             assert planner.cheapest(state, Deadline()) == cost
+
+
+def _gathering(dice: Random, dearest: int) -> PackedTask:
+    """Somebody gathers what lies about on a grid, where a step costs up to so much."""
+    side = range(4)
+    actions = {}
+    for x, y in product(side, side):
+        for there in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
+            if there[0] in side and there[1] in side:
+                here, after = f"at_{x}{y}", f"at_{there[0]}{there[1]}"
+                actions[f"go {here} {after} h"] = f"{here} -> {after} !{here} @ {dice.randint(1, dearest)}"
+    things = dice.sample([f"{x}{y}" for x, y in product(side, side)], 4)
+    actions |= {f"take {thing} h": f"at_{thing} !has_{thing} -> has_{thing} @ 1" for thing in things}
+    goal = "at_33 " + " ".join(f"has_{thing}" for thing in things)
+    return packed_of(build(init="at_00", goal=goal, actions=actions))
+
+
+def _viewing(dice: Random) -> PackedTask:
+    """Somebody turns to one thing after another, some of which want another lens, and each second turn is to
+    the other side: turning to a thing is in vain with the wrong lens.
+    """
+    lens = {f"q{i}": dice.choice(["one", "two"]) for i in range(6)}
+    places = ["start", "desk", *lens]
+    dice.shuffle(places)
+    sides = places[::2], places[1::2]
+    turns = [(a, b) for side, other in (sides, sides[::-1]) for a in side for b in other]
+    actions = {f"turn {a} {b} h": f"{a} -> {b} !{a}" for a, b in turns}
+    actions |= {f"view {q} h": f"{q} {which} !seen_{q} -> seen_{q}" for q, which in lens.items()}
+    actions |= {"change h": "desk one -> two !one", "change back h": "desk two -> one !two"}
+    goal = "start two " + " ".join(f"seen_{q}" for q in lens)
+    return packed_of(build(init="start one", goal=goal, actions=actions))
+
+
+def _knowing(packed: PackedTask) -> ClassicalPlanner:
+    """A planner that has looked for the parity of plans' lengths."""
+    planner = planner_of(packed)
+    planner.cheapest(packed.init, Deadline(), limit=1)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(planner_module, "_MANY", 0)
+        planner._find_parity(Deadline())
+    return planner
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_steps_that_cost_differently(seed: int) -> None:
+    """How many steps it takes says nothing of what it costs."""
+    dice = Random(seed)
+    packed = _gathering(dice, 9)
+    assert parity(packed) is not None
+    planner, costs = _knowing(packed), amounts(packed)
+    for state in dice.sample([*costs], 20):
+        assert planner.cheapest(state, Deadline()) == costs[state]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_canonical_plan_is_still_the_first(seed: int) -> None:
+    dice = Random(seed)
+    packed = _viewing(dice) if seed % 2 else _gathering(dice, 1)
+    planner, costs = _knowing(packed), amounts(packed)
+    assert planner._parity is not None
+    assert canonical_plan(planner, packed.init, Deadline()) == first_of_all(packed, planner, costs)
+    for state in costs:
+        assert planner.bound(state, Deadline()) <= costs[state]
+        assert planner.cheapest(state, Deadline()) == costs[state]
 
 
 def test_states_that_would_not_come_out_even_are_not_expanded(monkeypatch: pytest.MonkeyPatch) -> None:
