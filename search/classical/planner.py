@@ -8,14 +8,16 @@ to be worth them.
 
 import ctypes
 from array import array
-from collections.abc import Callable, Iterable, Iterator
-from ctypes import c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Final
 
 from search.abstractions.patterns import Field, patterns
+from search.algorithms.astar import AStar
 from search.classical.parity import Parity, parity_of
-from search.classical.problem import NO_PLAN, ClassicalProblem
+from search.classical.problem import ClassicalProblem
 from search.classical.told import Told, memory_for
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import applicable
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
@@ -39,29 +41,13 @@ _SAMPLES: Final = 8
 _NONE: Final = -1
 """No operator."""
 
-RUNNING, FOUND, _NOT_BELOW, _HOPELESS, MEMORY = range(5)
+_SOON: Final = 0.05
+"""Seconds in which a known plan is put together where a limit has come."""
 
+_STEPS: Final = 16
+"""Steps of a known plan between two looks at the deadline: tens of milliseconds of plans of thousands."""
 
-_SIGNATURES: Final = {
-    "planner_new": (c_void_p, [c_void_p]),
-    "planner_free": (None, [c_void_p]),
-    "planner_begin": (c_int, [c_void_p, c_char_p, c_int32, c_int64, c_size_t]),
-    "planner_parity": (None, [c_void_p, c_int64, c_int32]),
-    "planner_run": (c_int, [c_void_p, c_double, c_size_t]),
-    "planner_begin_greedy": (c_int, [c_void_p, c_char_p, c_size_t]),
-    "planner_run_greedy": (c_int, [c_void_p, c_double, c_size_t]),
-    "planner_bound": (c_int64, [c_void_p, c_char_p, c_size_t]),
-    "planner_least": (c_int64, [c_void_p]),
-    "planner_wanted": (c_size_t, [c_void_p]),
-    "planner_counts": (None, [c_void_p, c_void_p]),
-    "planner_greedy_way": (c_int32, [c_void_p, c_void_p, c_int32]),
-    "planner_best_way": (c_int32, [c_void_p, c_void_p, c_int32]),
-    "planner_known_way": (c_int32, [c_void_p, c_char_p, c_void_p, c_int32]),
-    "planner_allowed": (c_int32, [c_void_p, c_char_p, c_void_p]),
-    "planner_pattern": (c_int64, [c_void_p, c_void_p, c_int32, c_int64]),
-    "planner_samples": (c_int, [c_void_p, c_int32]),
-    "planner_order": (c_int, [c_void_p, c_int32]),
-}
+RUNNING, FOUND, _NOT_BELOW, _HOPELESS, MEMORY, _UNFIT = range(6)
 
 
 class ClassicalPlanner:
@@ -81,9 +67,6 @@ class ClassicalPlanner:
     """
 
     def __init__(self, library: ctypes.CDLL, problem: ClassicalProblem, deadline: Deadline) -> None:
-        for name, (result, arguments) in _SIGNATURES.items():
-            function = getattr(library, name)
-            function.restype, function.argtypes = result, arguments
         self.problem = problem
         self._kernel = library
         self._mask = problem.mask
@@ -105,6 +88,9 @@ class ClassicalPlanner:
         self._tables = self._is_parity_sought = False
         self._parity: Parity | None = None
         self._asked: int | None = None
+        self._most = INFINITE_KEY
+        self._plans: dict[int, list[int]] = {}
+        """Those that cost more than the kernel can add up, by the state where they begin."""
         self._is_open = False
 
     @property
@@ -118,7 +104,7 @@ class ClassicalPlanner:
         self,
         state: int,
         deadline: Deadline,
-        limit: int = NO_PLAN,
+        limit: int = INFINITE_KEY,
         on_bound: Callable[[int], None] | None = None,
         before: int = _NONE,
     ) -> int:
@@ -136,7 +122,7 @@ class ClassicalPlanner:
         """
         kernel, planner = self._kernel, self._planner
         row, most = self.told.row(state), self.problem.limit(limit)
-        self._asked, self._is_open = state & self._mask, False
+        self._asked, self._is_open, self._most = state & self._mask, False, limit
         self._tell_parity(state)
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
         self._is_open = True
@@ -156,14 +142,43 @@ class ClassicalPlanner:
         """
         kernel, planner = self._kernel, self._planner
         assert self._is_open, "it was interrupted"
-        while self._allowed(lambda room: kernel.planner_run(planner, SLICE, room), deadline) == RUNNING:
+        outcome = RUNNING
+        while outcome == RUNNING:
+            outcome = self._allowed(lambda room: kernel.planner_run(planner, SLICE, room), deadline)
+            if outcome != RUNNING:
+                break
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
             self._find_parity(deadline)
             self.prepare(deadline)
+        found = self._unbounded(deadline) if outcome == _UNFIT else self.least
         self._is_open = False
-        return self.least
+        return found
+
+    def _unbounded(self, deadline: Deadline) -> int:
+        """:meth:`cheapest` in Python, whose integers have no end: plans may cost more than it adds up."""
+        problem, start = self.problem, self._asked
+        assert start is not None, "a search is under way"
+        amounts = [problem.amount(weight) for weight in problem.weights]
+        search = AStar(start, lambda _: 0, deadline, limit=self._most)
+        parents: dict[int, tuple[int, int]] = {}
+        for state, spent in search:
+            if problem.goal.holds(state):
+                self._plans[start] = self._way(start, state, parents)
+                return spent
+            for number, op in enumerate(problem.operators):
+                after = (state & op.keep | op.put) & self._mask
+                if applicable(op, state) and search.reach(after, spent + amounts[number]):
+                    parents[after] = state, number
+        return INFINITE_KEY if search.least is None else self._most
+
+    def _way(self, start: int, end: int, parents: Mapping[int, tuple[int, int]]) -> list[int]:
+        numbers = []
+        while end != start:
+            end, number = parents[end]
+            numbers.append(number)
+        return numbers[::-1]
 
     @property
     def is_open(self) -> bool:
@@ -176,7 +191,7 @@ class ClassicalPlanner:
         return self.problem.amount(self._kernel.planner_least(self._planner))
 
     def bound(self, state: int, deadline: Deadline) -> int:
-        """An amount that no plan from a packed state is below; ``NO_PLAN`` where it shows that there is none.
+        """An amount that no plan from a packed state is below; ``INFINITE_KEY`` where there is none.
 
         Raises:
             LimitReachedError: there is not enough memory.
@@ -208,7 +223,7 @@ class ClassicalPlanner:
         self,
         state: int,
         deadline: Deadline,
-        limit: int = NO_PLAN,
+        limit: int = INFINITE_KEY,
         on_bound: Callable[[int], None] | None = None,
     ) -> list[int] | None:
         """A cheapest plan from a packed state, by numbers of operators, or None where none is below a limit.
@@ -227,31 +242,47 @@ class ClassicalPlanner:
         if self._asked is not None:
             self._start()
         found = self.cheapest(state, deadline, limit, on_bound)
-        return self.known_plan(state) if found < limit else None
+        return self.known_plan(state, deadline) if found < limit else None
 
     def amount(self, numbers: Iterable[int]) -> int:
         """The amount of operators, one after another."""
-        return self.problem.amount(sum(self.problem.weights[number] for number in numbers))
+        weights = self.problem.weights
+        return sum(self.problem.amount(weights[number]) for number in numbers)
 
-    def known_plan(self, state: int) -> list[int] | None:
-        """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite."""
+    def known_plan(self, state: int, deadline: Deadline | None = None) -> list[int] | None:
+        """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        if state & self._mask in self._plans:
+            return self._plans[state & self._mask]
         kernel, planner, row = self._kernel, self._planner, self.told.row(state)
-
-        def ask(address: int, room: int) -> int:
-            moving = ctypes.create_string_buffer(row, len(row))
-            return int(kernel.planner_known_way(planner, moving, address, room))
-
-        return self._numbers(ask)
+        moving, part = ctypes.create_string_buffer(row, len(row)), array("i", bytes(4 * _STEPS))
+        found: list[int] = []
+        while True:
+            if deadline is not None:
+                deadline.check()
+            count = int(kernel.planner_known_way(planner, moving, part.buffer_info()[0], _STEPS))
+            if count < 0:
+                return None
+            found += part[:count]
+            if count < _STEPS:
+                return found
 
     def best_so_far(self, state: int) -> list[int] | None:
-        """The best plan from a packed state that is at hand, by numbers: a cheapest one, or what the last
-        :meth:`cheapest` has come across, finished or not.
+        """The best plan from a packed state that is at hand, by numbers: what the last :meth:`cheapest`
+        has come across, finished or not, or else a cheapest one, if it is put together soon.
         """
-        known = self.known_plan(state)
-        if known is not None or self._asked != state & self._mask:
-            return known
         kernel, planner = self._kernel, self._planner
-        return self._numbers(lambda *to: kernel.planner_best_way(planner, *to))
+        if self._asked == state & self._mask:
+            best = self._numbers(lambda *to: kernel.planner_best_way(planner, *to))
+            if best is not None:
+                return best
+        try:
+            return self.known_plan(state, Deadline().within(_SOON))
+        except LimitReachedError:
+            return None
 
     def allowed(self, state: int) -> list[int]:
         """The numbers of the operators that a packed state allows, ascending."""

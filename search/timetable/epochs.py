@@ -3,7 +3,6 @@
 import ctypes
 from array import array
 from collections.abc import Callable, Collection, Sequence
-from ctypes import c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from itertools import groupby
 from typing import Final, NamedTuple
 
@@ -23,19 +22,6 @@ _NONE: Final = -1
 
 _PER_PAIR: Final = 20
 """Bytes for a pair of operators while they are compared."""
-
-_SIGNATURES: Final = {
-    "epochs_new": (c_void_p, [c_void_p, c_void_p, c_char_p, c_void_p, c_char_p, c_char_p, c_int64]),
-    "epochs_delete": (None, [c_void_p]),
-    "epochs_start": (c_int, [c_void_p, c_char_p, c_size_t]),
-    "epochs_turn": (c_int, [c_void_p, c_int32]),
-    "epochs_slice": (c_int, [c_void_p, c_int64, c_double, c_size_t]),
-    "epochs_wanted": (c_size_t, [c_void_p]),
-    "epochs_states": (c_int64, [c_void_p]),
-    "epochs_leavings": (c_int32, [c_void_p, c_void_p, c_void_p]),
-    "epochs_left": (None, [c_void_p, c_int32, c_void_p]),
-    "epochs_sets": (c_int32, [c_void_p, c_int32, c_void_p, c_void_p]),
-}
 
 
 class Leaving(NamedTuple):
@@ -86,9 +72,6 @@ class Epochs:
         *,
         strict: bool,
     ) -> None:
-        for name, (result, arguments) in _SIGNATURES.items():
-            function = getattr(library, name)
-            function.restype, function.argtypes = result, arguments
         self._kernel, self._after, self.is_hopeless = library, after, False
         self._numbers = {op.action: number for number, op in enumerate(problem.operators)}
         self._operators = problem.operators

@@ -2,10 +2,14 @@
 
 Callers have tasks, which are plain values, and ask about one of them again and again: with
 another discount, for an explanation, in a control loop.  What the first call has found out about
-it serves the next ones, so it is held here.  A :class:`serendipity.Session` holds its own.
+it serves the next ones, so it is held here.  Calls write down what they find, the kernel in memory of
+its own, so a prepared task serves one call at a time: it is taken out meanwhile, and a call in another
+thread prepares the task anew.  A :class:`serendipity.Session` has taken out its own.
 """
 
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Final
 
 from search import PreparedTask
@@ -20,7 +24,7 @@ _MOST_ACTIONS: Final = 50_000
 
 
 class LastPrepared:
-    """Prepared tasks, the one asked for last in front; the one asked for longest ago goes first.
+    """Prepared tasks, the one put back last in front; the one put back longest ago goes first.
 
     Tasks are told apart by identity: to compare two large ones takes longer than to plan for one.
 
@@ -32,38 +36,45 @@ class LastPrepared:
     def __init__(self, most: int, most_actions: int) -> None:
         self._most = most
         self._most_actions = most_actions
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()  # a collection may end a call that nobody listens to any more
         self._held: tuple[PreparedTask, ...] = ()
 
-    def of(self, task: Task) -> PreparedTask:
-        """The prepared task of a task: the one that is held, or else one that is held from now on.
+    @contextmanager
+    def taken(self, task: Task) -> Iterator[PreparedTask]:
+        """The prepared task of a task, for one call; it is put back at the end.
 
         Raises:
             UsageError: it is no task.
         """
-        held = self._held
-        if held and held[0].task is task:
-            return held[0]
+        prepared = self.take(task)
+        try:
+            yield prepared
+        finally:
+            self.hold(prepared)
+
+    def take(self, task: Task) -> PreparedTask:
+        """The prepared task of a task: the one that is held, and no longer is, or else a new one.
+
+        Raises:
+            UsageError: it is no task.
+        """
         expect(TASK, task=task)
         with self._lock:
             known = next((prepared for prepared in self._held if prepared.task is task), None)
-            return self._hold(known or PreparedTask(task))
+            self._held = tuple(prepared for prepared in self._held if prepared is not known)
+        return known or PreparedTask(task)
 
     def hold(self, prepared: PreparedTask) -> None:
-        """Hold one that was prepared elsewhere."""
+        """Hold one that nobody uses, instead of another one of its task."""
         with self._lock:
-            self._hold(prepared)
-
-    def _hold(self, prepared: PreparedTask) -> PreparedTask:
-        kept, room = [prepared], self._most_actions - len(prepared.task.actions)
-        for held in self._held:
-            if held.task is not prepared.task:
-                room -= len(held.task.actions)
-                if room < 0 or len(kept) == self._most:
-                    break
-                kept.append(held)
-        self._held = tuple(kept)
-        return prepared
+            kept, room = [prepared], self._most_actions - len(prepared.task.actions)
+            for held in self._held:
+                if held.task is not prepared.task:
+                    room -= len(held.task.actions)
+                    if room < 0 or len(kept) == self._most:
+                        break
+                    kept.append(held)
+            self._held = tuple(kept)
 
 
 HELD: Final = LastPrepared(_MOST, _MOST_ACTIONS)

@@ -12,11 +12,13 @@ import pytest
 
 from search.kernel import library
 from search.kernel.build import CompilerError, compile_kernel, compiler, main
+from search.kernel.signatures import SIGNATURES
 
-SOURCE = """
+HASH = """
 const char *kernel_source_hash(void);
 const char *kernel_source_hash(void) { return KERNEL_SOURCE_HASH; }
 """
+SOURCE = HASH + "".join(f"void {name}(void);\nvoid {name}(void) {{}}\n" for name in SIGNATURES)
 
 needs_compiler = pytest.mark.skipif(compiler() is None, reason="there is no C compiler here")
 
@@ -40,8 +42,17 @@ def beside(source: Path, binary: Path, monkeypatch: pytest.MonkeyPatch) -> Itera
     monkeypatch.setattr(library, "BINARY", binary)
     monkeypatch.delenv("SERENDIPITY_KERNEL", raising=False)
     library._loaded.cache_clear()
+    library._warn.cache_clear()
     yield
     library._loaded.cache_clear()
+    library._warn.cache_clear()
+
+
+def refusal(binary: Path, source: Path) -> str:
+    """Why there is no kernel in a file."""
+    found = library.load(binary, source)
+    assert isinstance(found, str)
+    return found
 
 
 @needs_compiler
@@ -54,23 +65,37 @@ def test_what_is_built_is_loaded_once(
     found = library.library()
     assert isinstance(found, ctypes.CDLL)
     assert library.library() is found
+    assert library.state() == "compiled"
     monkeypatch.setenv("SERENDIPITY_KERNEL", "off")
     assert library.library() is None
+    assert library.state() == "none (SERENDIPITY_KERNEL=off)"
     assert set(source.parent.iterdir()) == {source, binary}
 
 
 @pytest.mark.usefixtures("beside")
-def test_none_where_it_is_absent() -> None:
+def test_that_it_is_absent_is_said_once(binary: Path, caplog: pytest.LogCaptureFixture) -> None:
     assert library.library() is None
+    assert library.library() is None
+    (record,) = caplog.records
+    assert record.levelname == "WARNING"
+    assert f"no compiled kernel (there is no {binary.name}" in record.getMessage()
+    assert library.state().startswith(f"none (there is no {binary.name}")
 
 
 @needs_compiler
 def test_none_where_the_source_has_changed(source: Path, binary: Path) -> None:
     assert main(binary, source) == 0
     source.write_text(f"{SOURCE}/* changed */", encoding="utf-8")
-    assert library.load(binary, source) is None
+    assert "is of another source" in refusal(binary, source)
     source.unlink()
-    assert library.load(binary, source), "nothing says that it is stale"
+    assert isinstance(library.load(binary, source), ctypes.CDLL), "nothing says that it is stale"
+
+
+@needs_compiler
+def test_none_where_a_function_is_missing(source: Path, binary: Path, capsys) -> None:
+    source.write_text(HASH, encoding="utf-8")
+    assert main(binary, source) == 1
+    assert "can't be loaded here" in capsys.readouterr().err
 
 
 @needs_compiler
@@ -80,7 +105,7 @@ def test_none_where_a_unit_has_changed(change: str, source: Path, binary: Path) 
     unit.write_text("enum { ONE = 1 };", encoding="utf-8")
     source.write_text(f'#include "unit.h"\n{SOURCE}', encoding="utf-8")
     assert main(binary, source) == 0
-    assert library.load(binary, source)
+    assert isinstance(library.load(binary, source), ctypes.CDLL)
     if change == "changed":
         unit.write_text("enum { ONE = 2 };", encoding="utf-8")
     elif change == "added":
@@ -89,7 +114,7 @@ def test_none_where_a_unit_has_changed(change: str, source: Path, binary: Path) 
         unit.unlink()
     else:
         unit.rename(other)
-    assert library.load(binary, source) is None
+    assert "is of another source" in refusal(binary, source)
 
 
 @needs_compiler
@@ -97,13 +122,13 @@ def test_none_where_the_library_is_something_else(source: Path, binary: Path) ->
     other = source.with_name("other.c")
     other.write_text("int other(void); int other(void) { return 1; }", encoding="utf-8")
     compile_kernel(compiler() or [], binary, other)
-    assert library.load(binary, source) is None
+    assert "is no kernel for this machine" in refusal(binary, source)
 
 
 @pytest.mark.parametrize("content", [b"", b"no library", b"\x7fELF"])
 def test_none_where_the_file_is_no_library(content: bytes, source: Path, binary: Path) -> None:
     binary.write_bytes(content)
-    assert library.load(binary, source) is None
+    assert "is no kernel for this machine" in refusal(binary, source)
 
 
 @needs_compiler
@@ -176,4 +201,4 @@ def test_a_unit_includes_what_it_stands_on(unit: Path) -> None:
 @needs_compiler
 def test_the_source_compiles_without_a_warning(binary: Path) -> None:
     compile_kernel([*(compiler() or []), "-Werror"], binary)
-    assert library.load(binary, library.SOURCE)
+    assert isinstance(library.load(binary, library.SOURCE), ctypes.CDLL)

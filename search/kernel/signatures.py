@@ -1,0 +1,50 @@
+"""What the kernel's functions take and return, as in ``api.h``.
+
+They are told to :mod:`ctypes` once, before anybody has the library: other threads may call it at any time.
+"""
+
+from ctypes import CDLL, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
+from typing import Final
+
+SIGNATURES: Final = {
+    "planner_new": (c_void_p, [c_void_p]),
+    "planner_free": (None, [c_void_p]),
+    "planner_begin": (c_int, [c_void_p, c_char_p, c_int32, c_int64, c_size_t]),
+    "planner_parity": (None, [c_void_p, c_int64, c_int32]),
+    "planner_run": (c_int, [c_void_p, c_double, c_size_t]),
+    "planner_begin_greedy": (c_int, [c_void_p, c_char_p, c_size_t]),
+    "planner_run_greedy": (c_int, [c_void_p, c_double, c_size_t]),
+    "planner_bound": (c_int64, [c_void_p, c_char_p, c_size_t]),
+    "planner_least": (c_int64, [c_void_p]),
+    "planner_wanted": (c_size_t, [c_void_p]),
+    "planner_counts": (None, [c_void_p, c_void_p]),
+    "planner_greedy_way": (c_int32, [c_void_p, c_void_p, c_int32]),
+    "planner_best_way": (c_int32, [c_void_p, c_void_p, c_int32]),
+    "planner_known_way": (c_int32, [c_void_p, c_char_p, c_void_p, c_int32]),
+    "planner_allowed": (c_int32, [c_void_p, c_char_p, c_void_p]),
+    "planner_pattern": (c_int64, [c_void_p, c_void_p, c_int32, c_int64]),
+    "planner_samples": (c_int, [c_void_p, c_int32]),
+    "planner_order": (c_int, [c_void_p, c_int32]),
+    "epochs_new": (c_void_p, [c_void_p, c_void_p, c_char_p, c_void_p, c_char_p, c_char_p, c_int64]),
+    "epochs_delete": (None, [c_void_p]),
+    "epochs_start": (c_int, [c_void_p, c_char_p, c_size_t]),
+    "epochs_turn": (c_int, [c_void_p, c_int32]),
+    "epochs_slice": (c_int, [c_void_p, c_int64, c_double, c_size_t]),
+    "epochs_wanted": (c_size_t, [c_void_p]),
+    "epochs_states": (c_int64, [c_void_p]),
+    "epochs_leavings": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "epochs_left": (None, [c_void_p, c_int32, c_void_p]),
+    "epochs_sets": (c_int32, [c_void_p, c_int32, c_void_p, c_void_p]),
+}
+"""By name the type of the result, and those of the arguments."""
+
+
+def declare(library: CDLL) -> None:
+    """Say of each function what it takes and returns.
+
+    Raises:
+        AttributeError: the library has no such function.
+    """
+    for name, (result, arguments) in SIGNATURES.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
