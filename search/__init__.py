@@ -9,11 +9,13 @@ from search.planner import solve
 from search.prediction import AtHand, at_hand, optimal_human_plans
 from search.prepared_task import PreparedTask, prepare
 from search.tie_bound import least_over_ties
+from search.warm_start import WarmStart
 
 __all__ = [
     "AtHand",
     "PlanGraph",
     "PreparedTask",
+    "WarmStart",
     "at_hand",
     "least_over_ties",
     "optimal_human_plans",

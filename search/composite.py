@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from search.context import SearchContext
 from search.packed.parallelise import schedule
-from serendipity.model.answers.answer import Answer, saved
+from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE
 from serendipity.model.task.task import HumanPlan
@@ -45,12 +45,16 @@ class Known(NamedTuple):
         bound: key that no plan is below.
         expanded: nodes that it expanded.
         generated: successors that it looked at.
+        is_old: it was about an earlier moment: what the human does alone is not known.
+        is_best: no plan is better.
     """
 
     sets: "Sets | None"
     bound: int
-    expanded: int
-    generated: int
+    expanded: int = 0
+    generated: int = 0
+    is_old: bool = False
+    is_best: bool = False
 
 
 class CompositeCall:
@@ -71,7 +75,7 @@ class CompositeCall:
         self._given = human_plan
         self._human_plan = human_plan
         self._alone: Fraction | None = None
-        self._known = known or Known(None, 0, 0, 0)
+        self._known = known or Known(None, 0)
         self._sets = self._known.sets
         self._bound = self._known.bound
         self._limit: str | None = None
@@ -79,14 +83,18 @@ class CompositeCall:
     def answers(self) -> Iterator[Answer]:
         """Some plan first, then better ones, then what the best saves."""
         init, deadline = self._context.packed.init, self._context.deadline
-        status = "unknown" if self._sets is None else "feasible"
+        status: Status = "unknown" if self._sets is None else "feasible"
         try:
             if self._sets is not None:
-                self._look_at_human()
-            for sets in self._team.better_plans(init, deadline, self._raise):
-                if self._sets is None or self._rank(sets) < self._rank(self._sets):
-                    status, self._sets = "feasible", sets
+                if self._known.is_old:
                     yield self._answer(status)
+                else:
+                    self._look_at_human()
+            if not self._known.is_best:
+                for sets in self._team.better_plans(init, deadline, self._raise):
+                    if self._sets is None or self._rank(sets) < self._rank(self._sets):
+                        status, self._sets = "feasible", sets
+                        yield self._answer(status)
             status = "infeasible" if self._sets is None else "optimal"
             self._look_at_human()
         except LIMITS as limit:
@@ -110,7 +118,7 @@ class CompositeCall:
             if self._given is None:
                 self._human_plan = optimal.actions
 
-    def _answer(self, status: str) -> Answer:
+    def _answer(self, status: Status) -> Answer:
         keys, task = self._context.keys, self._context.task
         expanded, generated, _ = self._team.planner.counts()
         expanded, generated = expanded + self._known.expanded, generated + self._known.generated

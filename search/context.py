@@ -5,7 +5,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from search.classical.problem import NO_PLAN
 from search.heuristics.first_interaction import no_team_bound
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
@@ -209,7 +208,7 @@ class SearchContext:
 
     def amount_key(self, amount: int) -> int:
         """An amount of the team's as a key."""
-        return self.weights.key_of(amount) if amount < NO_PLAN else INFINITE_KEY
+        return self.weights.key_of(amount) if amount < INFINITE_KEY else INFINITE_KEY
 
     def team_cost(self, action: int) -> Fraction:
         """What an action costs the team, communication left out."""

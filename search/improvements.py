@@ -39,6 +39,9 @@ class Improvements:
         alone: key of leaving the human alone.
         best: the incumbent, which is made better.
         progress: what is known so far, which is brought up to date.
+
+    Attributes:
+        most_cost: ``max_cost`` (eq. 11), scaled and rounded down; None where there is none.
     """
 
     def __init__(
@@ -56,8 +59,7 @@ class Improvements:
         self._alone = alone
         self._best = best
         self._progress = progress
-        self._most_cost = context.keys.most_cost(context.options.max_cost, alone)
-        """``max_cost`` (eq. 11), scaled and rounded down."""
+        self.most_cost = context.keys.most_cost(context.options.max_cost, alone)
 
     def each(self) -> Iterator[Incumbent]:
         """Each better incumbent, and now and then the same one; on return it is optimal.
@@ -68,7 +70,7 @@ class Improvements:
         """
         if self._context.distances_say_little:
             joint = JointPlans(
-                self._context, self._plan, self._epochs, self._most_cost, self._best, self._progress
+                self._context, self._plan, self._epochs, self.most_cost, self._best, self._progress
             )
             joint.without_horizon()
             yield self._best
@@ -186,6 +188,6 @@ class Improvements:
         """
         context, plan, epochs, limit = context or self._context, self._plan, self._epochs, self._best.key
         if not context.options.windowed:
-            return free_space(context, epochs, self._most_cost, limit, idle=idle)
+            return free_space(context, epochs, self.most_cost, limit, idle=idle)
         assert plan is not None and epochs is not None, "there is a window"
-        return window_space(context, plan, epochs, self._most_cost, limit, idle=idle, max_window=max_window)
+        return window_space(context, plan, epochs, self.most_cost, limit, idle=idle, max_window=max_window)

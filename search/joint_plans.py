@@ -5,7 +5,6 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from search.classical.problem import NO_PLAN
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, Ties, best_first
 from search.engine.paths import path_steps
@@ -113,7 +112,7 @@ class JointPlans:
         except LimitReachedError:
             context.deadline.check()
             return
-        self._raise(team.planner.least if self._has_plan else NO_PLAN)
+        self._raise(team.planner.least if self._has_plan else INFINITE_KEY)
 
     def along_human_plan(self) -> Iterator[None]:
         """Robots begin at once with what would be best after an epoch of ``pi_H``; if time is limited.

@@ -1,6 +1,7 @@
 """From a task and options to answers: which space, from which incumbent (semantics 3)."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -16,7 +17,8 @@ from search.packed.parallelise import schedule
 from search.prediction import AtHand, Prediction, expected_plan, individual_answers
 from search.prepared_task import PreparedTask
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from serendipity.model.answers.answer import Answer, saved
+from search.warm_start import WarmStart, replayed
+from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
@@ -31,6 +33,7 @@ def solve(
     *,
     human_plan: HumanPlan | None = None,
     deadline: Deadline | None = None,
+    warm: WarmStart | None = None,
 ) -> Iterator[Answer]:
     """Answers with falling objective and rising lower bound; the last one is the best known.
 
@@ -39,35 +42,47 @@ def solve(
         options: options in force; ``mode`` is not ``assistance``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         deadline: deadline and cancellation.
+        warm: what is known before.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
-    deadline = deadline or Deadline(options.time_limit)
+    deadline, warm = deadline or Deadline(options.time_limit), warm or WarmStart()
     at_hand: AtHand | None = None
     try:
         context = SearchContext(prepared, options, deadline)
         team = team_for(context)
         if team is not None:
-            yield from CompositeCall(context, team, human_plan).answers()
+            yield from CompositeCall(context, team, human_plan, _known(context, warm)).answers()
             return
         if options.mode == "individual":
-            yield from individual_answers(context, human_plan)
+            yield from individual_answers(context, human_plan, warm)
             return
-        at_hand = AtHand(context, human_plan)
+        at_hand = AtHand(context, human_plan, warm)
         yield from at_hand.answers()
-        expected = expected_plan(context, human_plan, at_hand.plan)
+        expected = expected_plan(context, human_plan, at_hand)
         team = team_for(context, otherwise=True) if expected is None else None
         if expected is None and (options.mode == "serendipity" or options.keep_prefix):
             answers = iter((Answer("infeasible", reason="no-human-plan"),))
         elif team is not None:
-            answers = CompositeCall(context, team, human_plan).answers()
+            answers = CompositeCall(context, team, human_plan, _known(context, warm)).answers()
         else:
-            answers = _answers(_Call(context, expected, given=human_plan is not None))
+            answers = _answers(_Call(context, expected, warm, given=human_plan is not None))
     except LIMITS as limit:
-        reason = limit_reason(limit)
-        answers = iter((Answer("unknown", reason=reason) if at_hand is None else at_hand.last(reason),))
+        if at_hand is None:
+            answers = iter((Answer("unknown", reason=limit_reason(limit)),))
+        else:
+            answers = iter((_at_limit(context, at_hand, warm, limit_reason(limit)),))
     yield from answers
+
+
+def _at_limit(context: SearchContext, at_hand: AtHand, warm: WarmStart, limit: str) -> Answer:
+    """The answer beside a plan of the human's that is at hand: what was known before, or doing nothing."""
+    with suppress(*LIMITS):  # nothing is looked for any more, but it has to be put together
+        if warm.steps and (plan := at_hand.best) is not None:
+            *_, answer = _Call(context, Prediction(plan, optimal=False), warm, given=False).answers()
+            return answer
+    return at_hand.last(limit)
 
 
 def _answers(call: "_Call") -> Iterator[Answer]:
@@ -80,6 +95,16 @@ def _answers(call: "_Call") -> Iterator[Answer]:
         yield from CompositeCall(
             call.context, team, call.plan if call.given else None, call.known()
         ).answers()
+
+
+def _known(context: SearchContext, warm: WarmStart) -> Known:
+    """What another search leaves that was about an earlier moment."""
+    found, keys, bound = replayed(context, (), None, None, warm), context.keys, warm.least(INFINITE)
+    least = 0 if bound is None else keys.of_objective(bound)
+    if found is None:
+        return Known(None, least)
+    is_best = warm.is_best and keys.objective(found.key) == bound
+    return Known(warm.sets, least, is_old=True, is_best=is_best)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,10 +133,10 @@ def left_alone(context: SearchContext, human_plan: HumanPlan | None) -> LeftAlon
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
         LimitReachedError: the deadline ran out.
     """
-    expected = expected_plan(context, human_plan, AtHand(context, human_plan).plan)
+    expected = expected_plan(context, human_plan, AtHand(context, human_plan))
     if expected is None:
         return None
-    call = _Call(context, expected, given=human_plan is not None)
+    call = _Call(context, expected, WarmStart(), given=human_plan is not None)
     call.leave_alone()
     key = call.baseline.key
     return LeftAlone(expected.actions, int(call.horizon), call.keys.cost(key) if key < INFINITE_KEY else None)
@@ -125,7 +150,9 @@ class _Call:
     to beat that, too; ``best`` is the incumbent over everything.
     """
 
-    def __init__(self, context: SearchContext, expected: Prediction | None, *, given: bool) -> None:
+    def __init__(
+        self, context: SearchContext, expected: Prediction | None, warm: WarmStart, *, given: bool
+    ) -> None:
         plan = None if expected is None else expected.actions
         self.task = context.task
         self.options = context.options
@@ -136,6 +163,10 @@ class _Call:
         self.epochs = None if self.horizon == INFINITE else int(self.horizon)
         self.context = context.for_plan(plan or ())
         self.keys = self.context.keys
+        self.warm = warm
+        known = warm.least(self.horizon)
+        self.floor = 0 if known is None else self.keys.of_objective(known)
+        """Key that no plan is below, as was known before."""
         self.progress = Progress()
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)
@@ -158,22 +189,39 @@ class _Call:
             improvements = Improvements(
                 self.context, self.plan, self.epochs, self.baseline.key, self.best, self.progress
             )
-            self._improve_alone(improvements)
+            try:
+                self._improve_alone(improvements)
+            finally:  # what robots gain has to beat that, and is known all the same
+                self._begin_with_known(improvements.most_cost)
             self.progress.bound = self._least()
             if self._answer().key < INFINITE_KEY:
                 yield self._outcome("feasible")
-            if self.epochs != 0 or self._answer().key == INFINITE_KEY:
+            if not self._is_known_best() and (self.epochs != 0 or self._answer().key == INFINITE_KEY):
                 for _ in improvements.each():
                     yield self._outcome(self._unfinished())
             self.progress.bound = self.best.key
-            status = "infeasible"
+            status: Status = "infeasible"
             if self._answer().key < INFINITE_KEY:
                 status = "optimal" if self.settled else "feasible"
         except LIMITS as limit:
             self.limit = limit_reason(limit)
-            is_best = self.settled and is_settled(self.context, self.best, self.progress)
+            self.progress.bound = max(self.progress.bound, self.floor)
+            is_best = self.settled and (
+                self._is_known_best() or is_settled(self.context, self.best, self.progress)
+            )
             status = "optimal" if is_best else self._unfinished()
         yield self._outcome(status)
+
+    def _begin_with_known(self, most_cost: int | None) -> None:
+        """The plan that was known before is the incumbent, where it is one and better."""
+        found, best = replayed(self.context, self.plan or (), self.epochs, most_cost, self.warm), self.best
+        if found is not None and found.key < best.key:
+            best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
+
+    def _is_known_best(self) -> bool:
+        """Whether nothing is better than the incumbent, as was known before."""
+        shift = self.keys.objective_shift
+        return self.warm.is_best and bool(self.floor) and self.best.key >> shift <= self.floor >> shift
 
     def known(self) -> Known:
         """What another search of all plans without a window could go on with."""
@@ -183,7 +231,7 @@ class _Call:
             sets = alone if best.node is None else path_sets(best.node)
         return Known(sets, self.progress.bound, self.progress.expanded, self.progress.generated)
 
-    def _unfinished(self) -> str:
+    def _unfinished(self) -> Status:
         """The status while nothing is proved; an infinite bound is a proof."""
         if self._answer().key < INFINITE_KEY:
             return "feasible"
@@ -237,7 +285,11 @@ class _Call:
             return
         optimum = self.context.alone.key(self.context.packed.init)
         self.improvable = self.task.cost_of(self.plan) > self.keys.cost(optimum)
-        if self.improvable:
+        if self.improvable and self._may_turn_at_once(optimum):
+            # Then what they gain alone is known, and what robots gain has to have a smaller objective.
+            window = self.keys.epoch_weight + self.keys.of_start(len(self.plan), int(self.horizon))
+            self.best.key = self.idle.key = optimum + window
+        elif self.improvable:
             known = self.best.key
             for _ in best_first(improvements.space(idle=True), self.best, Progress(), self.deadline):
                 pass
@@ -246,6 +298,14 @@ class _Call:
             elif self.best.key < known:
                 self.unaided = replace(self.best)
         self.settled = True
+
+    def _may_turn_at_once(self, optimum: int) -> bool:
+        """Whether they may turn to an optimal plan in a window of one epoch, and robots have no goal."""
+        options = self.options
+        any_suffix = options.suffix == "replan" and options.preservation == "kernel"
+        free = options.mode == "serendipity" and any_suffix and options.max_cost is None
+        fits = self.epochs is not None and self.keys.actions(optimum) <= self.epochs
+        return free and fits and not self.task.robot_goal
 
     def _helps(self) -> bool:
         """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""
@@ -265,7 +325,7 @@ class _Call:
         """What is answered: with windows the baseline, where there is no opportunity."""
         return self.baseline if self.options.windowed and not self._helps() else self.best
 
-    def _outcome(self, status: str) -> Answer:
+    def _outcome(self, status: Status) -> Answer:
         helps, answer = self._helps(), self._answer()
         has_plan = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
         cost = self.keys.cost(answer.key) if has_plan else None
@@ -291,18 +351,18 @@ class _Call:
             generated=self.progress.generated,
         )
 
-    def _reason(self, status: str) -> str | None:
+    def _reason(self, status: Status) -> str | None:
         if status == "infeasible":
             return "no-plan" if self.epochs is None else "no-plan-within-horizon"
         return self.limit if status == "unknown" else None
 
-    def _lower_bound(self, status: str, answer: Incumbent) -> Fraction | None:
+    def _lower_bound(self, status: Status, answer: Incumbent) -> Fraction | None:
         """On the answer's objective; net of one epoch of window where it has none, or may lose it."""
         if status == "optimal":
             return self.keys.objective(answer.key)
         if status == "infeasible":
             return None
-        bound = self.keys.objective(min(self.progress.bound, self.best.key))
+        bound = self.keys.objective(min(max(self.progress.bound, self.floor), self.best.key))
         if self.options.windowed and (not answer.end or self.task.robot_goal or self.improvable):
             # The answer is the baseline, which has no K, or may become it: not every plan is an opportunity.
             bound = min(bound - self.options.window_weight, self.keys.objective(self.baseline.key))

@@ -10,6 +10,7 @@ from search.engine.paths import plan_steps
 from search.human.individual_planner import FoundPlan
 from search.human.plan_graph import PlanGraph
 from search.prepared_task import PreparedTask
+from search.warm_start import WarmStart, warm_plan
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.options import INFINITE, Options
@@ -61,6 +62,7 @@ class AtHand:
     Args:
         context: of the call.
         given: ``pi_H``, already replayed, or None to predict it.
+        warm: what is known before.
 
     Attributes:
         plan: some plan of theirs; None where an optimal one is found soon, or ``pi_H`` is given.
@@ -70,12 +72,15 @@ class AtHand:
         LimitReachedError: the deadline came before any plan.
     """
 
-    def __init__(self, context: SearchContext, given: HumanPlan | None) -> None:
+    def __init__(
+        self, context: SearchContext, given: HumanPlan | None, warm: WarmStart | None = None
+    ) -> None:
         self._context = context
         self.plan: HumanPlan | None = None
         self.least = Fraction(0)
         if given is None and context.distances_say_little:
-            self.plan = context.alone.first_plan(context.packed.init)
+            known = None if warm is None else warm_plan(context, warm)
+            self.plan = known or context.alone.first_plan(context.packed.init)
 
     def answers(self, *, bounded: bool = False) -> Iterator[Answer]:
         """The answer, where nothing speaks against it.
@@ -100,12 +105,15 @@ class AtHand:
         Args:
             limit: the reason.
         """
+        plan = self.best
+        answer = None if plan is None else self.beside(plan)
+        return Answer("unknown", reason=limit) if answer is None else answer
+
+    @property
+    def best(self) -> HumanPlan | None:
+        """The best plan that was come across and fits; None without one."""
         plans = () if self.plan is None else (_cheaper(self._context, self.plan).actions, self.plan)
-        for plan in plans:
-            answer = self.beside(plan)
-            if answer is not None:
-                return answer
-        return Answer("unknown", reason=limit)
+        return next((plan for plan in plans if _fits(self._context.options, plan)), None)
 
     def beside(self, plan: HumanPlan) -> Answer | None:
         """Doing nothing beside a plan of the human's; None where robots have a goal, or ``T`` is too short.
@@ -154,30 +162,27 @@ def at_hand(prepared: PreparedTask, options: Options, deadline: Deadline) -> AtH
     return AtHand(SearchContext(prepared, options, deadline), None)
 
 
-def expected_plan(
-    context: SearchContext, given: HumanPlan | None, at_hand: HumanPlan | None
-) -> Prediction | None:
+def expected_plan(context: SearchContext, given: HumanPlan | None, at_hand: AtHand) -> Prediction | None:
     """``pi_H``: the given plan, else the canonical one, or another where the deadline is near; None if none.
 
     Args:
         context: of the call.
         given: ``pi_H``, already replayed, or None to predict it.
-        at_hand: some plan of theirs (:class:`AtHand`), or None.
+        at_hand: some plan of theirs, if there is one.
 
     Raises:
         LimitReachedError: the deadline came before any plan that fits.
     """
     if given is not None:
         return Prediction(given, optimal=False)
-    if at_hand is None:
+    if at_hand.plan is None:
         optimal = context.canonical_plan()
         return None if optimal is None else Prediction(optimal.actions, optimal=True)
     try:
         optimal = context.under(context.deadline.part(_SHARE)).canonical_plan()
     except LimitReachedError:
         context.deadline.check()
-        plans = _cheaper(context, at_hand).actions, at_hand
-        best = next((plan for plan in plans if _fits(context.options, plan)), None)
+        best = at_hand.best
         if best is None:
             raise
         return Prediction(best, optimal=False)
@@ -185,52 +190,62 @@ def expected_plan(
     return Prediction(optimal.actions, optimal=True)
 
 
-def individual_answers(context: SearchContext, human_plan: HumanPlan | None) -> Iterator[Answer]:
+def individual_answers(
+    context: SearchContext, human_plan: HumanPlan | None, warm: WarmStart
+) -> Iterator[Answer]:
     """The human alone, whatever plan of theirs is given: some plan soon, and then an optimal one.
 
     Args:
         context: of the call.
         human_plan: ``pi_H``, already replayed, or None to predict it.
+        warm: what is known before.
     """
-    known: Answer | None = None
+    cost_of, known = context.task.cost_of, warm_plan(context, warm)
+    if known is not None and warm.is_best and cost_of(known) == warm.bound:
+        context.alone.proved(context.packed.init, known)
     try:
         first = AtHand(context, None).plan if human_plan is None else human_plan
         if first is not None:
-            known = _some(context, FoundPlan(first, 0, 0), proved=False)
-            yield known
+            known = first if known is None else min(known, first, key=cost_of)
+        if known is not None:
+            yield _some(context, FoundPlan(known, 0, 0), human_plan, proved=False)
         yield _optimal(context, human_plan)
     except LIMITS as limit:
         reason = limit_reason(limit)
         if known is None:
             yield Answer("unknown", reason=reason)
         else:
-            plan = _cheaper(context, known.human_plan or (), given=human_plan is not None)
-            yield _some(context, plan, proved=_least(context) >= context.task.cost_of(plan.actions))
+            plan = _cheaper(context, known)
+            yield _some(context, plan, human_plan, proved=_least(context) >= cost_of(plan.actions))
 
 
-def _cheaper(context: SearchContext, plan: HumanPlan, *, given: bool = False) -> FoundPlan:
+def _cheaper(context: SearchContext, plan: HumanPlan) -> FoundPlan:
     """The best plan that the human's searches came across, where one was interrupted; or else this one."""
     best = context.alone.best_plan(context.packed.init)
     if best is None:
         return FoundPlan(plan, 0, 0)
-    cheaper = not given and context.task.cost_of(best.actions) < context.task.cost_of(plan)
+    cheaper = context.task.cost_of(best.actions) < context.task.cost_of(plan)
     return best if cheaper else best._replace(actions=plan)
 
 
-def _some(context: SearchContext, found: FoundPlan, *, proved: bool) -> Answer:
+def _some(
+    context: SearchContext, found: FoundPlan, human_plan: HumanPlan | None = None, *, proved: bool
+) -> Answer:
     plan = found.actions
     cost, bound = context.task.cost_of(plan), _least(context)
+    given = plan if human_plan is None else human_plan
+    baseline = context.task.cost_of(given)
     return Answer(
         "optimal" if proved else "feasible",
-        human_plan=plan,
-        horizon=len(plan),
+        human_plan=given,
+        horizon=max(len(given), len(plan)),
         steps=plan_steps(plan),
         cost=cost,
         objective=cost,
         lower_bound=min(bound, cost),
-        baseline=cost,
+        baseline=baseline,
         saving=Fraction(0),
-        saving_alone=Fraction(0) if proved else None,
+        saving_alone=baseline - cost if proved else None,
         expanded=found.expanded,
         generated=found.generated,
     )

@@ -12,7 +12,8 @@ import numpy as np
 
 from search.abstractions.cost_partitioning import CostPartitioning
 from search.abstractions.patterns import Field, patterns
-from search.abstractions.projection import FAR, Projection
+from search.abstractions.projection import Projection
+from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup

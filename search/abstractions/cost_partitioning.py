@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from search.abstractions.projection import FAR, Numbers, Projection
-from search.packed.cost_vector import INFINITE_KEY
+from search.abstractions.projection import Numbers, Projection
+from search.packed.cost_vector import FAR, INFINITE_KEY
 from serendipity.model.resources.deadline import Deadline
 
 
@@ -81,10 +81,10 @@ class CostPartitioning:
             known.get(state & mask) or self._look_up(place, state & mask)
             for place, (mask, known) in enumerate(zip(self._masks, self._known, strict=True))
         ]
-        most = max(map(sum, zip(*rows, strict=True)))
-        return most if most < FAR else INFINITE_KEY
+        return min(max(map(sum, zip(*rows, strict=True))), INFINITE_KEY)
 
     def _look_up(self, place: int, seen: int) -> tuple[int, ...]:
         number = self._projections[place].number(seen)
-        row = self._known[place][seen] = tuple(int(tables[place][number]) for tables in self._orders)
+        found = (int(tables[place][number]) for tables in self._orders)
+        row = self._known[place][seen] = tuple(far if far < FAR else INFINITE_KEY for far in found)
         return row

@@ -6,21 +6,18 @@ an operator costs is said anew for each table, so that several patterns can shar
 """
 
 from collections.abc import Iterable, Sequence
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from search.abstractions.patterns import Field
+from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
 from serendipity.model.resources.deadline import Deadline
 
 Numbers = NDArray[np.int64]
 """One-dimensional."""
-
-FAR: Final = 1 << 60
-"""Farther than any goal; the sum of two of them still fits."""
 
 Codes = dict[int, int]
 """Codes by the place of their field in the pattern."""

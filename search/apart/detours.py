@@ -8,16 +8,13 @@ for that adds up.
 
 from collections.abc import Callable
 from heapq import heappop, heappush
-from typing import Final
 
 import numpy as np
 
 from search.apart.rows import Amounts
+from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
-
-NEVER: Final = 1 << 60
-"""What others can't bring about at all costs as much."""
 
 
 def leaves(packed: PackedTask) -> list[int]:
@@ -30,7 +27,7 @@ def leaves(packed: PackedTask) -> list[int]:
 
 
 def detours(packed: PackedTask, field: int, robot: int, amount: Callable[[Operator], int]) -> Amounts:
-    """What other robots pay at least to bring a field from one value to another, by both.
+    """What other robots pay at least to bring a field from one value to another, by both; ``FAR``: no way.
 
     Args:
         packed: the packed task.
@@ -44,7 +41,7 @@ def detours(packed: PackedTask, field: int, robot: int, amount: Callable[[Operat
         if op.agents != robot and field & ~op.keep
     ]
     shift, size = (field & -field).bit_length() - 1, 1 << field.bit_count()
-    found = np.full((size, size), NEVER, dtype=np.int64)
+    found = np.full((size, size), FAR, dtype=np.int64)
     for end in packed.values(field):
         queue, known = [(0, end)], set[int]()
         while queue:
@@ -52,7 +49,7 @@ def detours(packed: PackedTask, field: int, robot: int, amount: Callable[[Operat
             if value in known:
                 continue
             known.add(value)
-            found[value >> shift, end >> shift] = paid
+            found[value >> shift, end >> shift] = min(paid, FAR)
             for asked, put, price in steps:
                 if put == value:
                     for before in packed.values(field) if asked is None else (asked,):

@@ -12,12 +12,10 @@ from heapq import heapify, heappop, heappush
 from typing import Final, NamedTuple
 
 from search.apart.provision import Value
+from search.packed.cost_vector import FAR
 from search.packed.operators import split
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
-
-FAR: Final = 1 << 56
-"""What can't be done costs no less."""
 
 _UNMET: Final = -1
 

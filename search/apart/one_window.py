@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 import numpy as np
 
 from search.apart.conditions import lost_values
-from search.apart.landmarks import FAR, Landmark, Landmarks
+from search.apart.landmarks import Landmark, Landmarks
 from search.apart.outcomes import Outcomes, Together, outcomes
 from search.apart.provision import Provision, Value
 from search.apart.remaining import Remaining, left_to_pay, values
@@ -13,6 +13,7 @@ from search.apart.rows import Amounts, column, states
 from search.apart.timeline import Timeline, TooManyStatesError
 from search.apart.window import ACTION, FEW, Window
 from search.context import SearchContext
+from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 
 

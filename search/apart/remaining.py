@@ -6,10 +6,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from search.apart.landmarks import FAR, Landmark
+from search.apart.landmarks import Landmark
 from search.apart.outcomes import Outcomes
 from search.apart.provision import Value
 from search.apart.rows import Amounts, Rows, codes, column, states
+from search.packed.cost_vector import FAR
 
 _AT_ONCE: Final = 8
 """Landmarks that are looked up together, by the bits of a byte."""

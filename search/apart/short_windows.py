@@ -13,21 +13,18 @@ from typing import Final, Protocol
 from search.apart.alike.robots import CountedRobots
 from search.apart.alike.tally import Tally, tally
 from search.apart.conditions import are_apart
-from search.apart.landmarks import FAR
 from search.apart.one_window import RobotsApart
 from search.apart.provision import Provision, by_others, provisions
 from search.apart.timeline import TooManyStatesError
 from search.apart.window import ACTION, Window, amount_from
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.operators import Operator, split
 from search.packed.packed_task import PackedTask
 from search.spaces.from_composite import Suggestions
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.task import HumanPlan
-
-_MOST_AMOUNT: Final = 1 << 62
 
 _SOON: Final = 0.3
 """What of the time that is left robots may take who don't rely on one another."""
@@ -250,9 +247,14 @@ def short_windows(
         return None
     if not are_apart(packed, context.deadline, strict=options.strict):
         return None
-    dearest = max(map(context.weights.scaled_cost, packed.others))
-    if dearest * ACTION * len(plan) * len(context.task.robots) >= _MOST_AMOUNT:
-        return None
-    if sum(map(context.weights.scaled_cost, packed.own)) * ACTION + len(packed.own) >= FAR:
+    if not _fit_words(context, plan, best):
         return None
     return ShortWindows(context, plan, horizon, best, counted)
+
+
+def _fit_words(context: SearchContext, plan: HumanPlan, best: Incumbent) -> bool:
+    """Whether what robots pay up to a window, the human's landmarks, and what is of interest fit words."""
+    price, packed = context.weights.scaled_cost, context.packed
+    robots = (max(map(price, packed.others)) + 1) * (len(plan) + 1) * len(context.task.robots)
+    human = sum(map(price, packed.own)) + len(packed.own)
+    return max(robots, human) * ACTION < FAR > amount_from(context, best.key)

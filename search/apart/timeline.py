@@ -11,9 +11,10 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from search.apart.detours import NEVER, detours, leaves
+from search.apart.detours import detours, leaves
 from search.apart.provision import Provision
 from search.apart.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
+from search.packed.cost_vector import FAR, NEVER
 from search.packed.operators import Operator, asked_by, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.errors import LimitReachedError
@@ -69,9 +70,6 @@ class _Act(NamedTuple):
     amount: int
     needs: list[_Literal]
     forbids: list[_Literal]
-
-
-_NEVER: Final = 1 << 30
 
 
 class Timeline:
@@ -139,7 +137,7 @@ class Timeline:
 
     def _act(self, op: Operator, amount: int) -> _Act:
         needs = [
-            _Literal(field, op.need & field, self._others.get((field, op.need & field), _NEVER))
+            _Literal(field, op.need & field, self._others.get((field, op.need & field), NEVER))
             for field in split(op.need_mask, self._fields)
         ]
         forbids = [_Literal(field, value, self._rid_of(field, value)) for field, value in op.forbidden]
@@ -148,7 +146,7 @@ class Timeline:
     def _rid_of(self, field: int, value: int) -> int:
         """After how many epochs others can have set a field to another value."""
         epochs = (e for other, e in self._settable.get(field, {}).items() if other != value)
-        return min(epochs, default=_NEVER)
+        return min(epochs, default=NEVER)
 
     @property
     def epochs(self) -> int:
@@ -239,7 +237,7 @@ class Timeline:
         """After which states the human can go on with their plan, unless others see to what is missing."""
         fits = np.ones(rows.shape[1], dtype=np.bool_)
         for field in split(step.need_mask & self.changes, self._fields):
-            if self._others.get((field, step.need & field), _NEVER) >= epoch:
+            if self._others.get((field, step.need & field), NEVER) >= epoch:
                 fits &= agree(rows, field, step.need & field)
         for field, value in step.forbidden:
             if field & self.changes and self._rid_of(field, value) >= epoch:
@@ -274,7 +272,7 @@ class Timeline:
             able = self._able(act, rows)
             if able.any():
                 spent = amounts[able] + self._paid(act, rows[:, able], len(self._layers))
-                can = spent < NEVER
+                can = spent < FAR
                 after, spent = self._after(rows[:, able][:, can], act.op), spent[can]
                 found.append(Layer(after, spent, np.ones_like(spent, dtype=np.bool_)))
                 size += len(spent)
@@ -302,7 +300,7 @@ class Timeline:
         for field, value, soonest in act.needs:
             if soonest < epoch and field in self._detours:
                 there = value >> (field & -field).bit_length() - 1
-                paid += self._detours[field][codes(rows, field), there]
+                paid = np.minimum(paid + self._detours[field][codes(rows, field), there], FAR)
         return paid
 
     def _able(self, act: _Act, rows: Rows) -> Flags:

@@ -8,21 +8,19 @@ from search.apart.landmarks import Landmarks
 from search.apart.provision import Value
 from search.apart.remaining import Remaining
 from search.context import SearchContext
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import ACTIONS_BITS, FAR, INFINITE_KEY
 from search.packed.operators import Operator
 
-ACTION: Final = 1 << 24
+ACTION: Final = 1 << ACTIONS_BITS
 """Amounts are costs in these units, and a number of actions."""
 
 FEW: Final = 50
 """So many outcomes are told one by one sooner than by landmarks."""
 
-_MOST_AMOUNT: Final = 1 << 62
-
 
 def amount_from(context: SearchContext, limit: int) -> int:
-    """The least amount of which the key is not below a limit."""
-    return bisect_left(range(_MOST_AMOUNT), limit, key=context.amount_key)
+    """The least amount of which the key is not below a limit; ``FAR`` where that is too much."""
+    return bisect_left(range(FAR), limit, key=context.amount_key)
 
 
 class Window:

@@ -8,16 +8,17 @@ from typing import Final, TypeVar
 
 from search.assistance.bounds.bound import Bound
 from search.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
-from search.assistance.game.game import INFINITE, Game
+from search.assistance.game.game import Game
 from search.assistance.game.rules import Mean, Worst
 from search.assistance.game.solution import ZERO, Costs, Solution
 from search.assistance.phase import PhaseDeadline
 from search.assistance.solvers.cheapest_run import CheapestRun
 from search.assistance.solvers.lao_star import LaoStar
 from search.assistance.writing import Writer
+from search.packed.cost_vector import INFINITE_KEY
 from search.prediction import at_hand
 from search.prepared_task import PreparedTask
-from serendipity.model.answers.answer import Answer, PolicyBounds
+from serendipity.model.answers.answer import Answer, PolicyBounds, Status
 from serendipity.model.answers.policy import Policy
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
@@ -50,7 +51,7 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
         yield _said(prepared.task, "unknown", PolicyBounds(ZERO, None), reason=limit_reason(limit))
         return
     most = _most_alone(game)
-    if most < INFINITE:
+    if most < INFINITE_KEY:
         yield _left_alone(game, ZERO, most)
     late = _limit_of(partial(game.alone, game.init))
     if late is not None:
@@ -61,12 +62,12 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
 
 
 def _most_alone(game: Game) -> int:
-    """What doing nothing is worth at most, by some plan of the prime's that is at hand; else ``INFINITE``."""
+    """What doing nothing is worth at most, by some plan of the prime's at hand; else ``INFINITE_KEY``."""
     try:
         plan = at_hand(game.prepared, Options(), game.deadline.part(_PLAN_SHARE)).plan
     except LIMITS:
-        return INFINITE
-    return INFINITE if plan is None else game.value_alone(plan)
+        return INFINITE_KEY
+    return INFINITE_KEY if plan is None else game.value_alone(plan)
 
 
 def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
@@ -107,10 +108,10 @@ def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]
     if lower is None:
         yield _no_plan(game)
         return
-    if upper >= INFINITE:
+    if upper >= INFINITE_KEY:
         with suppress(*LIMITS):
             upper = upper_bound_alone(game)
-    if upper >= INFINITE:
+    if upper >= INFINITE_KEY:
         yield _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
     else:
         yield _left_alone(game, lower, upper)
@@ -127,11 +128,11 @@ def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None
     lower = max(least, known.lower or ZERO)
     if search is not None and known.upper is not None:
         bounds = PolicyBounds(lower, known.upper)
-        status = "optimal" if lower == known.upper else "feasible"
+        status: Status = "optimal" if lower == known.upper else "feasible"
         answer = _answer(writer, search, "feasible")
         return answer._replace(status=status, bounds=bounds, lower_bound=_least_sum(bounds))
     alone = game.alone(game.init)  # known since the first phase
-    if alone >= INFINITE:
+    if alone >= INFINITE_KEY:
         return _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
     idle = Solution(lower, game.pair(alone))
     return _said(
@@ -150,7 +151,7 @@ def _bound_without_search(game: Game, deadline: Deadline) -> Costs | None:
         value = joint_lower_bound(game, deadline)
     except LIMITS:
         return ZERO
-    return None if value >= INFINITE else game.pair(value)
+    return None if value >= INFINITE_KEY else game.pair(value)
 
 
 def _no_plan(game: Game) -> Answer:
@@ -166,7 +167,7 @@ def _search(game: Game, options: Options) -> CheapestRun | LaoStar:
     return LaoStar(game, bound, Worst() if options.ties == "robust" else Mean(game), no_block=no_block)
 
 
-def _answer(writer: Writer, search: CheapestRun | LaoStar, status: str) -> Answer:
+def _answer(writer: Writer, search: CheapestRun | LaoStar, status: Status) -> Answer:
     solution = search.solution(floors=status == "optimal")
     has_policy = status in ("optimal", "feasible")
     return _said(
@@ -183,7 +184,7 @@ def _answer(writer: Writer, search: CheapestRun | LaoStar, status: str) -> Answe
 
 def _said(
     task: Task,
-    status: str,
+    status: Status,
     bounds: PolicyBounds,
     *,
     human_plan: HumanPlan | None = None,
@@ -238,4 +239,4 @@ def joint_optimum(prepared: PreparedTask, deadline: Deadline | None = None) -> C
     """
     game = Game(prepared, deadline or Deadline())
     value = Bound(game)(game.init)
-    return None if value >= INFINITE else game.pair(value)
+    return None if value >= INFINITE_KEY else game.pair(value)

@@ -1,7 +1,8 @@
 """Writes solutions in the model's terms: names of facts and actions, plans by epochs."""
 
-from search.assistance.game.game import INFINITE, NOOP, Game, Move
+from search.assistance.game.game import NOOP, Game, Move
 from search.assistance.game.solution import Costs, Solution
+from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.errors import LIMITS
 from serendipity.model.task.actions import NOOP as NOOP_NAME
@@ -30,7 +31,7 @@ class Writer:
     def human_plan(self) -> HumanPlan | None:
         """The prime's canonical optimal plan alone, or None where they have none."""
         game, state = self._game, self._game.init
-        if game.alone(state) >= INFINITE:
+        if game.alone(state) >= INFINITE_KEY:
             return None
         plan = []
         while not game.goal.holds(state):
@@ -88,7 +89,7 @@ class Writer:
 
     def _reply(self, state: int, solution: Solution, rest: Costs | None) -> Move | None:
         """The prime's move, where it is determined."""
-        if self._game.alone(state) >= INFINITE:
+        if self._game.alone(state) >= INFINITE_KEY:
             return Move(0, state, NOOP)
         moves = self._game.prime(state)
         if self._ties == "fixed" or len(moves) == 1:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from heapq import heapify, heappop, heappush
 
 from search.classical.planner import ClassicalPlanner
-from search.classical.problem import NO_PLAN
+from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, asked_by
 from serendipity.model.resources.deadline import Deadline
 
@@ -28,9 +28,9 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     """
     operators = planner.problem.operators
     left = planner.cheapest(state, deadline)
-    if left >= NO_PLAN:
+    if left >= INFINITE_KEY:
         return None
-    rest = in_order(operators, planner.known_plan(state) or ())
+    rest = in_order(operators, planner.known_plan(state, deadline) or (), deadline)
     amounts = [planner.problem.amount(weight) for weight in planner.problem.weights]
     plan: list[int] = []
     refuted: set[int] = set()
@@ -44,7 +44,7 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
             op = operators[number]
             after, amount = state & op.keep | op.put, left - amounts[number]
             if amount >= 0 and planner.cheapest(after, deadline, amount + 1, before=number) == amount:
-                rest = [number, *in_order(operators, planner.known_plan(after) or ())]
+                rest = [number, *in_order(operators, planner.known_plan(after, deadline) or (), deadline)]
                 break
             refuted.add(number)
         chosen = operators[rest[0]]
@@ -54,18 +54,26 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     return plan
 
 
-def in_order(operators: Sequence[Operator], plan: Sequence[int]) -> list[int]:
+def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadline) -> list[int]:
     """Of all orders in which a plan's operators do the same the first.
 
     Args:
         operators: of the problem.
         plan: some of them, by their numbers, as they can be done one after another.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came first.
     """
     waits = [0] * len(plan)
     after: list[list[int]] = [[] for _ in plan]
-    for later, number in enumerate(plan):
+    sets = [_sets(operators[number]) for number in plan]
+    asks = [asked_by(operators[number]) for number in plan]
+    for later in range(len(plan)):
+        deadline.check()
+        touches = sets[later] | asks[later]
         for earlier in range(later):
-            if not _independent(operators[plan[earlier]], operators[number]):
+            if sets[earlier] & touches or sets[later] & asks[earlier]:
                 after[earlier].append(later)
                 waits[later] += 1
     ready = [(plan[place], place) for place, count in enumerate(waits) if not count]

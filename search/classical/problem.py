@@ -1,7 +1,8 @@
 """A classical problem over packed states: operators, what each weighs, a goal.
 
 An *amount* is a cost, as an integer, and a number of actions in the lowest bits: the cost decides.
-A *weight* is an amount with the cost in the largest unit that all costs are multiples of.
+A *weight* is an amount with the cost in the largest unit that all costs are multiples of: what the kernel,
+whose integers have 64 bits, counts in.
 """
 
 from collections.abc import Iterable, Sequence
@@ -9,19 +10,17 @@ from dataclasses import dataclass
 from math import gcd
 from typing import Final
 
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
 
-ACTIONS_BITS: Final = 24
-"""The cost is above these bits, the number of actions in them."""
-
 _ACTIONS: Final = (1 << ACTIONS_BITS) - 1
 
-NO_PLAN: Final = 2**63 - 1
-"""The amount of what can't be done."""
+MOST_WEIGHT: Final = 1 << 61
+"""``MOST_COST`` of ``search/kernel/values.h``: where the kernel's sums end."""
 
-_MOST_COST: Final = 1 << 20
-"""Of one operator, in units of what all costs are multiples of, so that sums of many fit 64 bits."""
+_INFINITE_WEIGHT: Final = 2**63 - 1
+"""``INFINITE_COST`` there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,19 +47,17 @@ class ClassicalProblem:
         return sum(field for field, _ in self.fields)
 
     def amount(self, weight: int) -> int:
-        """A sum of weights with the cost in units of 1."""
-        if weight >= NO_PLAN:
-            return NO_PLAN
+        """A sum of weights with the cost in units of 1; ``INFINITE_KEY`` where the kernel has none."""
+        if weight == _INFINITE_WEIGHT:
+            return INFINITE_KEY
         return ((weight >> ACTIONS_BITS) * self.unit << ACTIONS_BITS) + (weight & _ACTIONS)
 
     def limit(self, amount: int) -> int:
-        """The least weight of an amount that is not below this one."""
-        if amount >= NO_PLAN:
-            return NO_PLAN
+        """The least weight of an amount that is not below this one; no limit where the kernel's sums end."""
         cost, actions = amount >> ACTIONS_BITS, amount & _ACTIONS
         whole, part = divmod(cost, self.unit)
         weight = whole + 1 << ACTIONS_BITS if part else (whole << ACTIONS_BITS) + actions
-        return min(weight, NO_PLAN)
+        return weight if weight <= MOST_WEIGHT else _INFINITE_WEIGHT
 
 
 def classical_problem(
@@ -75,7 +72,7 @@ def classical_problem(
         goal: what has to hold at the end.
     """
     unit = gcd(*costs) or 1
-    if goal.need < 0 or max(costs, default=0) // unit > _MOST_COST:
-        return None
     weights = tuple((cost // unit << ACTIONS_BITS) + 1 for cost in costs)
+    if goal.need < 0 or sum(weights) >= MOST_WEIGHT:
+        return None
     return ClassicalProblem(tuple(fields), tuple(operators), weights, goal, unit)

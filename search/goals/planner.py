@@ -28,7 +28,7 @@ from search.packed.successor_generator import NOTHING, JointAction, Successors, 
 from search.planner import solve
 from search.prepared_task import PreparedTask
 from search.spaces.factory import suffix_rule
-from serendipity.model.answers.answer import Answer, ServedGoal, saved
+from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -267,7 +267,7 @@ class _Search:
 
     # -- the answer
 
-    def answer(self, status: str) -> Answer:
+    def answer(self, status: Status) -> Answer:
         """The incumbent if it is cheaper than idle robots, else: do nothing."""
         plans = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
         baseline = sum((weight * cost for weight, cost in plans), Fraction(0))

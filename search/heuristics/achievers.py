@@ -7,8 +7,7 @@ from itertools import pairwise
 from search.heuristics.achiever_automaton import AchieverAutomaton
 from search.heuristics.achiever_costs import AchieverCosts
 from search.heuristics.interactions import Interactions
-from search.heuristics.private_distances import NEVER
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import INFINITE_KEY, NEVER
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Idle

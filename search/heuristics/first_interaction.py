@@ -16,9 +16,9 @@ from typing import NamedTuple, Protocol
 
 from search.heuristics.achievers import Provided
 from search.heuristics.interactions import Interactions
-from search.heuristics.private_distances import NEVER, PrivateDistances
+from search.heuristics.private_distances import PrivateDistances
 from search.human.pattern_database import PatternDatabase
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import INFINITE_KEY, NEVER
 from search.packed.successor_generator import Idle
 
 _MOST_TOUCHES = 4096

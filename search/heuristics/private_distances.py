@@ -5,12 +5,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from search.algorithms.shortest_paths import LevelQueue, backward
 from search.heuristics.interactions import Interactions, Seen
 from search.human.pattern_database import PatternDatabase, Predecessors
-from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
+from search.packed.cost_vector import INFINITE_KEY, NEVER, Weights, own_weights
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
-
-NEVER = 1 << 40
-"""An epoch after every horizon."""
 
 _MOST_KEPT = 200_000
 """Distances that are kept with a prepared task, some tens of megabytes."""

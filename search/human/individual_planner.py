@@ -9,7 +9,6 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from search.algorithms.astar import AStar
-from search.classical.problem import NO_PLAN
 from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph, edges_into
 from search.packed.cost_vector import INFINITE_KEY
@@ -156,14 +155,14 @@ class IndividualPlanner:
         classical = self._memory.classical
         assert classical is not None, "it has taken over"
         try:
-            found = classical.cheapest(state, self._deadline, min(limit, NO_PLAN))
+            found = classical.cheapest(state, self._deadline, limit)
         except LimitReachedError:
             self._at_least[state] = max(classical.least, self._at_least.get(state, 0))
             raise
         if found >= limit:
             self._at_least[state] = max(found, self._at_least.get(state, 0))
-            return found if found < NO_PLAN else INFINITE_KEY
-        self._known[state] = found if found < NO_PLAN else INFINITE_KEY
+            return found
+        self._known[state] = found
         return self._known[state]
 
     def _search(self, start: int, limit: int) -> int:
@@ -207,7 +206,7 @@ class IndividualPlanner:
         projected, memory = self._projection(state), self._memory
         if memory.classical is not None:
             known = memory.classical.bound(state, self._deadline)
-            return max(projected, known if known < NO_PLAN else INFINITE_KEY)
+            return max(projected, known)
         return projected if memory.refined is None else max(projected, memory.refined(state))
 
     def _refines(self, start: int, number: int) -> bool:

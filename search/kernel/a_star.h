@@ -35,7 +35,7 @@ typedef struct {
     uint32_t stamp;
     int32_t start, serial, has_plan;
     Cost nearest; /* what was left where plans were looked for, since least has risen */
-    int cut_off; /* whether something was left out because of the limit */
+    int cut_off, unfit; /* whether something was left out because of the limit, or as it costs more than there is room for */
     int64_t expanded, generated;
 } AStar;
 
@@ -68,9 +68,10 @@ static void open_node(AStar *s, int32_t id) {
     Node *node = node_of(&s->table, id);
     round_up(s, node);
     if (left_from(node) == INFINITE_COST) return;
-    Cost total = node->spent + left_from(node);
-    if (total >= s->limit) {
-        s->cut_off = 1;
+    Cost total = plus(node->spent, left_from(node));
+    if (total >= s->limit || total == MOST_COST) {
+        if (total >= s->limit) s->cut_off = 1;
+        else s->unfit = 1;
         return;
     }
     heap_push(&s->open, (Entry){total, left_from(node), id, s->serial++});
@@ -118,7 +119,7 @@ static void suggest(AStar *s, int32_t id) {
     const Node *node = node_of(&s->table, id);
     if (node->rest >= s->nearest) return;
     s->nearest = node->rest;
-    Cost left = s->limit - node->spent;
+    Cost left = (s->limit < MOST_COST ? s->limit : MOST_COST) - node->spent;
     if (look_ahead(s->lookahead, s->relaxation, s->problem, state_of(&s->table, id), left) != INFINITE_COST)
         keep_plan(s, id, &s->lookahead->plan);
 }
@@ -140,7 +141,8 @@ static int finish(AStar *s, int outcome, Cost total) {
     return outcome;
 }
 
-/* `before`: the operator that an optimal plan begins with, and goes on with one from here; NONE: this is the first. */
+/* `before`: the operator that an optimal plan begins with, and goes on with one from here; NONE: this is the first.  The limit
+   is INFINITE_COST, or at most MOST_COST. */
 static int a_star_begin(AStar *s, const Word *state, int32_t before, Cost limit, size_t allowed) {
     s->open.count = s->closed.count = 0;
     s->least = 0;
@@ -150,7 +152,7 @@ static int a_star_begin(AStar *s, const Word *state, int32_t before, Cost limit,
     s->start = find(&s->table, state, &is_new);
     Node *node = node_of(&s->table, s->start);
     if (is_new) look_up(&s->evaluator, s->problem, node, state);
-    s->limit = limit, s->cut_off = 0, s->serial = 0, s->has_plan = 0, s->nearest = INFINITE_COST;
+    s->limit = limit, s->cut_off = s->unfit = 0, s->serial = 0, s->has_plan = 0, s->nearest = INFINITE_COST;
     s->stamp++;
     node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = before, node->onward = 0;
     open_node(s, s->start);
@@ -190,7 +192,7 @@ static void expand(AStar *s, int32_t id) {
         int32_t next = find(&s->table, s->row, &is_new);
         Node *after = node_of(&s->table, next);
         s->generated++;
-        Cost spent = node->spent + p->weight[op];
+        Cost spent = plus(node->spent, p->weight[op]);
         if (is_new) look_up(&s->evaluator, p, after, s->row);
         if (after->stamp == s->stamp && after->spent <= spent) {
             if (after->spent == spent) come_by(s, next, op);
@@ -248,6 +250,7 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
         heap_pop(&s->open);
         expand(s, entry.item);
     }
+    if (!s->has_plan && s->unfit) return UNFIT;
     if (!s->has_plan) return s->cut_off ? finish(s, NOT_BELOW, s->limit) : finish(s, HOPELESS, INFINITE_COST);
     return reserve(&s->table, (int32_t)s->plan.count + 1) ? finish(s, FOUND, s->limit) : MEMORY;
 }

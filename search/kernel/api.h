@@ -82,12 +82,12 @@ API int32_t planner_best_way(const Planner *s, int32_t *ops, int32_t room) {
     return s->a_star.has_plan ? told(&s->a_star.plan, ops, room) : NONE;
 }
 
-/* The operators of a cheapest plan from a state, `row`, which becomes its end; NONE where its cost is not known. */
+/* The first operators of a cheapest plan from a state, `row`, which becomes the state after them; how many, fewer than there
+   is room for where the plan ends; NONE where its cost is not known. */
 API int32_t planner_known_way(Planner *s, Word *row, int32_t *ops, int32_t room) {
     int32_t count = 0, id = met(&s->a_star.table, row);
     if (id == NONE || !node_of(&s->a_star.table, id)->exact || node_of(&s->a_star.table, id)->rest == INFINITE_COST) return NONE;
-    for (int32_t op; (op = known_step(&s->a_star, row)) != NONE; count++)
-        if (count < room) ops[count] = op;
+    for (int32_t op; count < room && (op = known_step(&s->a_star, row)) != NONE; count++) ops[count] = op;
     return count;
 }
 

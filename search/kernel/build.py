@@ -4,7 +4,7 @@
 
 The compiler is what the environment variable ``CC`` names, else ``cc``, else zig, if the package
 ``ziglang`` is installed.  Where there is none, that is no failure: all searches work without the kernel,
-and answer the same.
+but are slower, and prove less within a limit.
 """
 
 import os
@@ -90,7 +90,7 @@ def main(binary: Path = BINARY, source: Path = SOURCE) -> int:
     except OSError as error:
         print(f"No kernel: {error}", file=sys.stderr)
         return 1
-    if load(binary, source) is None:
+    if isinstance(load(binary, source), str):
         binary.unlink()
         print(f"No kernel: what {command[0]} made of {source} can't be loaded here.", file=sys.stderr)
         return 1

@@ -16,8 +16,6 @@
 #include "projection.h"
 #include "values.h"
 
-#define FAR ((Cost)1 << 60)
-
 /* A projection that may take all of the costs: its distances, and how much it takes. */
 typedef struct {
     Cost *cost;
@@ -46,14 +44,14 @@ static int distances(Projections *all, const Projection *b, const Cost *weights,
     }
     all->heap.count = 0;
     for (int32_t i = 0; i < b->n_states; i++) {
-        found[i] = b->goals[i] ? 0 : FAR;
+        found[i] = b->goals[i] ? 0 : INFINITE_COST;
         if (b->goals[i] && b->first[i + 1] > b->first[i] && !heap_push(&all->heap, (Entry){0, 0, i, 0})) return 0;
     }
     while (all->heap.count) {
         Entry entry = heap_pop(&all->heap);
         if (entry.key > found[entry.item]) continue;
         for (int32_t j = b->first[entry.item]; j < b->first[entry.item + 1]; j++) {
-            Cost cost = entry.key + all->steps[b->class[j]];
+            Cost cost = plus(entry.key, all->steps[b->class[j]]);
             if (cost >= found[b->source[j]]) continue;
             found[b->source[j]] = cost;
             if (!heap_push(&all->heap, (Entry){cost, 0, b->source[j], 0})) return 0;
@@ -67,10 +65,10 @@ static void saturate(Projections *all, const Projection *b, const Cost *found, C
     memset(needed, 0, (size_t)n_ops * sizeof *needed);
     memset(all->steps, 0, (size_t)b->n_classes * sizeof *all->steps);
     for (int32_t to = 0; to < b->n_states; to++) {
-        if (found[to] >= FAR) continue;
+        if (found[to] == INFINITE_COST) continue;
         for (int32_t j = b->first[to]; j < b->first[to + 1]; j++) {
             Cost drop = found[b->source[j]] - found[to];
-            if (drop > all->steps[b->class[j]] && found[b->source[j]] < FAR) all->steps[b->class[j]] = drop;
+            if (drop > all->steps[b->class[j]] && found[b->source[j]] != INFINITE_COST) all->steps[b->class[j]] = drop;
         }
     }
     for (int32_t c = 0; c < b->n_classes; c++)
@@ -125,8 +123,8 @@ static Cost summed(const Projections *all, Cost *const *tables) {
     for (int32_t i = 0; i < all->count; i++) {
         if (!tables[i]) continue;
         Cost value = tables[i][number_in(all, i)];
-        if (value >= FAR) return INFINITE_COST;
-        sum += value;
+        if (value == INFINITE_COST) return value;
+        sum = plus(sum, value);
     }
     return sum;
 }

@@ -19,7 +19,7 @@
 
 enum {
     MOST_AGENTS = 64,
-    COST_SHIFT = 24,    /* a cost is above so many bits of a number of actions */
+    COST_SHIFT = 32,    /* a cost is above so many bits of a number of actions */
     MOST_WAYS = 200000, /* sets from a state */
 };
 
@@ -188,9 +188,10 @@ static int epochs_begin(Epochs *e, const Word *state, size_t allowed) {
     return FOUND;
 }
 
-/* What follows, as it weighs here. */
+/* What follows, as it weighs here; no more than MOST_COST. */
 static Cost weighed(const Epochs *e, Cost rest) {
     if (rest == INFINITE_COST) return rest;
+    if (rest >> COST_SHIFT >= (MOST_COST >> COST_SHIFT) / e->unit) return MOST_COST;
     return (rest >> COST_SHIFT) * e->unit * ((Cost)1 << COST_SHIFT) + (rest & (((Cost)1 << COST_SHIFT) - 1));
 }
 
@@ -358,8 +359,8 @@ static int epochs_next(Epochs *e, int32_t given) {
     return e->is_end || add_layer(e);
 }
 
-/* A slice of it: what can be left behind if nothing is given, else the next layer.  What is not below the limit is left out.
-   HOPELESS: a state has too many sets. */
+/* A slice of it: what can be left behind if nothing is given, else the next layer.  What is not below the limit, which is
+   MOST_COST at most, is left out.  HOPELESS: a state has too many sets. */
 static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
     double end = now() + seconds;
     e->target = NULL, e->limit = limit, e->until = end, e->is_fresh = 1;

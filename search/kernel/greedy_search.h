@@ -85,7 +85,7 @@ static void expand_greedily(Greedy *s, int32_t id, Cost rest) {
         int32_t next = find(&s->table, s->row, &is_new);
         if (!is_new) continue;
         Node *after = node_of(&s->table, next);
-        after->parent = id, after->op = op, after->spent = node_of(&s->table, id)->spent + p->weight[op];
+        after->parent = id, after->op = op, after->spent = plus(node_of(&s->table, id)->spent, p->weight[op]);
         Entry entry = {rest, after->spent, next, -s->serial++};
         heap_push(&s->all, entry);
         int32_t class = x->class_of[op];

@@ -51,7 +51,8 @@ static void sort_relaxed_plan(Lookahead *l, const Relaxation *r) {
     }
 }
 
-/* A plan from a state that costs less than a limit: what it costs, or INFINITE_COST where none was found. */
+/* A plan from a state that costs less than a limit: what it costs, or INFINITE_COST where none was found.  Without a limit
+   what it costs may be more than is told. */
 static Cost look_ahead(Lookahead *l, Relaxation *r, const Problem *p, const Word *from, Cost limit) {
     const RelaxedProblem *x = &r->problem;
     Cost spent = 0, before = INFINITE_COST;
@@ -73,7 +74,7 @@ static Cost look_ahead(Lookahead *l, Relaxation *r, const Problem *p, const Word
                 }
                 apply(p, op, l->state, l->row);
                 memcpy(l->state, l->row, (size_t)p->words * sizeof(Word));
-                spent += p->weight[op], moved = 1;
+                spent = plus(spent, p->weight[op]), moved = 1;
                 if (spent >= limit || !ints_push(&l->plan, op)) return INFINITE_COST;
             }
             l->order.count = left;

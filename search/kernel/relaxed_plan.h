@@ -51,7 +51,7 @@ static Cost relaxed_plan(RelaxedPlan *f, Relaxation *r, const Problem *p, const 
         for (int32_t j = x->asked_by.start[from]; j < x->asked_by.start[from + 1]; j++) {
             int32_t number = x->asked_by.at[j];
             RelaxedOp *op = &r->ops[number];
-            op->cost += r->cost[from];
+            op->cost = plus(op->cost, r->cost[from]);
             if (--op->unsatisfied) continue;
             for (int32_t k = x->add.start[number]; k < x->add.start[number + 1]; k++) {
                 int32_t fact = x->add.at[k];

@@ -8,11 +8,19 @@
 typedef uint64_t Word;
 typedef int64_t Cost;
 
-#define INFINITE_COST INT64_MAX
+#define INFINITE_COST INT64_MAX /* there is no way; nothing that can be had costs as much, see MOST_COST */
 #define NONE (-1)
 
-/* How a slice of a search ends. */
-enum { RUNNING, FOUND, NOT_BELOW, HOPELESS, MEMORY };
+/* Where costs end.  Python sees to it that those of all operators together are below it (search/classical/problem.py), so
+   what counts an operator once at most is.  Other sums are made by `plus`: as bounds they stay admissible; a way that costs
+   as much is left out, and the search says so (UNFIT). */
+#define MOST_COST ((Cost)1 << 61)
+
+/* How a slice of a search ends; UNFIT: what is asked for may cost more than there is room for. */
+enum { RUNNING, FOUND, NOT_BELOW, HOPELESS, MEMORY, UNFIT };
+
+/* A sum of costs that are MOST_COST at most. */
+static inline Cost plus(Cost a, Cost b) { return a + b < MOST_COST ? a + b : MOST_COST; }
 
 static double now(void) {
     struct timespec t;

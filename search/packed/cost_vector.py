@@ -12,18 +12,44 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
+from typing import Final
 
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
-from serendipity.model.options import Options
+from serendipity.model.errors import UsageError
+from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.task.task import HumanPlan
 
-_ACTIONS_BITS = 24
-_ACTIONS = (1 << _ACTIONS_BITS) - 1
-_EPOCH_BITS = 20
+ACTIONS_BITS: Final = 32
+"""For a number of actions below a cost: a plan of so many has more states than any memory."""
 
-INFINITE_KEY = 1 << 4096
-"""Above every key: no plan."""
+_ACTIONS: Final = (1 << ACTIONS_BITS) - 1
+
+_EPOCH_BITS: Final = MAX_EPOCH.bit_length()
+
+_MOST_BITS: Final = 1 << 14
+
+INFINITE_KEY: Final = 1 << _MOST_BITS
+"""No plan: above every key and every amount, as :func:`require_room` sees to."""
+
+FAR: Final = 1 << 60
+"""No way, in tables of machine words: what can be had costs less, as those who make them see to."""
+
+NEVER: Final = 1 << 40
+"""After every epoch, all of which are at most :data:`.MAX_EPOCH`."""
+
+
+def require_room(bits: int) -> None:
+    """Return if numbers of so many bits are below :data:`INFINITE_KEY`, sums of many of them, too.
+
+    Raises:
+        UsageError: they are not.
+    """
+    if bits + 64 > _MOST_BITS:
+        raise UsageError(
+            f"costs, discount and weights: expected a common denominator that keeps sums within {_MOST_BITS} "
+            f"bits, got {bits}"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +74,7 @@ class CostLayout:
     @property
     def start_shift(self) -> int:
         """Lowest bit of the start field (horizon + 1 - xi1)."""
-        return self.announced_bits + _ACTIONS_BITS
+        return self.announced_bits + ACTIONS_BITS
 
     @property
     def length_shift(self) -> int:
@@ -67,7 +93,7 @@ class CostLayout:
 
     def actions(self, key: int) -> int:
         """Number of actions in a key."""
-        return (key >> self.action_shift) & ((1 << _ACTIONS_BITS) - 1)
+        return (key >> self.action_shift) & ((1 << ACTIONS_BITS) - 1)
 
     def start_field(self, key: int) -> int:
         """``horizon + 1 - xi1`` in a key: smaller for a later start."""
@@ -109,6 +135,10 @@ class CostLayout:
         scaled = cost * self.scale
         assert scaled.denominator == 1, "the scale covers every cost of the task"
         return (scaled.numerator << self.cost_shift) + (scaled.numerator << self.objective_shift)
+
+    def of_objective(self, objective: Fraction) -> int:
+        """Key that no plan of at least such an objective is below."""
+        return int(objective * self.scale) << self.objective_shift
 
     def of_action(self, cost: Fraction) -> int:
         """Key increment of one action with the given team cost."""
@@ -174,7 +204,7 @@ class Weights:
 
     def key_of(self, amount: int) -> int:
         """Key of a scaled cost and a number of actions, put together as by :func:`own_weights`."""
-        cost, keys = amount >> _ACTIONS_BITS, self.keys
+        cost, keys = amount >> ACTIONS_BITS, self.keys
         increment = (cost << keys.cost_shift) + (cost << keys.objective_shift)
         return increment + ((amount & _ACTIONS) << keys.action_shift)
 
@@ -182,13 +212,13 @@ class Weights:
         """Key increments of costs in the unit of :func:`own_weights`, by whatever they are listed."""
         per_cost, action = self._per_cost, self.keys.action_shift
         return {
-            at: (cost >> _ACTIONS_BITS) * per_cost + ((cost & _ACTIONS) << action)
+            at: (cost >> ACTIONS_BITS) * per_cost + ((cost & _ACTIONS) << action)
             for at, cost in costs.items()
         }
 
     def own_limit(self, limit: int) -> int:
         """A cost in the unit of :func:`own_weights` from which on no key is below a limit."""
-        return limit // self._per_cost + 1 << _ACTIONS_BITS
+        return limit // self._per_cost + 1 << ACTIONS_BITS
 
     def alone(self, op: Operator) -> int:
         """Increment of an op for the human's own preferences; communication ranks last."""
@@ -241,8 +271,10 @@ def _scaled(costs: Sequence[Fraction], discount: Fraction, window: Fraction, ann
     factors = (Fraction(1), 1 - discount, announced)
     scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
     dearest = int(max(costs, default=Fraction(0)) * scale)
-    announced_bits = int(dearest * announced).bit_length() + _ACTIONS_BITS if announced else 0
-    layout = CostLayout(scale, announced_bits, dearest.bit_length() + _ACTIONS_BITS, 0)
+    announced_bits = int(dearest * announced).bit_length() + ACTIONS_BITS if announced else 0
+    layout = CostLayout(scale, announced_bits, dearest.bit_length() + ACTIONS_BITS, 0)
+    dearer = max(dearest, int(window * scale), int(dearest * announced))
+    require_room(layout.objective_shift + dearer.bit_length() + ACTIONS_BITS)
     epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
     keys = replace(layout, epoch_weight=epoch)
     per_cost = scale // _own_scale(costs)
@@ -261,7 +293,7 @@ def own_weights(packed: PackedTask) -> list[int]:
     Cost (in the least unit of the task's costs) and number of actions are the two fields of
     an int: what the human prefers alone (semantics 1).  :meth:`Weights.of_own` makes keys of sums.
     """
-    return [(cost << _ACTIONS_BITS) + 1 for cost in own_costs(packed)]
+    return [(cost << ACTIONS_BITS) + 1 for cost in own_costs(packed)]
 
 
 def own_costs(packed: PackedTask) -> list[int]:

@@ -112,6 +112,15 @@ def asked_by(op: Operator) -> int:
     return asked
 
 
+def changed(state: int, ops: Iterable[Operator]) -> int:
+    """The packed state after an epoch in which ops happen together."""
+    kept, put = -1, 0
+    for op in ops:
+        kept &= op.keep
+        put |= op.put
+    return state & kept | put
+
+
 def applicable(op: Operator, state: int) -> bool:
     """Whether an op's precondition holds in a packed state."""
     return state & op.need_mask == op.need and all(state & m != value for m, value in op.forbidden)

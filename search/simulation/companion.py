@@ -15,10 +15,10 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.successor_generator import Successors
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
-from search.simulation.simulator import Simulated, simulate_from
+from search.simulation.simulator import Simulated, simulate_from, way_on
 from search.simulation.space import Reactive, Start
-from serendipity.model.errors import LIMITS
-from serendipity.model.options import Options
+from serendipity.model.errors import LIMITS, LimitReachedError
+from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.plans import Step
 
@@ -85,10 +85,9 @@ class Companion:
         *,
         begins: Begins | None = None,
         known: Sequence[Step] = (),
+        keeps: bool = True,
     ) -> Course | None:
         """The best way to go on that is found in time; None where robots can't make the human get there.
-
-        Robots don't make a plan impossible that the human would go on with.
 
         Args:
             start: where everybody is.
@@ -97,12 +96,14 @@ class Companion:
             deadline: of all of them.
             begins: what may happen in the first epoch.
             known: a way that was found before, which may still be good for something.
+            keeps: whether robots don't make a plan impossible that the human would go on with.
 
         Raises:
-            LimitReachedError: the deadline came before it was known what the human does alone.
+            LimitReachedError: the deadline came before it was known what the human does alone, and, where
+                they have no plan, before there was any with robots.
         """
         self._clock.renew(deadline)
-        horizon = max(len(start.intention.actions), 1)
+        horizon = len(start.intention.actions) or MAX_EPOCH
         idle = self._search(start, Incumbent(INFINITE_KEY), horizon, self._idle)
         best = Incumbent(idle.key, idle.node, idle.end, idle.tail)
         replayed = self._replayed(start, known, begins)
@@ -113,12 +114,14 @@ class Companion:
         for number, out in enumerate(barred):
             self._clock.renew(deadline.part(1 / (len(barred) - number)))
             try:
-                self._search(start, best, horizon, self._without(out), begins)
+                self._search(start, best, horizon, self._without(out), begins, keeps=keeps)
                 proved = number == len(barred) - 1
             except LIMITS:
                 pass
         self._clock.renew(deadline)
         if best.key >= INFINITE_KEY:
+            if not proved:
+                raise LimitReachedError("time-limit")
             return None
         if best.node is not None:
             steps = tuple(sorted(path_steps(best.node) + plan_steps(best.tail, best.end)))
@@ -142,6 +145,8 @@ class Companion:
         horizon: int,
         successors: Successors,
         begins: Begins | None = None,
+        *,
+        keeps: bool = True,
     ) -> Incumbent:
         sees_all = self._options.human_model == "observant"
         space = Reactive(
@@ -152,7 +157,7 @@ class Companion:
             no_block=True,
             most_cost=None,
             sees_all=sees_all,
-            keeps=True,
+            keeps=keeps,
             begins=begins,
         )
         for _ in best_first(space, best, Progress(), self._clock):
@@ -163,13 +168,11 @@ class Companion:
         self, start: Start, known: Sequence[Step], begins: Begins | None
     ) -> tuple[int, tuple[Step, ...]] | None:
         """The key and the steps of a known way from here; None where it does not lead to the goal."""
-        if not known:
-            return None
         first = tuple(step.action for step in known if step.epoch == 1)
         if begins is not None and not begins(first):
             return None
-        played = simulate_from(start, self.human, self._options, known, horizon=None, deadline=self._clock)
-        if not played.goals_hold or any(epoch.skipped for epoch in played.epochs):
+        played = way_on(start, self.human, self._options, known, self._clock)
+        if played is None:
             return None
         packed, weights = self.human.packed, self.human.weights
         return sum(weights.team(packed.op(step.action)) for step in played.steps), played.steps

@@ -63,17 +63,17 @@ class Intentions:
         self._packed = packed
         self._keys = keys
         self._weights = weights
-        self._known: dict[tuple[int, ...], Intention] = {(): Intention(0, None, NOTHING, None, 0, 0)}
+        self._end = Intention(0, None, NOTHING, None, 0, 0)
+        self._known: dict[tuple[int, int], Intention] = {}  # by the first action, and what remains after it
 
     def of(self, actions: Iterable[int]) -> Intention:
         """The intention to do these actions, one after another."""
-        wanted = tuple(actions)
-        new = 0  # plans may be longer than Python's stack is deep
-        while wanted[new:] not in self._known:
-            new += 1
-        found = self._known[wanted[new:]]
-        for first in reversed(range(new)):
-            found = self._known[wanted[first:]] = self._before(wanted[first], found)
+        found = self._end
+        for action in reversed(tuple(actions)):
+            longer = self._known.get((action, found.number))
+            if longer is None:
+                longer = self._known[action, found.number] = self._before(action, found)
+            found = longer
         return found
 
     def _before(self, action: int, rest: Intention) -> Intention:
@@ -81,4 +81,4 @@ class Intentions:
         weight = self._weights[op.cost]
         option = JointAction(weight, op.keep, op.put, (op.action,), op.agents)
         cost = rest.cost + self._keys.scaled_cost(weight)
-        return Intention(len(self._known), op, option, rest, rest.weight + weight, cost)
+        return Intention(len(self._known) + 1, op, option, rest, rest.weight + weight, cost)

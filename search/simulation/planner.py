@@ -1,18 +1,21 @@
 """The best help that happens, with a human who replans on sight (semantics 6)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from search.context import SearchContext
-from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.best_first import Incumbent, Node, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import changed
 from search.prediction import AtHand
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
+from search.simulation.simulator import way_on
 from search.simulation.space import Reactive, Start
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from serendipity.model.answers.answer import Answer, saved
+from search.warm_start import WarmStart
+from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -29,6 +32,7 @@ def solve_for_human(
     human_plan: HumanPlan | None = None,
     visible: Visible | None = None,
     deadline: Deadline | None = None,
+    warm: WarmStart | None = None,
 ) -> Iterator[Answer]:
     """Answers with falling cost and rising lower bound; the last one is the best known.
 
@@ -42,6 +46,7 @@ def solve_for_human(
         human_plan: ``pi_H``, already replayed, or None to predict it.
         visible: what a local human sees; None for the default.
         deadline: deadline and cancellation.
+        warm: what is known before.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
@@ -78,7 +83,8 @@ def solve_for_human(
         if task.robot_goal:
             yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
         return
-    call = _Call(task, options, human, plan, epochs, deadline, given=human_plan is not None)
+    known = () if warm is None else warm.steps
+    call = _Call(task, options, human, plan, epochs, deadline, known, given=human_plan is not None)
     for answer in call.answers():
         yield answer._replace(lower_bound=_not_below(least, answer.lower_bound))
 
@@ -123,9 +129,11 @@ class _Call:
         plan: HumanPlan,
         epochs: int,
         deadline: Deadline,
+        known: Sequence[Step],
         *,
         given: bool,
     ) -> None:
+        self.known = known
         self.task = task
         self.options = options
         self.human = human
@@ -149,14 +157,37 @@ class _Call:
             self.settled = True
             if not self.task.robot_goal:
                 self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
+            self._begin_with_known()
+            if self._has_answer():
                 yield self._outcome("feasible")
             for _ in best_first(self._space(idle=False), self.best, self.progress, self.deadline):
                 yield self._outcome(self._unfinished())
-            status = "optimal" if self._has_answer() else "infeasible"
+            status: Status = "optimal" if self._has_answer() else "infeasible"
         except LIMITS as limit:
             self.limit = limit_reason(limit)
             status = self._unfinished()
         yield self._outcome(status)
+
+    def _begin_with_known(self) -> None:
+        """The plan that was known before is the incumbent, where it works out and is better."""
+        played = way_on(self._start(), self.human, self.options, self.known, self.deadline)
+        if played is None or len(played.epochs) > self.epochs:
+            return
+        human, guarded = self.human, self.options.no_block is not False
+        node = Node(0, 0, human.packed.init, 0, 0, None, ())
+        for epoch in played.epochs:
+            if guarded and human.stuck(node.state):
+                return
+            ops = [human.packed.op(i) for i in epoch.executed]
+            state = changed(node.state, ops)
+            key = node.key + sum(map(human.weights.team, ops))
+            node = Node(key, epoch.epoch, state, 0, 0, node, epoch.executed)
+        if node.key < self.best.key and not human.keys.exceeds(node.key, self._most_cost()):
+            self.best = Incumbent(node.key, node)
+
+    def _start(self) -> Start:
+        init = self.human.packed.init
+        return Start(init, init, self.human.intentions.of(self.plan))
 
     def _follow(self) -> None:
         """The plan in which the human does ``pi_H`` exactly, robots seeing to ``G_R`` beside them."""
@@ -180,11 +211,10 @@ class _Call:
             pass
 
     def _space(self, *, idle: bool) -> Reactive:
-        init = self.human.packed.init
         return Reactive(
             self.human,
             self.human.context.successors(idle=idle),
-            start=Start(init, init, self.human.intentions.of(self.plan)),
+            start=self._start(),
             horizon=self.epochs,
             no_block=self.options.no_block is not False,
             most_cost=None if idle else self._most_cost(),
@@ -195,7 +225,7 @@ class _Call:
         """``max_cost`` (eq. 11), scaled and rounded down."""
         return self.human.keys.most_cost(self.options.max_cost, self.baseline.key)
 
-    def _unfinished(self) -> str:
+    def _unfinished(self) -> Status:
         return "feasible" if self._has_answer() else "unknown"
 
     def _has_answer(self) -> bool:
@@ -210,7 +240,7 @@ class _Call:
         rivals = [key for key in (self.baseline.key, self.idle.key) if key < INFINITE_KEY]
         return all(keys.cost(found) < keys.cost(key) for key in rivals)
 
-    def _outcome(self, status: str) -> Answer:
+    def _outcome(self, status: Status) -> Answer:
         helps, keys = self._helps(), self.human.keys
         answer = self.best if helps or self.task.robot_goal else self.baseline
         known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
@@ -241,7 +271,7 @@ class _Call:
             return Fraction(0)
         return max(baseline - self.human.keys.cost(self.idle.key), Fraction(0))
 
-    def _lower_bound(self, status: str) -> Fraction | None:
+    def _lower_bound(self, status: Status) -> Fraction | None:
         if status == "infeasible":
             return None
         return self.human.keys.objective(min(self.progress.bound, self.best.key, self.baseline.key))

@@ -153,6 +153,27 @@ def simulate_from(
     return _Run(task, options, human, _by_epoch(task, steps), start, deadline).play(horizon)
 
 
+def way_on(
+    start: Start, human: Human, options: Options, steps: Sequence[Step], deadline: Deadline
+) -> Simulated | None:
+    """What becomes of a plan that was made for another moment; None where it does not lead to the goals.
+
+    Args:
+        start: where it begins.
+        human: the human.
+        options: discount and interference.
+        steps: the plan, its epochs counted from the start.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline ran out in the first epoch, or before it.
+    """
+    if not steps or not all(human.packed.is_useful(step.action) for step in steps):
+        return None
+    played = simulate_from(start, human, options, steps, horizon=None, deadline=deadline)
+    return played if played.goals_hold and not any(epoch.skipped for epoch in played.epochs) else None
+
+
 def _by_epoch(task: Task, steps: Iterable[Step]) -> dict[int, list[int]]:
     """What robots take part in, epoch by epoch."""
     planned: dict[int, list[int]] = {}

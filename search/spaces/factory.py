@@ -17,10 +17,10 @@ from search.heuristics.first_interaction import (
     survivors,
 )
 from search.heuristics.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
-from search.heuristics.private_distances import NEVER, Corridor
+from search.heuristics.private_distances import Corridor
 from search.human.pattern_database import NOTHING_KNOWN
 from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
-from search.packed.cost_vector import INFINITE_KEY, CostLayout
+from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout
 from search.packed.operators import Operator
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction

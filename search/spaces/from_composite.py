@@ -6,7 +6,7 @@ from itertools import combinations
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Operator, applicable
+from search.packed.operators import Operator, applicable, changed
 from search.spaces.factory import suffix_rule
 from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan
@@ -130,7 +130,7 @@ class Suggestions:
         """What the human may do in a window of one epoch."""
         yield None
         yield self._plan[epoch - 1]
-        after = _changed(state, ops)
+        after = changed(state, ops)
         if self._suffix.key(after, self._horizon, epoch, INFINITE_KEY) < INFINITE_KEY:
             for action in self._suffix.actions(after, self._horizon, epoch)[:1]:
                 yield self._context.packed.op(action)
@@ -164,7 +164,7 @@ class Suggestions:
                     context.packed.compatible(op.action, other.action, context.options.strict)
                     for other in chosen
                 )
-                if fits and (not keeps or self._goes_on(_changed(state, [*chosen, op]), epoch)):
+                if fits and (not keeps or self._goes_on(changed(state, [*chosen, op]), epoch)):
                     chosen.append(op)
             busy |= op.agents
         return chosen
@@ -174,7 +174,7 @@ class Suggestions:
         for op in self._plan[epoch:]:
             if not applicable(op, state):
                 return False
-            state = _changed(state, [op])
+            state = changed(state, [op])
         return True
 
     def _root(self) -> Node:
@@ -182,7 +182,7 @@ class Suggestions:
 
     def _after(self, node: Node, ops: Sequence[Operator]) -> Node:
         key = node.key + sum(map(self._context.weights.team, ops))
-        state = _changed(node.state, ops)
+        state = changed(node.state, ops)
         return Node(key, node.epoch + 1, state, 0, node.start, node, tuple(op.action for op in ops))
 
     def _ended(self, node: Node) -> Iterator[Incumbent]:
@@ -213,12 +213,3 @@ class Suggestions:
         if key < self._limit and not self._context.keys.exceeds(key, self._most_cost):
             self._limit = key
             yield found
-
-
-def _changed(state: int, ops: Sequence[Operator]) -> int:
-    """The state after an epoch in which ops happen together."""
-    for op in ops:
-        state &= op.keep
-    for op in ops:
-        state |= op.put
-    return state

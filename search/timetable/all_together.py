@@ -9,12 +9,12 @@ from collections.abc import Collection, Iterator
 from typing import Final
 
 from search.apart.conditions import lost_values
-from search.classical.problem import ACTIONS_BITS, ClassicalProblem
+from search.classical.problem import MOST_WEIGHT, ClassicalProblem
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress
 from search.human.own_problem import own_planner
 from search.kernel.library import library
-from search.packed.cost_vector import own_costs
+from search.packed.cost_vector import ACTIONS_BITS, own_costs
 from search.spaces.factory import suffix_rule
 from search.spaces.from_composite import Suggestions
 from search.timetable.epochs import Epochs, Leaving
@@ -48,9 +48,7 @@ _MOST_ACTIONS: Final = 2_000
 _MOST_AGENTS: Final = 63
 
 _MOST_COST_BITS: Final = 24
-"""Of an action, so that sums of many are no more than 64 bits with a number of actions."""
-
-_MOST_AMOUNT: Final = 1 << 62
+"""Of an action, and of the unit of what follows: so that what all agents do in an epoch can be added up."""
 
 
 class AllTogether:
@@ -106,7 +104,8 @@ class AllTogether:
             return
         deadline = self._context.deadline.part(share)
         try:
-            self._epochs = self._epochs or _epochs(self._context, deadline)
+            fits = self._amount(self._best.key) < MOST_WEIGHT
+            self._epochs = self._epochs or (_epochs(self._context, deadline) if fits else None)
             if self._epochs is None:
                 self._is_over = True
             else:
@@ -154,8 +153,8 @@ class AllTogether:
         left.clear()
 
     def _amount(self, limit: int) -> int:
-        """The least amount of which the key is not below a limit."""
-        return bisect_left(range(_MOST_AMOUNT), limit, key=self._context.amount_key)
+        """The least amount of which the key is not below a limit; ``MOST_WEIGHT``: too much."""
+        return bisect_left(range(MOST_WEIGHT), limit, key=self._context.amount_key)
 
 
 def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
@@ -177,6 +176,8 @@ def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
     own, lost = own_costs(packed), lost_values(packed)
     dead = b"".join(_flags(field, values, lost.get(field, ())) for field, values in fields)
     ratio = next((context.weights.scaled_cost(op) // own[op.cost] for op in packed.own if own[op.cost]), 1)
+    if (after.problem.unit * ratio).bit_length() > _MOST_COST_BITS:
+        return None
     return Epochs(
         kernel,
         context.task,

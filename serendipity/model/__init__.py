@@ -6,15 +6,19 @@ Serendipity" (Chakraborti et al., IROS 2015), as made precise in
 ``docs/semantics.md``.
 """
 
-from serendipity.model.answers.certificate import Certificate, Claim
+from serendipity.model.answers.answer import Status
+from serendipity.model.answers.certificate import Certificate, Claim, Verdict
 from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.answers.proof_check import ProofCheck, RefutedProgram
 from serendipity.model.answers.result import Result
+from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.answers.trace import Trace, TraceEpoch, TraceSkip
 from serendipity.model.errors import InputError, LimitReachedError, PlanError, SerendipityError, UsageError
+from serendipity.model.keywords import HumanModel, Mode, PlanOptions
 from serendipity.model.numbers import exact
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.table import Table
 from serendipity.model.task.actions import Condition, GroundAction
 from serendipity.model.task.plans import PlanStep, Step, Window
 from serendipity.model.task.task import HumanPlan, Task
@@ -28,12 +32,17 @@ __all__ = [
     "Deadline",
     "Decision",
     "Floor",
+    "GapEntry",
+    "GoalAnswer",
     "GroundAction",
+    "HumanModel",
     "HumanPlan",
     "InputError",
     "LimitReachedError",
+    "Mode",
     "Options",
     "PlanError",
+    "PlanOptions",
     "PlanStep",
     "Policy",
     "ProofCheck",
@@ -41,13 +50,17 @@ __all__ = [
     "Result",
     "SerendipityError",
     "StateDelta",
+    "Status",
     "Step",
     "Surroundings",
+    "Table",
     "Task",
+    "TiedAnswer",
     "Trace",
     "TraceEpoch",
     "TraceSkip",
     "UsageError",
+    "Verdict",
     "Visible",
     "Window",
     "exact",

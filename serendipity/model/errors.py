@@ -57,6 +57,22 @@ def limit_reason(error: LimitReachedError | MemoryError) -> str:
     return error.reason if isinstance(error, LimitReachedError) else "memory-limit"
 
 
+_UNEXPECTED: Final = "unexpected "
+REPORT: Final = "a fault of Serendipity; please report it, with the command, its files and what -vv adds"
+
+
+def told(error: Exception) -> str:
+    """An error in a line; one that nobody has foreseen is said to be so."""
+    if isinstance(error, SerendipityError):
+        return str(error)
+    return " ".join(f"{_UNEXPECTED}{type(error).__name__}: {error}".split())
+
+
+def is_unexpected(line: str | None) -> bool:
+    """Whether :func:`told` has told an error that is a fault of the program."""
+    return line is not None and line.startswith(_UNEXPECTED)
+
+
 class InputError(SerendipityError):
     """A file can't be read or does not mean what it should.
 

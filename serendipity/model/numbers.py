@@ -1,8 +1,9 @@
 """Exact numbers: costs, discounts and weights are rationals, so ties are exact."""
 
 from collections.abc import Iterable
-from decimal import Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
+from math import ceil, floor, isfinite
 from typing import Final
 
 from serendipity.model.errors import UsageError
@@ -21,8 +22,8 @@ def exact(value: Number, what: str = "number", most: int = MOST_DIGITS) -> Fract
     """The rational that a number is written as: ``exact(0.1) == Fraction(1, 10)``.
 
     Args:
-        value: an integer, a float (read as its shortest decimal), a decimal or
-            a text such as ``"0.6"`` or ``"1/3"``.
+        value: an integer, a float (read as :func:`meant` by it), a decimal or a text such
+            as ``"0.6"`` or ``"1/3"``, which are exactly what they say.
         what: how an error calls the value.
         most: digits that it may have.
 
@@ -34,6 +35,8 @@ def exact(value: Number, what: str = "number", most: int = MOST_DIGITS) -> Fract
     if isinstance(value, bool):
         raise UsageError(f"{what}: expected a number, got {value!r}")
     try:
+        if isinstance(value, float) and isfinite(value):
+            return meant(value)
         found = fraction(str(value).strip(), most)
         float(found)
         return found
@@ -62,22 +65,104 @@ def fraction(text: str, most: int = MOST_DIGITS) -> Fraction:
     return Fraction(text)
 
 
-def as_written(value: float | str) -> Fraction:
-    """The rational that a figure in a result stands for: the shortest decimal that is this float.
+_SURE_DIGITS: Final = 15
+"""Decimals of so many digits have floats of their own."""
 
-    Figures are rounded when they are written down, so it is the exact one where that has few digits.
+_NEAR: Final = Fraction(1, 10**15)
+"""The part of a float by which it may differ from what it stands for: a few units in the last place."""
+
+_SIMPLE: Final = 10**12
+"""Numerator times denominator of simple rationals: hardly any float is so near to one by chance."""
+
+
+def meant(value: float) -> Fraction:
+    """The rational that a finite float stands for: ``meant(2 / 3) == Fraction(2, 3)``.
+
+    The first of these that there is:
+
+    1. the decimal that it is shown as, if that has at most 15 digits or is a whole number;
+    2. the simplest rational within one part in 10^15 of it, if that one's numerator times its
+       denominator is at most 10^12: ``meant(0.1 + 0.2) == Fraction(3, 10)``;
+    3. the decimal of 15 digits that is nearest to it, if it is within one part in 10^15;
+    4. the decimal that it is shown as: the shortest that is this float.
+
+    Nothing of the first kind may be between the float and what it stands for, so greater floats never
+    stand for less; and the float of what it stands for stands for the same.
     """
-    return Fraction(str(value))
+    if isinstance(value, Figure):
+        return value.exact
+    text = repr(float(value))
+    shown = Fraction(text)
+    if len(text) <= _SURE_DIGITS + 1 or shown.denominator == 1 or _sure(text, ROUND_HALF_EVEN) == shown:
+        return shown
+    if value < 0:
+        return -meant(-value)
+    low = max(shown * (1 - _NEAR), _sure(text, ROUND_FLOOR), Fraction(floor(shown)))
+    high = min(shown * (1 + _NEAR), _sure(text, ROUND_CEILING), Fraction(ceil(shown)))
+    found = _simplest(low, high)
+    if found.numerator * found.denominator <= _SIMPLE:
+        short = _sure(repr(float(found)), ROUND_HALF_EVEN)
+        return short if float(short) == float(found) else found
+    nearest = _sure(text, ROUND_HALF_EVEN)
+    return nearest if low <= nearest <= high else shown
+
+
+def _sure(text: str, rounding: str) -> Fraction:
+    """The decimal of 15 digits next to a number."""
+    return Fraction(Context(_SURE_DIGITS, rounding).create_decimal(text))
+
+
+def _simplest(low: Fraction, high: Fraction) -> Fraction:
+    """Of the rationals between two positive ones the one with the least numerator and denominator."""
+    whole = -(-low.numerator // low.denominator)
+    if whole <= high:
+        return Fraction(whole)
+    return whole - 1 + 1 / _simplest(1 / (high - whole + 1), 1 / (low - whole + 1))
+
+
+class Figure(float):
+    """A float in a result that stands for another rational than what it is :func:`meant` as: ``exact``."""
+
+    __slots__ = ("exact",)
+
+    exact: Fraction
+
+    def __new__(cls, value: Fraction) -> "Figure":
+        """The nearest float of a rational."""
+        found = super().__new__(cls, float(value))
+        found.exact = value
+        return found
+
+    def __reduce__(self) -> tuple[type["Figure"], tuple[Fraction]]:
+        return Figure, (self.exact,)
+
+
+def as_written(value: float | str) -> Fraction:
+    """The rational that a figure in a result stands for: what a float is :func:`meant` as, a text says."""
+    return meant(value) if isinstance(value, float) else Fraction(value)
 
 
 def unrounded(value: Fraction) -> float | str:
-    """A rational as JSON has it: as the float that stands for it, or as a text where none does."""
-    return float(value) if as_written(float(value)) == value else str(value)
+    """A rational as options in JSON have it: a float where its shortest decimal is that, else a text."""
+    return float(value) if Fraction(repr(float(value))) == value == meant(float(value)) else str(value)
+
+
+def figure(value: Fraction) -> float:
+    """A rational as results have it: its nearest float, which :func:`as_written` reads back as it was."""
+    found = float(value)
+    return found if meant(found) == value else Figure(value)
 
 
 def rounded(value: Fraction | None) -> float | None:
     """A figure as results have it; None where there is none."""
-    return None if value is None else float(value)
+    return None if value is None else figure(value)
+
+
+def agrees(said: float | None, value: Fraction | None) -> bool:
+    """Whether a figure of a result is a rational: that one if it is exact, else its nearest float."""
+    if said is None or value is None:
+        return said is None and value is None
+    return said.exact == value if isinstance(said, Figure) else said == float(value)
 
 
 def total(values: Iterable[Fraction]) -> Fraction:

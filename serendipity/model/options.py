@@ -3,10 +3,25 @@
 import math
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 from serendipity.model.errors import UsageError
+from serendipity.model.keywords import (
+    CHOICES,
+    Horizon,
+    HumanModel,
+    Interference,
+    Mode,
+    Preservation,
+    Suffix,
+    Ties,
+)
 from serendipity.model.numbers import as_written, exact, unrounded
+
+if TYPE_CHECKING:
+    from typing import Unpack
+
+    from serendipity.model.keywords import PlanOptions
 
 INFINITE: Final = "inf"
 """Horizon without an end (composite mode only)."""
@@ -16,16 +31,6 @@ MAX_EPOCH: Final = 1_000_000
 
 MAX_TIES: Final = 1_000_000_000
 """The most that ``max_ties`` may be: nobody waits for so many plans."""
-
-CHOICES: Final[dict[str, tuple[str, ...]]] = {
-    "mode": ("serendipity", "individual", "communication", "composite", "assistance"),
-    "suffix": ("replan", "subplan"),
-    "preservation": ("kernel", "state"),
-    "interference": ("paper", "strict"),
-    "human_model": ("omniscient", "observant", "local"),
-    "ties": ("fixed", "robust", "expected", "optimistic"),
-}
-"""The legal values of the options that are names; the first is the default."""
 
 _FLAGS: Final = {"keep_prefix": (True, False), "no_block": (True, False, None)}
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
@@ -37,7 +42,7 @@ _OPTIONAL: Final = ("horizon", "max_window", "max_cost", *_LIMITS)
 _WORDS: Final = {"horizon": INFINITE, "max_cost": "human"}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Options:
     """Options in force for one answer; see ``docs/semantics.md`` for each.
 
@@ -67,23 +72,27 @@ class Options:
         UsageError: naming the option, what was expected and what was given.
     """
 
-    mode: str = "serendipity"
+    mode: Mode = "serendipity"
     discount: Fraction = field(default=Fraction(0))
-    horizon: int | str | None = None
+    horizon: Horizon | None = None
     window_weight: Fraction = field(default=Fraction(1000))
     max_window: int | None = None
-    suffix: str = "replan"
-    preservation: str = "kernel"
-    interference: str = "paper"
-    max_cost: Fraction | str | None = None
+    suffix: Suffix = "replan"
+    preservation: Preservation = "kernel"
+    interference: Interference = "paper"
+    max_cost: Fraction | Literal["human"] | None = None
     communication_weight: Fraction = field(default=Fraction(0))
     keep_prefix: bool = False
-    human_model: str = "omniscient"
-    ties: str = "fixed"
+    human_model: HumanModel = "omniscient"
+    ties: Ties = "fixed"
     max_ties: int = 1000
     no_block: bool | None = None
     time_limit: float | None = None
     memory_limit: float | None = None
+
+    if TYPE_CHECKING:  # they are made of more than they hold
+
+        def __init__(self, **options: Unpack[PlanOptions]) -> None: ...
 
     def __post_init__(self) -> None:
         for name, legal in CHOICES.items():
@@ -131,6 +140,12 @@ class Options:
         """Whether answers have windows (serendipity, or communication that keeps the prefix)."""
         return self.mode == "serendipity" or self.keep_prefix
 
+    def __repr__(self) -> str:
+        """The mode, and what is not the default."""
+        given = {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
+        shown = [f"{f.name}={given[f.name]!r}" for f in fields(self) if getattr(self, f.name) != f.default]
+        return f"Options({', '.join(shown)})"
+
     def to_dict(self) -> dict[str, Any]:
         """JSON form: every option in force; numbers as floats, or as exact texts where no float is exact."""
         return {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
@@ -157,9 +172,10 @@ class Options:
             raise UsageError(f"options: the option '{missing}' is missing")
         return options
 
-    def but(self, **changes: Any) -> "Options":
+    def but(self, **changes: "Unpack[PlanOptions]") -> "Options":
         """These options with some changed."""
-        return replace(self, **changes)
+        given: dict[str, Any] = {**changes}
+        return replace(self, **given)
 
 
 def _plain(value: object) -> object:
@@ -202,7 +218,7 @@ def _whole(value: object, name: str, *, least: int, most: int | None = None) -> 
     return number
 
 
-def _horizon(value: object) -> int | str | None:
+def _horizon(value: object) -> Horizon | None:
     if value is None or value == INFINITE:
         return value
     if isinstance(value, float) and math.isinf(value) and value > 0:

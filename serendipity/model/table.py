@@ -18,7 +18,7 @@ _PANDAS: Final = {str: "string", int: "Int64", float: "Float64", bool: "boolean"
 """Types of columns in which a cell may be empty."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Table:
     """Rows of plain values.
 
@@ -29,6 +29,9 @@ class Table:
 
     columns: Mapping[str, type]
     rows: tuple[tuple[Cell, ...], ...]
+
+    def __repr__(self) -> str:
+        return f"Table({len(self.rows)} rows, {len(self.columns)} columns)"
 
     def typed(self) -> dict[str, list[Cell]]:
         """The cells of each column, in its type also where a whole number stands for a float."""

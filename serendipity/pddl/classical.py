@@ -97,9 +97,9 @@ def _terms(value: Expression) -> Iterator[str]:
     match value:
         case FunctionValue(key):
             yield from key[1:]
-        case Operation(_, left, right):
-            yield from _terms(left)
-            yield from _terms(right)
+        case Operation(_, values):
+            for part in values:
+                yield from _terms(part)
 
 
 def _domain(unit: Unit, priced: Iterable[_Priced]) -> str:

@@ -11,7 +11,7 @@ from serendipity.pddl.parsing.files import PathArgument, read_unit
 from serendipity.pddl.parsing.lifted import And, Key, Unit
 from serendipity.pddl.parsing.tree import listed, quoted
 from serendipity.pddl.participants import by_arguments, by_first_argument, by_name_parts, by_owner
-from serendipity.pddl.shared import check_initial, check_objects, missing_facts, other_domains
+from serendipity.pddl.shared import check_initial, check_objects, empty_lists, missing_facts, other_domains
 from serendipity.pddl.work import OnProgress, Work, within_limits
 
 Pair = tuple[PathArgument, PathArgument]
@@ -119,7 +119,7 @@ def _united(
         sources=sources,
         goals=units[human_name],
         robot_goals=[unit for unit in everyone if unit.owner != human_name],
-        warnings=[*other_domains(everyone), *missing_facts(everyone, work)],
+        warnings=[*empty_lists(everyone), *other_domains(everyone), *missing_facts(everyone, work)],
     )
     return assemble(blueprint, work)
 
@@ -155,11 +155,13 @@ def read_pddl(
         UsageError: an agent is not an object of the task, or is named twice.
         LimitReachedError: the deadline came first, or there is not enough memory.
     """
-    if not human:
-        raise UsageError("one PDDL task: expected a human among its objects")
 
     def read(work: Work) -> Task:
         unit = read_unit(None, domain, problem, work)
+        if not human:
+            agents = sorted(_can_be_agents(unit))
+            among = f"its agents: {listed(agents)}" if agents else "its objects"
+            raise UsageError(f"one PDDL task: expected a human among {among}")
         by_name = bool(robots) and (list(robots) != [ALL] or ALL in unit.problem.objects)
         named = robots if by_name else _other_agents(unit, canonical_name(human))
         names = _unique_names([human, *named])
@@ -195,7 +197,7 @@ def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task
         sources=sources,
         goals=unit,
         left_out=_Outsiders(unit, names).reason,
-        warnings=[*other_domains([unit]), *_outsiders(unit, names)],
+        warnings=[*empty_lists([unit]), *other_domains([unit]), *_outsiders(unit, names)],
     )
     return assemble(blueprint, work)
 

@@ -49,6 +49,17 @@ def check_initial(units: Sequence[Unit]) -> None:
                 raise unit.problem_error(message, line)
 
 
+def empty_lists(units: Iterable[Unit]) -> list[str]:
+    """Warnings for types behind no object, as generators write where there is none of a type."""
+    places = {
+        f"{file}:{line}": None
+        for unit in units
+        for file, read in ((unit.domain_file, unit.domain), (unit.problem_file, unit.problem))
+        for line in read.empty_lists
+    }
+    return [f"{place}: no object before '- TYPE': read as an empty list" for place in places]
+
+
 def other_domains(units: Iterable[Unit]) -> list[str]:
     """Warnings for problems that say they belong to another domain than they came with."""
     return [

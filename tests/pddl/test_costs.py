@@ -53,6 +53,20 @@ def test_expressions(tmp_path: Path, expression: str, value: Fraction) -> None:
     assert costs(tmp_path, effect, init="(q) (= (far) 2.5)", functions="(far)") == {value}
 
 
+@pytest.mark.parametrize("value", ["2", "0.5", "-10", "1"])
+def test_products_may_be_long_but_not_costs(tmp_path: Path, value: str) -> None:
+    def product(of: str) -> set[Fraction]:
+        effect = f"(p) (increase (total-cost) (* {' '.join([of] * 1001)}))"
+        return costs(tmp_path, effect, init=f"(q) (= (c) {value})", functions="(c)")
+
+    for of in ("(c)", value):
+        if value == "1":
+            assert product(of) == {1}
+        else:
+            with pytest.raises(InputError, match=r"action 'go.*: expected a cost of at most 200 digits"):
+                product(of)
+
+
 def test_several_increases_add_up(tmp_path: Path) -> None:
     assert costs(tmp_path, "(p) (increase (total-cost) 1) (increase (total-cost) 0.5)") == {Fraction(3, 2)}
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, Task
-from serendipity.pddl.parsing.types import Types
+from serendipity.pddl.parsing.types import MAX_LEVELS, Types
 from tests.pddl.texts import action, domain, names, one, problem
 
 TYPES = "agent - object car truck - vehicle vehicle crate - thing thing"
@@ -70,3 +70,19 @@ def test_types_may_be_above_each_other_in_several_ways() -> None:
 def test_circles(tmp_path: Path, types: str) -> None:
     with pytest.raises(InputError, match=r"domain.pddl:2: type '\w' is (its own supertype|declared twice)"):
         one(tmp_path, domain(types=types), problem())
+
+
+@pytest.mark.parametrize("above_first", [True, False])
+def test_types_may_be_nested_only_so_deeply(tmp_path: Path, above_first: bool) -> None:
+    def chain(levels: int) -> str:
+        pairs = [f"t{i + 1} - t{i}" for i in range(levels)]
+        return "agent t0 - object\n" + "\n".join(pairs if above_first else pairs[::-1])
+
+    move = action("move", "(on ?x)", "(not (on ?x))", "?who - agent ?x - t0")
+    goal = problem("(on c)", objects=f"h r - agent c - t{MAX_LEVELS - 1}")
+    high = domain(move, predicates="(on ?x - t0) (p)", types=chain(MAX_LEVELS - 1))
+    assert moved(one(tmp_path, high, goal)) == "c"
+    for levels in (MAX_LEVELS, 50_000):
+        higher = high.replace(chain(MAX_LEVELS - 1), chain(levels))
+        with pytest.raises(InputError, match=r"domain.pddl:\d+: types are nested too deeply: at most 128"):
+            one(tmp_path, higher, goal)

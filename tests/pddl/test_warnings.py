@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from serendipity import InputError
 from tests.pddl.texts import action, domain, one, pair, problem, two
 
 GO = domain(action("go", "(q)", "(p) (a ?o)", "?who - agent ?o - thing"))
@@ -18,6 +19,18 @@ CROWD = "h r r2 r3 - agent o1 o2 - thing"
 def test_no_goal(tmp_path: Path, goal: str, line: str) -> None:
     task = one(tmp_path, GO, problem("(q)", goal))
     assert task.warnings == (f"{tmp_path / 'problem.pddl'}{line}: there is no goal: 'h' has nothing to do",)
+
+
+def test_a_type_behind_no_object_is_an_empty_list(tmp_path: Path) -> None:
+    text = problem("(q)", objects="h r - agent  - thing\n(:private h  - thing o1 - thing)  - agent")
+    task = one(tmp_path, GO, text)
+    places = [f"{tmp_path / 'problem.pddl'}:{line}" for line in (3, 4)]
+    assert task.warnings == tuple(
+        f"{place}: no object before '- TYPE': read as an empty list" for place in places
+    )
+    assert task.agents == ("h", "r")
+    with pytest.raises(InputError, match=r"domain.pddl.*expected a variable, as \?x, got '-'"):
+        one(tmp_path, GO.replace("?who - agent", "?who - agent - thing"), text)
 
 
 def test_only_the_human_needs_a_goal(tmp_path: Path) -> None:

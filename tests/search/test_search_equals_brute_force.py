@@ -1,16 +1,22 @@
 """The search answers what brute force answers, on random small tasks, in every mode and option."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
+from typing import Final
 
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
+import search.improvements
 import serendipity
+from search.context import SearchContext
 from serendipity import Result, Task, UsageError
+from serendipity.model.numbers import as_written
 from serendipity.testing.oracle import Optimum, best
-from serendipity.testing.strategies import Call, calls, family_tasks, tasks
+from serendipity.testing.strategies import Call, calls, family_tasks, oddly_priced_tasks, tasks
 
 
 def _answer(call: Call) -> Result | str:
@@ -31,39 +37,90 @@ def _expected(call: Call) -> Optimum | str:
         return str(error).split(":")[0]
 
 
+def _assert_answered(call: Call) -> None:
+    result, optimum = _answer(call), _expected(call)
+    if isinstance(result, str) or isinstance(optimum, str):
+        assert result == optimum
+    else:
+        _assert_equal(result, optimum, call)
+
+
 def _assert_equal(result: Result, optimum: Optimum, call: Call) -> None:
     assert result.status == optimum.status
-    assert _exact(result.cost) == _rounded(optimum.cost)
+    assert _exact(result.cost) == optimum.cost
     assert result.opportunity == optimum.opportunity or call.options.ties == "expected"
     if call.options.ties == "expected" or optimum.cost is None:
         return
-    assert _exact(result.objective) == _rounded(optimum.objective)
+    assert _exact(result.objective) == optimum.objective
     assert result.window == optimum.window
-    assert _exact(result.saving) == _rounded(optimum.saving)
+    assert _exact(result.saving) == optimum.saving
     if optimum.saving_alone is not None:
-        assert _exact(result.saving_alone) == _rounded(optimum.saving_alone)
+        assert _exact(result.saving_alone) == optimum.saving_alone
     assert result.plan is not None
     assert len(result.plan) == optimum.actions
     assert result.lower_bound == result.objective
 
 
 def _exact(value: float | None) -> Fraction | None:
-    return None if value is None else Fraction(str(value))
+    return None if value is None else as_written(value)
 
 
-def _rounded(value: Fraction | None) -> Fraction | None:
-    return None if value is None else Fraction(str(float(value)))
-
-
-@pytest.mark.parametrize("of", [tasks, family_tasks])
+@pytest.mark.parametrize("of", [tasks, family_tasks, oddly_priced_tasks])
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite", "individual"])
 def test_search_equals_brute_force(mode: str, of: Callable[[], SearchStrategy[Task]]) -> None:
     @given(calls(modes=(mode,), of=of()))
     def law(call: Call) -> None:
-        result, optimum = _answer(call), _expected(call)
-        if isinstance(result, str) or isinstance(optimum, str):
-            assert result == optimum
-        else:
-            _assert_equal(result, optimum, call)
+        _assert_answered(call)
+
+    law()
+
+
+_MODES: Final = ("serendipity", "communication", "composite", "individual")
+
+_EXTREME: Final = tuple(
+    map(
+        Fraction,
+        (
+            "0",
+            "1",
+            "1.000000000001",
+            "0.000001",
+            "549756",
+            "549755813888",
+            "1e15",
+            "1/999999999989",
+            "4/7",
+        ),
+    )
+)
+"""Costs that no word holds in a common unit, some of them equal but for their last digit."""
+
+
+@st.composite
+def extreme(draw: st.DrawFn) -> Call:
+    call = draw(calls(modes=_MODES))
+    prices = {cost: draw(st.sampled_from(_EXTREME)) for cost in sorted({a.cost for a in call.task.actions})}
+    actions = tuple(replace(action, cost=prices[action.cost]) for action in call.task.actions)
+    options = call.options.but(
+        discount=draw(st.sampled_from((0, Fraction(2, 3), "0.666666666667", 1))),
+        window_weight=draw(st.sampled_from((0, 1000, 10**9, Fraction(1, 10**9 + 7)))),
+        max_cost=None if call.options.max_cost != "human" else "human",
+    )
+    return replace(call, task=replace(call.task, actions=actions), options=options)
+
+
+@pytest.mark.parametrize(("kernel", "as_if_large"), [("on", False), ("on", True), ("off", False)])
+def test_with_costs_however_far_apart(
+    kernel: str, as_if_large: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With the kernel and without it, and in tables of words, which are for large tasks otherwise."""
+    monkeypatch.setenv("SERENDIPITY_KERNEL", kernel)
+    if as_if_large:
+        monkeypatch.setattr(SearchContext, "distances_say_little", True)
+        monkeypatch.setattr(search.improvements, "FIRST", 0)
+
+    @given(extreme())
+    def law(call: Call) -> None:
+        _assert_answered(call)
 
     law()

@@ -1,17 +1,21 @@
 """The exhaustive method answers what brute force answers, and so do turns of it and programs."""
 
+from collections.abc import Callable
+
 import pytest
 from hypothesis import given
+from hypothesis.strategies import SearchStrategy
 
-from serendipity.model import Options
+from serendipity.model import Options, Task
 from serendipity.testing.cases import WORKED, Worked
-from serendipity.testing.strategies import Call, calls
+from serendipity.testing.strategies import Call, calls, oddly_priced_tasks, tasks
 from tests.verify.exact_answers import assert_exact, exact_and_solved
 from verify.base.execution import conflicting
 from verify.calls.solve import solve
-from verify.exhaustive import team
 from verify.exhaustive.team import excluding
+from verify.limits import limited
 
+_TOO_LARGE = "the task is too large for the exhaustive method"
 _NOT_ITS_OWN = "the exhaustive method replans suffixes, and preserves kernels"
 
 
@@ -22,14 +26,15 @@ def _check(call: Call, method: str) -> None:
     optimum, result = both
     if result.status == "unknown":
         assert method == "exhaustive"
-        assert result.reason in (_NOT_ITS_OWN, "a limit on cost, and communication that costs")
+        assert result.reason in (_NOT_ITS_OWN, _TOO_LARGE, "a limit on cost, and communication that costs")
         return
     assert_exact(result, optimum, call.options.ties)
 
 
+@pytest.mark.parametrize("of", [tasks, oddly_priced_tasks])
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite"])
-def test_exhaustive_search_equals_brute_force(mode: str) -> None:
-    @given(calls(modes=(mode,)))
+def test_exhaustive_search_equals_brute_force(mode: str, of: Callable[[], SearchStrategy[Task]]) -> None:
+    @given(calls(modes=(mode,), of=of()))
     def law(call: Call) -> None:
         _check(call, "exhaustive")
 
@@ -54,10 +59,10 @@ def test_what_excludes_each_other_is_what_an_epoch_says(call: Call) -> None:
 
 @pytest.mark.parametrize("at_once", [2, 8_192])
 @pytest.mark.parametrize("worked", WORKED, ids=str)
-def test_worked_cases(worked: Worked, at_once: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(team, "_STATES_AT_ONCE", at_once)
+def test_worked_cases(worked: Worked, at_once: int) -> None:
     options = Options(**worked.options)  # type: ignore[arg-type]
-    result = solve(worked.task(), options, human_plan=worked.human_plan, method="exhaustive")
+    with limited(states_at_once=at_once):
+        result = solve(worked.task(), options, human_plan=worked.human_plan, method="exhaustive")
     if result.status == "unknown":
         assert result.reason == _NOT_ITS_OWN
         return

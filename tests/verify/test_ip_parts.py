@@ -19,7 +19,7 @@ from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import FREE, WINDOW, Subproblem, prices
 from verify.calls.solve import solve
 from verify.exhaustive.circles import circles
-from verify.programs.agents import product
+from verify.limits import limited
 from verify.programs.agents.product import automata
 from verify.programs.automata.encoding import AutomataEncoding
 from verify.programs.paper import PaperEncoding
@@ -70,31 +70,29 @@ def test_automata_follow_every_execution(task: Task, seed: int) -> None:
             assert machine.states[nodes[k]] == state & machine.facts
 
 
-def test_an_automaton_that_would_be_too_large_leaves_facts_out(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_automaton_that_would_be_too_large_leaves_facts_out() -> None:
     task = case_4()
     part = _part(task)
     assert part is not None
     groups = [frozenset(variable.facts) for variable in task.variables]
     whole = automata(task, part, groups, Deadline())[task.human]
-    monkeypatch.setattr(product, "MOST_STATES", 10)
-    monkeypatch.setattr(product, "STATES_A_VALUE", 0)
-    small = automata(task, part, groups, Deadline())[task.human]
+    with limited(automaton_states=10, states_a_value=0):
+        small = automata(task, part, groups, Deadline())[task.human]
     assert len(small.states) <= 10 < len(whole.states)
     assert small.facts < whole.facts
 
 
 @pytest.mark.parametrize("most", [1, 5, 50])
-def test_smaller_automata_give_the_same_answers(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_smaller_automata_give_the_same_answers(most: int) -> None:
     expected = [
         solve(case_4(), Options(mode=mode, discount=Fraction(9, 10))).cost
         for mode in ("serendipity", "communication")
     ]
-    monkeypatch.setattr(product, "MOST_STATES", most)
-    monkeypatch.setattr(product, "STATES_A_VALUE", 0)
-    again = [
-        solve(case_4(), Options(mode=mode, discount=Fraction(9, 10))).cost
-        for mode in ("serendipity", "communication")
-    ]
+    with limited(automaton_states=most, states_a_value=0):
+        again = [
+            solve(case_4(), Options(mode=mode, discount=Fraction(9, 10))).cost
+            for mode in ("serendipity", "communication")
+        ]
     assert again == expected == [6.2, 6.2]
 
 

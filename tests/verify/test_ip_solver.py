@@ -9,8 +9,9 @@ import pytest
 
 from serendipity.model import Deadline, UsageError
 from serendipity.model.resources.memory import resident
+from verify.limits import limits
 from verify.solvers import cbc, highs, worker
-from verify.solvers.mip import LARGEST_COEFFICIENT, SOLVERS, Model, optimise, solver_version
+from verify.solvers.mip import SOLVERS, Model, optimise, solver_version
 
 solvers = pytest.mark.parametrize("solver", SOLVERS)
 
@@ -100,7 +101,7 @@ def test_columns_that_no_row_mentions_get_a_value(solver: str) -> None:
 
 def test_numbers_that_tolerances_blur_are_no_proof() -> None:
     model = Model()
-    model.objective[model.binary()] = LARGEST_COEFFICIENT + 1
+    model.objective[model.binary()] = limits().coefficient + 1
     outcome = optimise(model)
     assert outcome.status == "undecided"
     assert "digits" in outcome.reason

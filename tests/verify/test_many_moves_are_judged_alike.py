@@ -12,18 +12,18 @@ from serendipity.testing.strategies import Call, calls
 from tests.verify.test_pruning_keeps_plans import _check
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import WINDOW, Subproblem, prices
+from verify.limits import limited
 from verify.programs.agents.product import Automaton, automata, private_facts
 from verify.programs.automata import encoding
 from verify.programs.automata.windows import keep_within_windows, longest_window
-from verify.programs.promising import Team, keep_promising, moves
+from verify.programs.promising import Team, keep_promising
 
 
 def _both(team: Team) -> bool:
     """The bounds, held to what arrays say."""
     other = copy(team)
     other.moves = [list(each) for each in team.moves]
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(moves, "MANY_MOVES", 0)
+    with limited(many_moves=0):
         at_once = keep_promising(other)
     one_by_one = keep_promising(team)
     assert at_once == one_by_one
@@ -39,8 +39,7 @@ def _both(team: Team) -> bool:
 @settings(max_examples=20)
 @given(calls())
 def test_arrays_leave_the_same_moves(call: Call) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(encoding, "MANY_ACTIONS", 0)
+    with limited(many_actions=0), pytest.MonkeyPatch.context() as patch:
         patch.setattr(encoding, "keep_promising", _both)
         _check(call)
 
@@ -48,9 +47,7 @@ def test_arrays_leave_the_same_moves(call: Call) -> None:
 @settings(max_examples=15)
 @given(calls(modes=("serendipity",)))
 def test_arrays_and_turns_of_small_automata_drop_no_plan(call: Call) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(encoding, "MANY_ACTIONS", 0)
-        patch.setattr(moves, "MANY_MOVES", 0)
+    with limited(many_actions=0, many_moves=0):
         _check(call)
 
 

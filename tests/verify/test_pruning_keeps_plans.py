@@ -12,8 +12,7 @@ from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
-from verify.programs.agents import product
-from verify.programs.automata import encoding
+from verify.limits import limited
 
 
 def _figures(call: Call) -> tuple[object, ...] | None:
@@ -34,17 +33,14 @@ def _check(call: Call) -> None:
 @settings(max_examples=30)
 @given(calls())
 def test_automata_of_few_facts_first(call: Call) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(encoding, "MANY_ACTIONS", 0)
+    with limited(many_actions=0):
         _check(call)
 
 
 @settings(max_examples=30)
 @given(calls())
 def test_automata_that_leave_most_facts_out(call: Call) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(product, "MOST_STATES", 4)
-        patch.setattr(product, "STATES_A_VALUE", 0)
+    with limited(automaton_states=4, states_a_value=0):
         _check(call)
 
 

@@ -7,18 +7,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import serendipity
 from serendipity.model import Options, Task
 from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.testing.builders import task as build
 from serendipity.testing.countdown import Countdown
+from serendipity.testing.generator import random_call
 from serendipity.testing.oracle import Alone as OracleAlone
 from serendipity.testing.oracle.epochs import after
 from serendipity.testing.strategies import tasks
 from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
-from verify.base import individual as alone
 from verify.base.individual import IndividualOptimum
 from verify.certificate.certify import certify
+from verify.limits import limited
 from verify.rules import CLAIMS, RULES, check
 
 
@@ -50,7 +52,10 @@ def test_every_rule_refutes_something() -> None:
 def test_expected_cost_has_to_be_the_mean() -> None:
     built = idle()
     plan = built.result.human_plan or ()
-    answers = (TiedAnswer(plan, cost=6.2, opportunity=True), TiedAnswer(plan, cost=8.0, opportunity=False))
+    answers = (
+        TiedAnswer(plan, cost=6.2, opportunity=True),
+        TiedAnswer(plan[::-1], cost=8.0, opportunity=False),
+    )
     mean = replace(
         built.result,
         options=Options(discount="0.9", ties="expected"),  # type: ignore[arg-type]
@@ -66,6 +71,7 @@ def test_expected_cost_has_to_be_the_mean() -> None:
         (replace(mean, cost=7.0), "ties-mean"),
         (replace(mean, opportunity=False), "ties-mean"),
         (replace(mean, ties=None), "ties"),
+        (replace(mean, ties=(answers[0], replace(answers[1], human_plan=plan))), "ties"),
     ):
         report = check(built.task, doctored)
         assert report.first is not None
@@ -103,8 +109,7 @@ def test_his_optimal_cost_alone_equals_the_oracle(many: int, task: Task, data: s
         ready = [action for action in task.actions if action.applicable(state)]
         if ready:
             state = after(state, [data.draw(st.sampled_from(ready))])
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(alone, "_MANY", many)
+    with limited(many_own_states=many):
         assert IndividualOptimum(task).optimum(state) == OracleAlone(task).worth(state)
 
 
@@ -117,13 +122,22 @@ def test_a_goal_out_of_reach_is_told_without_listing_states() -> None:
     assert IndividualOptimum(built, deadline).optimum(built.init) is None
 
 
-def test_what_is_too_hard_for_a_rule_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_too_hard_for_a_rule_is_not_proved() -> None:
     """Whether the suffix is the human's optimal plan is a question of its own: no program answers it."""
     built = helped()
-    monkeypatch.setattr(alone, "_MOST_EXPANSIONS", 0)
-    report = check(built.task, built.result)
+    with limited(own_states=0):
+        report = check(built.task, built.result)
+        verdicts = {claim.claim: claim.verdict for claim in certify(built.task, built.result).claims}
     assert (report.ok, report.stopped) == (True, None)
     assert report.undecided == {"window": "the human's own problem is too large"}
-    verdicts = {claim.claim: claim.verdict for claim in certify(built.task, built.result).claims}
     assert verdicts["window"] == "undecided"
     assert verdicts["replay"] == "proved"
+
+
+def test_an_end_of_pi_h_may_be_done_in_other_variants(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two actions of one name; after the window it is the other one that the human can do."""
+    monkeypatch.setattr("serendipity.testing.generator.calls._ODD", 1.0)
+    call = random_call(1011733)
+    answer = serendipity.plan(call.task, **call.options)  # type: ignore[arg-type]
+    assert answer.options.preservation == "state"
+    assert serendipity.verify(call.task, answer).verdict == "proved"

@@ -21,6 +21,7 @@ from verify.calls.call import Call
 from verify.certificate.certify import certify
 from verify.certificate.each_plan import kin
 from verify.exhaustive.beside_plans import HelpBesidePlans, answers_all
+from verify.exhaustive.epoch_by_epoch import OtherMethodError
 
 ANY = 10**9
 
@@ -65,7 +66,10 @@ def test_one_search_finds_what_each_plan_allows(seeds: range, bounded: bool) -> 
         if not calls:
             continue
         graph = PlanGraph(calls[0].task, calls[0].plans, ANY)
-        found = HelpBesidePlans(calls[0].question, graph, calls[0].plans, bounded=bounded)
+        try:
+            found = HelpBesidePlans(calls[0].question, graph, calls[0].plans, bounded=bounded)
+        except OtherMethodError:  # numbers that are too large for it
+            continue
         scores = [_score(call) for call in calls]
         beside = [found.beside(call.human_plan or ()) for call in calls]
         assert (beside, found.scores) == (scores, Counter(scores)), seed

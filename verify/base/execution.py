@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 
 from serendipity.model import Deadline, GroundAction, PlanStep, Step, Task
+from serendipity.model.numbers import figure
 
 State = frozenset[int]
 """The facts that are true."""
@@ -30,7 +31,7 @@ def plan_step(task: Task, step: Step, discount: Fraction) -> PlanStep:
     """A step as results write it: with names, and with what it costs the team."""
     action = task.actions[step.action]
     agents = tuple(task.agents[i] for i in action.participants)
-    return PlanStep(step.epoch, agents, action.name, float(price(task, action, discount)))
+    return PlanStep(step.epoch, agents, action.name, figure(price(task, action, discount)))
 
 
 # -- what happens in an epoch

@@ -7,7 +7,7 @@ at once, with patterns of the human's own problem as bounds (``verify.packed``).
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from serendipity.model import Deadline, HumanPlan, Task
 from verify.base.execution import states_of_pi_h
@@ -16,14 +16,10 @@ from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
 from verify.base.shortest_paths import PathSearch
 from verify.base.undecided import TooManyStatesError, during
+from verify.limits import limits
 
 if TYPE_CHECKING:
     from verify.packed.problem import Problem
-
-_MOST_EXPANSIONS: Final = 200_000
-
-_MANY: Final = 1_000
-"""Expansions after which it is worth asking whether the goal can be reached at all, and packing states."""
 
 State = frozenset[int]
 
@@ -132,19 +128,20 @@ class IndividualOptimum:
             packed = self._packed_least(state, below)
             if packed is not None:
                 return packed if packed >= 0 else None
+        many, most = limits().many_own_states, limits().own_states
         own, goal = self.own, self._task.goal
         wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
         search = PathSearch(start, self._successors, self._projection.bound, self.deadline, below)
         for expansions, (here, _) in enumerate(search):
             if here & wanted == wanted and not here & unwanted:
                 return search.distance[here]
-            if expansions == _MANY:
+            if expansions == many:
                 if not own.may_reach(start, goal, self.deadline):
                     return None
                 packed = self._packed_least(state, below)
                 if packed is not None:
                     return packed if packed >= 0 else None
-            if expansions >= _MOST_EXPANSIONS:
+            if expansions >= most:
                 raise TooManyStatesError
         return None
 
@@ -159,6 +156,9 @@ class IndividualOptimum:
         self._long = True
         try:
             weight = problem.least(start, below)
+        except cheapest_path.SumTooLargeError:
+            self._long = False
+            return None
         except cheapest_path.TooManyStatesError:
             raise TooManyStatesError from None
         return -1 if weight is None else weight

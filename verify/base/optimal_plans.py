@@ -19,16 +19,19 @@ class OptimalPlans:
 
     Every method raises :class:`verify.base.undecided.TooManyStatesError` where that problem is too large,
     and :class:`serendipity.model.LimitReachedError` where the deadline of ``alone`` comes.
+
+    Attributes:
+        alone: what is known of the human alone.
     """
 
     def __init__(self, task: Task, alone: IndividualOptimum | None = None) -> None:
         self._task = task
-        self._alone = IndividualOptimum(task) if alone is None else alone
-        self.deadline = self._alone.deadline
+        self.alone = IndividualOptimum(task) if alone is None else alone
+        self.deadline = self.alone.deadline
 
     def worth(self, state: State) -> Worth | None:
         """Least cost, then fewest actions, or None if the goal is out of reach."""
-        return self._alone.optimum(state)
+        return self.alone.optimum(state)
 
     def canonical(self) -> HumanPlan | None:
         """``pi_H`` as semantics 1 predicts it; None if the human can't reach their goal."""
@@ -53,7 +56,7 @@ class OptimalPlans:
             action = self._task.actions[i]
             if applicable(action, state) and action.name != last and action.cost <= cost:
                 successor = after(state, action)
-                if self._alone.within(successor, cost - action.cost, length - 1):
+                if self.alone.within(successor, cost - action.cost, length - 1):
                     last = action.name
                     yield i, successor
 

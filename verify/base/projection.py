@@ -7,14 +7,12 @@ makes actions applicable more often, so the bound is admissible.
 
 from collections.abc import Iterable
 from itertools import chain
-from typing import Final
 
 from serendipity.model import Deadline, Task
 from verify.base.fact_bits import each_bit
 from verify.base.operators import OwnActions
 from verify.base.shortest_paths import dijkstra
-
-_MOST_STATES: Final = 20_000
+from verify.limits import limits
 
 _Move = tuple[int, int, int, int]
 """Precondition, forbidden facts, adds, deletes, as bits (:class:`.FactBits`) of the human's own facts."""
@@ -30,7 +28,7 @@ class ProjectedCosts:
     """
 
     def __init__(self, task: Task, own: OwnActions, deadline: Deadline) -> None:
-        self._deadline = deadline
+        self._deadline, self._most = deadline, limits().projected_states
         self._kept = own.bits.of(_private_facts(task, own, deadline))
         self._wanted = own.bits.of(task.goal.positive) & self._kept
         self._unwanted = own.bits.of(task.goal.negative) & self._kept
@@ -43,9 +41,9 @@ class ProjectedCosts:
     def bound(self, state: int) -> int | None:
         """Least weight of a plan from ``state`` in the projection; None: there is no plan at all."""
         projected = state & self._kept
-        if projected not in self._seen and len(self._seen) <= _MOST_STATES:
+        if projected not in self._seen and len(self._seen) <= self._most:
             self._explore(projected)
-        if len(self._seen) > _MOST_STATES:
+        if len(self._seen) > self._most:
             return 0
         return self._distance.get(projected)
 
@@ -53,7 +51,7 @@ class ProjectedCosts:
         """Everything reachable from ``start``, then one Dijkstra backward over what is new."""
         new, stack = {start}, [start]
         edges: dict[int, list[tuple[int, int]]] = {}
-        while stack and len(self._seen) + len(new) <= _MOST_STATES:
+        while stack and len(self._seen) + len(new) <= self._most:
             self._deadline.tick()
             state = stack.pop()
             if self._is_goal(state):
@@ -89,7 +87,7 @@ def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset
     for variable in sorted(task.variables, key=lambda v: -len(v.facts)):
         facts = own.facts.intersection(variable.facts)
         values = len(facts) + 1
-        if facts and shared.isdisjoint(variable.facts) and size * values <= _MOST_STATES:
+        if facts and shared.isdisjoint(variable.facts) and size * values <= limits().projected_states:
             kept |= facts
             size *= values
     return frozenset(kept)

@@ -8,6 +8,7 @@ common multiple of their denominators, so that cheaper means cheaper by at least
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from math import lcm
 from typing import TypeVar
 
@@ -26,7 +27,7 @@ class Prices:
     """Integer costs of one question, in units of ``1 / scale``.
 
     Attributes:
-        scale: units per unit of the domain's cost.
+        scale: units per unit of the domain's cost; 0 where only the order of sums is kept.
         team: cost of each action to the team, discounted (semantics 1).
         talk: what each action adds to the objective for communication (Def. 3.2).
         epoch: ``K``: what an epoch of the window adds to the objective.
@@ -95,6 +96,18 @@ class Subproblem:
     def below(self, most: int | None, most_cost: int | None = None) -> "Subproblem":
         """The same with tighter limits on objective and cost (eq. 11)."""
         return replace(self, most=least(self.most, most), most_cost=least(self.most_cost, most_cost))
+
+    @cached_property
+    def an_epoch(self) -> int:
+        """An epoch adds no more than this to the objective."""
+        dearest = max(self.prices.team, default=0) + max(self.prices.talk, default=0)
+        return len(self.task.agents) * dearest + self.prices.epoch
+
+    @property
+    def largest(self) -> int:
+        """No plan that is asked for has a larger objective: the limit, or what fits into the horizon."""
+        whole = self.horizon * self.an_epoch
+        return whole if self.most is None else min(self.most, whole)
 
     def allowed(self) -> list[int]:
         """Ids of the actions that may occur at all."""

@@ -242,12 +242,20 @@ def together_pay(value: str) -> str:
 # -- all optimal plans of the human at once
 
 NOT_OPTIMAL_TIE: Final = "statistics.ties lists a plan that is not an optimal one of the human"
+TIE_WITHOUT_ITS_PLAN: Final = "statistics.ties lists an answer that is not the best one, without its plan"
+TIES_MISSING: Final = "a mean that was not proved lists an answer for each optimal plan of the human"
+ONE_OF_SEVERAL: Final = "the answer beside one of several optimal plans is not the mean over all of them"
 TIE_WITHOUT_PLAN: Final = "with some optimal pi_H there is no plan"
 
 
 def tie_costs(human_plan: tuple[str, ...], cost: float | None) -> str:
     """One of the answers listed is wrong."""
     return f"statistics.ties: with pi_H = {', '.join(human_plan)} the cost is {cost}"
+
+
+def tie_breaks(human_plan: tuple[str, ...], why: object) -> str:
+    """An answer that is listed is none."""
+    return f"statistics.ties: with pi_H = {', '.join(human_plan)}: {why}"
 
 
 def over_ties(ties: str, count: int, cost: Fraction) -> str:

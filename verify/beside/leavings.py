@@ -12,12 +12,11 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.beside.rows import Collected, Layer, cheapest
+from verify.limits import limits
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.layout import Words
 from verify.packed.operators import Ints
 
-_MOST: Final = 1_000_000
-_MOST_PAIRS: Final = 30_000_000
 _AT_ONCE: Final = 250_000
 
 
@@ -43,7 +42,7 @@ def differences(
         deadline.check()
         without = found.only(((found.rows & bit) != 0).any(axis=1))
         if len(without.paid):
-            every = Collected(found, _MOST, deadline)
+            every = Collected(found, limits().left_behind, deadline)
             every.add(_layer(without.rows & ~bit, without.paid))
             found = every.layer()
     return found.rows, found.paid
@@ -61,9 +60,9 @@ def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline)
     layer = _layer(found[cheap], cost[cheap])
     for others, costs in apart[1:]:
         rows, paid = layer.rows, layer.paid
-        if len(paid) * len(costs) > _MOST_PAIRS:
+        if len(paid) * len(costs) > limits().left_pairs:
             raise TooManyStatesError
-        joined = Collected(_layer(rows[:0], paid[:0]), _MOST, deadline)
+        joined = Collected(_layer(rows[:0], paid[:0]), limits().left_behind, deadline)
         step = max(1, _AT_ONCE // max(1, len(costs)))
         for first in range(0, len(paid), step):
             deadline.check()

@@ -24,6 +24,7 @@ from verify.beside.leavings import differences, together
 from verify.beside.timeline import Timeline, parts
 from verify.exhaustive.circles import circles
 from verify.exhaustive.team_problem import as_operator
+from verify.limits import limits
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.layout import Layout, Words
 from verify.packed.operators import Ints
@@ -66,7 +67,7 @@ def no_short_window(question: Subproblem) -> tuple[Minimum, int]:
         doing = limit.doing if isinstance(limit, LimitReachedError) else None
         reason = str(LimitReachedError(limit_reason(limit), doing))
     except (TooManyStatesError, TooLargeError):
-        reason = "robots one by one have too many states"
+        reason = "robots one by one have too many states, or costs too large to be added up in machine words"
     return Minimum("undecided", reason=reason) if reason else Minimum("none"), search.states
 
 
@@ -110,6 +111,8 @@ class _Search:
         relevant = relevant_part(question)
         if relevant is None:
             return ""
+        if question.horizon * question.an_epoch > limits().weight:
+            raise TooLargeError
         space = self._space(relevant)
         if self._in_the_way(relevant, space):
             return "robots may disable what the human does in the same epoch"

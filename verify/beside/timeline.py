@@ -18,11 +18,9 @@ from verify.base.execution import conflicting
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
 from verify.beside.rows import Bools, Collected, Layer, cheapest
+from verify.limits import limits
 from verify.packed.layout import Layout, Words
 from verify.packed.operators import Operator, OperatorTable
-
-MOST_STATES: Final = 400_000
-"""Of a robot after an epoch."""
 
 _AT_ONCE: Final = 4_096
 
@@ -177,7 +175,9 @@ class Timeline:
     def _moved(self, layer: Layer, allowed: Bools | None) -> Layer:
         """The states after the robot's part of an epoch."""
         begin = np.flatnonzero(layer.fresh)
-        found = Collected(layer._replace(fresh=np.zeros(len(layer.paid), bool)), MOST_STATES, self._deadline)
+        found = Collected(
+            layer._replace(fresh=np.zeros(len(layer.paid), bool)), limits().robot_states, self._deadline
+        )
         for first in range(0, len(begin), _AT_ONCE):
             self._deadline.check()
             some = begin[first : first + _AT_ONCE]

@@ -5,6 +5,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
+from serendipity.model.keywords import Horizon
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import EXACT, FREE, WINDOW, Prices, Solution, Subproblem, prices
 from verify.base.undecided import UndecidedError
@@ -33,7 +34,7 @@ class Call:
     effort: Effort = field(default_factory=Effort)
 
     @cached_property
-    def horizon(self) -> int | str:
+    def horizon(self) -> Horizon:
         """``T`` (semantics 2, 3.1, 3.5).
 
         Raises:

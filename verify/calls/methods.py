@@ -7,14 +7,13 @@ from typing import Final
 
 from serendipity.model import Window
 from verify.base.optimal_plans import OptimalPlans
+from verify.base.small_numbers import with_small_numbers
 from verify.base.subproblem import FREE, WINDOW, Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.beside.short_windows import is_short, no_short_window
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
-from verify.exhaustive.team import MOST_ACTIONS
 from verify.exhaustive.uniform_cost import cheapest
-from verify.packed.mutexes import MOST_ACTIONS as MOST_PACKED
-from verify.packed.mutexes import MOST_FACTS
+from verify.limits import limits
 from verify.programs.effort import Attempt, Effort, Minimum
 from verify.programs.minimise import minimise
 
@@ -47,13 +46,30 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
         effort: method, deadline and solver; what is spent is noted there.
         plans: the human's optimal plans.
     """
+    small, order = with_small_numbers(question)
+    if small is question:
+        return _decide(question, effort, plans)
+    asked = len(effort.calls)
+    found = _decide(small, effort, plans)
+    for call in effort.calls[asked:]:
+        if call.objective is not None and call.cost is not None:
+            call.objective, call.cost = order.bound(call.objective), order.bound(call.cost)
+    if found.bound is not None:
+        found = replace(found, bound=order.bound(found.bound))
+    if found.found is None:
+        return found
+    objective, cost = question.measure(found.found.steps, found.found.window)
+    return replace(found, found=replace(found.found, objective=objective, cost=cost))
+
+
+def _decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
     if is_free(question):
-        found = decide(question.but(rule=FREE), effort, plans)
+        found = _decide(question.but(rule=FREE), effort, plans)
         return found if found.found is None else replace(found, found=_throughout(question, found.found))
     if effort.method == "exhaustive" and question.horizon > 0:
         return _exhaustively(question, effort, plans)
     if effort.method != "auto" or effort.encoding != "automata" or not question.horizon:
-        return minimise(question, effort, plans)
+        return _by_programs(question, effort, plans)
     return _relaxed(question, effort, plans) or _in_turns(question, effort, plans)
 
 
@@ -89,14 +105,18 @@ def _throughout(question: Subproblem, found: Solution) -> Solution:
 
 def _searchable(question: Subproblem) -> bool:
     task = question.task
-    small = len(task.facts) <= MOST_FACTS and len(task.actions) <= MOST_ACTIONS
+    small = len(task.facts) <= limits().packed_facts and len(task.actions) <= limits().compared_actions
     return small and answers(question)
 
 
 def _relaxed(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum | None:
     """The answer as far as an easier question tells, after a moment for programs; None: it does not."""
     task = question.task
-    if question.most is None or len(task.facts) > MOST_FACTS or len(task.actions) > MOST_PACKED:
+    if (
+        question.most is None
+        or len(task.facts) > limits().packed_facts
+        or len(task.actions) > limits().packed_actions
+    ):
         return None
     easier = _one_by_one if is_short(question) else _without_epochs if question.rule == FREE else None
     if easier is None:
@@ -105,7 +125,7 @@ def _relaxed(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
         easier is _without_epochs and _bits(question) > _FEW_STATES
     )  # buildings, say: programs are good at them
     moment = effort.deadline.part(_SHARE).within(_length(2 * long))
-    found = minimise(question.but(deadline=moment), replace(effort, deadline=moment), plans)
+    found = _by_programs(question.but(deadline=moment), replace(effort, deadline=moment), plans)
     if found.status == "undecided" and effort.deadline.reached() is None:
         part = effort.deadline.part(_SHARE).within(_EASIER)
         found = easier(question.but(deadline=part), replace(effort, deadline=part))
@@ -135,7 +155,7 @@ def _without_epochs(question: Subproblem, effort: Effort) -> Minimum:
 
 def _in_turns(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
     bounds: list[int] = []
-    asked = [minimise, _exhaustively] if _searchable(question) else [minimise]
+    asked = [_by_programs, _exhaustively] if _searchable(question) else [_by_programs]
     long_first = _bits(question) > _FEW_STATES
     for turn in count():
         seconds = _length(turn + 2 * long_first)
@@ -168,6 +188,12 @@ def _length(turn: int) -> float:
 def _bits(question: Subproblem) -> float:
     """The logarithm of the number of states, as far as the task's variables tell."""
     return sum(log2(max(2, len(variable.facts))) for variable in question.task.variables)
+
+
+def _by_programs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    if effort.method == "auto" and question.horizon and not limits().programs:
+        return Minimum("undecided", reason="programs are left out")
+    return minimise(question, effort, plans)
 
 
 def _exhaustively(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:

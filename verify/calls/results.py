@@ -3,6 +3,8 @@
 from typing import Any
 
 from serendipity.model import PlanStep, Result, Step, Window
+from serendipity.model.keywords import Horizon
+from serendipity.model.numbers import figure
 from verify.base.execution import plan_step, shares
 from verify.base.subproblem import Solution
 from verify.calls.answer import Answer, idle_cost
@@ -56,10 +58,10 @@ def _result(
     return Result(
         status="optimal",
         opportunity=opportunity,
-        cost=float(exact),
+        cost=figure(exact),
         saving=_saving(call, cost, opportunity=opportunity),
-        objective=float(least),
-        lower_bound=float(least),
+        objective=figure(least),
+        lower_bound=figure(least),
         horizon=_horizon(call),
         window=window,
         saving_alone=_saving_alone(call),
@@ -76,7 +78,7 @@ def _header(call: Call) -> dict[str, Any]:
         "human": task.agents[task.human],
         "options": call.options,
         "human_plan": None if plan is None else tuple(task.actions[i].name for i in plan),
-        "human_cost": None if plan is None else float(task.cost_of(plan)),
+        "human_cost": None if plan is None else figure(task.cost_of(plan)),
     }
 
 
@@ -84,7 +86,7 @@ def _infeasible(call: Call, reason: str | None) -> Result:
     return Result(status="infeasible", reason=reason, horizon=_horizon(call), **_header(call))
 
 
-def _horizon(call: Call) -> int | str | None:
+def _horizon(call: Call) -> Horizon | None:
     if call.human_plan is None and call.needs_pi_h:
         return None
     return len(call.human_plan or ()) if call.options.mode == "individual" else call.horizon
@@ -93,7 +95,7 @@ def _horizon(call: Call) -> int | str | None:
 def _saving(call: Call, cost: int, *, opportunity: bool) -> float | None:
     if call.baseline is None:
         return None
-    return float(call.prices.cost(call.baseline - cost)) if opportunity else 0.0
+    return figure(call.prices.cost(call.baseline - cost)) if opportunity else 0.0
 
 
 def _saving_alone(call: Call) -> float | None:
@@ -101,9 +103,9 @@ def _saving_alone(call: Call) -> float | None:
         return None
     idle = idle_cost(call)
     assert idle is not None
-    return float(call.prices.cost(call.baseline - idle))
+    return figure(call.prices.cost(call.baseline - idle))
 
 
 def _agent_costs(call: Call, steps: tuple[Step, ...]) -> dict[str, float]:
     paid = shares(call.task, (step.action for step in steps), call.options.discount)
-    return {agent: float(share) for agent, share in paid.items()}
+    return {agent: figure(share) for agent, share in paid.items()}

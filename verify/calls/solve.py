@@ -7,6 +7,7 @@ from time import perf_counter
 
 from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageError
 from serendipity.model.answers.result_parts import TiedAnswer
+from serendipity.model.numbers import figure
 from serendipity.model.resources.collection import no_collection
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
@@ -101,7 +102,7 @@ def _mean(answers: list[Answer], results: list[Result]) -> Result:
 
     def mean(values: Iterable[Fraction | None]) -> float | None:
         known = [value for value in values if value is not None]
-        return float(sum(known, Fraction(0)) / len(known)) if len(known) == len(answers) else None
+        return figure(sum(known, Fraction(0)) / len(known)) if len(known) == len(answers) else None
 
     if len(results) == 1:
         return results[0]

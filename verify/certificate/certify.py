@@ -18,6 +18,7 @@ from serendipity.model import (
     Task,
     UsageError,
 )
+from serendipity.model.numbers import agrees, as_written
 from serendipity.model.resources.collection import no_collection
 from verify.base import wording
 from verify.base.individual import IndividualOptimum
@@ -222,7 +223,7 @@ class _Certifier:
         except UNDECIDED as error:
             yield from (Claim(name, "undecided", why(error)) for name in wanted)
             return
-        if is_tied(self.result) and self.result.status in ("optimal", "feasible"):
+        if is_tied(self.result) and self.result.status in ("optimal", "feasible", "unknown"):
             yield from self._ties(wanted)
             return
         if self.result.mode == "individual":
@@ -274,16 +275,17 @@ class _Certifier:
         if cost is None:
             right = result.cost is None
             return "proved" if right else "refuted", wording.NOT_ALONE, None
-        least = float(cost)
-        right = result.lower_bound is None or result.lower_bound <= least
+        right = result.lower_bound is None or as_written(result.lower_bound) <= cost
+        right = right or agrees(result.lower_bound, cost)
+        exactly = agrees(result.cost, cost)
         if result.status == "feasible":
-            right = right and result.cost is not None and result.cost >= least
+            right = right and result.cost is not None and (exactly or as_written(result.cost) > cost)
         elif result.status != "unknown":
-            right = right and result.cost == least
+            right = right and exactly
             if result.human_plan is not None:
                 given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
-                right = right and result.saving_alone == float(given - cost)
-        return "proved" if right else "refuted", wording.least_alone(least), None
+                right = right and agrees(result.saving_alone, given - cost)
+        return "proved" if right else "refuted", wording.least_alone(float(cost)), None
 
     def _least_alone(self) -> Fraction | None:
         if self.effort.method == "program":

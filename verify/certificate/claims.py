@@ -1,11 +1,13 @@
 """The claims that need an optimiser: each a proof, a counter-example, or neither in time."""
 
+import math
 from collections.abc import Callable
 from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import INFINITE, Claim, Result, Step
-from serendipity.model.numbers import as_written
+from serendipity.model.answers.certificate import ClaimVerdict
+from serendipity.model.numbers import agrees, as_written
 from verify.base import wording
 from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
@@ -18,7 +20,7 @@ from verify.programs.effort import Attempt, Minimum, SolverCall
 from verify.rules import Checker
 from verify.solvers.mip import solver_version
 
-Verdict = tuple[str, str, Solution | None]
+Verdict = tuple[ClaimVerdict, str, Solution | None]
 """Verdict, reason, counter-example."""
 
 _BOUNDED = ("optimal", "no_opportunity", "lower_bound")
@@ -140,13 +142,13 @@ class Examiner:
             return None
         idle = idle_cost(call)
         assert idle is not None
-        alone = float(call.prices.cost(call.baseline - idle))
-        if result.saving_alone != alone and not self._not_yet_known():
-            return "refuted", wording.figure("saving_alone", alone, result.saving_alone), None
+        alone = call.prices.cost(call.baseline - idle)
+        if not agrees(result.saving_alone, alone) and not self._not_yet_known():
+            return "refuted", wording.figure("saving_alone", float(alone), result.saving_alone), None
         cost = self._score()[1]
-        saving = float(call.prices.cost(call.baseline - cost)) if result.opportunity else 0.0
-        if result.saving != saving:
-            return "refuted", wording.figure("saving", saving, result.saving), None
+        saving = call.prices.cost(call.baseline - cost if result.opportunity else 0)
+        if not agrees(result.saving, saving):
+            return "refuted", wording.figure("saving", float(saving), result.saving), None
         if not result.opportunity and call.options.windowed and cost != call.baseline:
             return "refuted", wording.nothing_costs(self._amount(call.baseline)), None
         return None
@@ -170,12 +172,27 @@ class Examiner:
         nothing = call.do_nothing
         if nothing is not None and nothing[0] < least:
             return "refuted", wording.nothing_has_objective(self._amount(nothing[0] - shift)), None
+        if self._robots_alone_undercut(least - shift):
+            return "refuted", wording.nothing_has_objective(self._amount(call.baseline or 0)), None
         question = self._question().below(least - 1)
         minimum = self._decide(question)
         found = minimum.settled()
         if found is not None:
             return "refuted", wording.BELOW_BOUND, found
         return "proved", wording.none_below(bound), None
+
+    def _robots_alone_undercut(self, least: int) -> bool:
+        """Whether robots seeing to their own goals beside ``pi_H`` is the answer, and its objective is lower.
+
+        It has no window then; where it is one of the candidates ``do_nothing`` has said so.
+        """
+        call = self.call
+        if not (call.robots_goal and call.options.windowed) or self.result.opportunity:
+            return False
+        if call.baseline is None or call.baseline >= least:
+            return False
+        best = best_plan(call)
+        return best is None or not is_help(call, (best.objective, best.cost))
 
     def infeasible(self) -> Verdict:
         """There is no plan at all."""
@@ -241,9 +258,7 @@ class Examiner:
         """The fewest units that are at least ``amount``; a float stands for the exact value it rounds."""
         scale = self.call.prices.scale
         nearest = round(as_written(amount) * scale)
-        if float(Fraction(nearest, scale)) == amount:
-            return nearest
-        return -((-as_written(amount) * scale).__floor__())
+        return nearest if agrees(amount, Fraction(nearest, scale)) else math.ceil(as_written(amount) * scale)
 
     def _amount(self, units: int) -> str:
         return f"{float(self.call.prices.cost(units)):.12g}"

@@ -17,6 +17,7 @@ from verify.calls.methods import decide, is_free
 from verify.certificate.humans import human_cost
 from verify.exhaustive.beside_plans import HelpBesidePlans, answers_all
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
+from verify.limits import limits
 from verify.programs.effort import Attempt, Effort
 from verify.programs.recorded import BESIDE_ANY
 from verify.proofs.book import ProofReader
@@ -27,9 +28,6 @@ _A_MOMENT: Final = 2.0
 _A_WHILE: Final = 10.0
 _SHARE: Final = 0.4
 """Where methods take turns: what a search beside all plans may take, and a program; of the time left."""
-
-_SEVERAL: Final = 3
-"""Plans for which one search pays."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +77,7 @@ class EachPlan:
         shared = None if self._unaided else self._shared
         if self._unaided or shared is not None:
             return self._solved(None if shared is None else shared.beside(plan))
-        call = self._call(plan)
+        call = self.call(plan)
         same = kin(call)
         if same not in self._known:
             self._known[same] = _solved(call)
@@ -117,7 +115,7 @@ class EachPlan:
 
     @cached_property
     def _first(self) -> Call:
-        return self._call(next(self.graph.plans()))
+        return self.call(next(self.graph.plans()))
 
     @property
     def _nothing(self) -> tuple[int, int]:
@@ -131,7 +129,7 @@ class EachPlan:
         """Whether the plans are prefixes of windows that are replanned: all can be looked at together."""
         call = self._first
         options = call.options
-        if self.asked < _SEVERAL or options.human_model != "omniscient" or call.robots_goal:
+        if self.asked < limits().several_plans or options.human_model != "omniscient" or call.robots_goal:
             return False
         replanned = answers(call.question) and not options.keep_prefix and self._effort.encoding == "automata"
         return options.windowed and len(self.graph) > 0 and replanned and not is_free(call.question)
@@ -183,7 +181,8 @@ class EachPlan:
         effort.attempts.append(Attempt("exhaustive", decided=True, states=found.states))
         return found
 
-    def _call(self, plan: HumanPlan) -> Call:
+    def call(self, plan: HumanPlan) -> Call:
+        """The call beside one plan."""
         return Call(self._task, self._options, plan, self._plans, self._effort)
 
     def _solved(self, score: tuple[int, int] | None) -> Solved:

@@ -5,6 +5,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Final
 
+from serendipity.model.numbers import agrees
 from verify.base import wording
 from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import UndecidedError
@@ -61,12 +62,12 @@ class HumanExaminer(Examiner):
             return None
         compared = self._idle is not None and not call.robots_goal
         idle = min(self._idle, call.baseline) if compared and self._idle is not None else call.baseline
-        alone = float(call.prices.cost(call.baseline - idle))
-        if result.saving_alone != alone and not self._not_yet_known():
-            return "refuted", wording.figure("saving_alone", alone, result.saving_alone), None
-        saving = float(call.prices.cost(call.baseline - self._score()[1])) if result.opportunity else 0.0
-        if result.saving != saving:
-            return "refuted", wording.figure("saving", saving, result.saving), None
+        alone = call.prices.cost(call.baseline - idle)
+        if not agrees(result.saving_alone, alone) and not self._not_yet_known():
+            return "refuted", wording.figure("saving_alone", float(alone), result.saving_alone), None
+        saving = call.prices.cost(call.baseline - self._score()[1] if result.opportunity else 0)
+        if not agrees(result.saving, saving):
+            return "refuted", wording.figure("saving", float(saving), result.saving), None
         return None
 
     def lower_bound(self) -> Verdict:

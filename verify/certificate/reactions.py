@@ -8,7 +8,6 @@ worse, since robots can do the same from it, only sooner).
 """
 
 from collections.abc import Iterable, Iterator
-from typing import Final
 
 from serendipity.model import LimitReachedError, Step, surroundings
 from serendipity.model.errors import LIMITS, limit_reason
@@ -18,10 +17,9 @@ from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import during
 from verify.calls.call import Call
 from verify.exhaustive.uniform_cost import LeastLeft
+from verify.limits import limits
 from verify.programs.effort import Attempt, Minimum
 from verify.simulator import Moment, Person, Play
-
-MOST_MOMENTS: Final = 200_000
 
 
 def cheapest_reaction(call: Call, most: int | None) -> Minimum:
@@ -84,8 +82,8 @@ class _Reactions:
         for epoch in range(1, self.call.question.horizon + 1):
             following: dict[Moment, int] = {}
             for now, spent in layer.items():
-                if len(self.known) > MOST_MOMENTS:
-                    return Minimum("undecided", best, reason=f"more than {MOST_MOMENTS} states and minds")
+                if len(self.known) > limits().moments:
+                    return Minimum("undecided", best, reason=f"more than {limits().moments} states and minds")
                 for after, total in self._play(epoch, now, spent):
                     if self.game.done(after.state):
                         best, self.most = self._found(epoch, after, total), total - 1
@@ -106,7 +104,8 @@ class _Reactions:
             if self.game.sees is None:
                 after = after._replace(belief=after.state)
             total = spent + sum(team[i] for i in deed.executed)
-            if self.most is not None and total + self.left(after.state) > self.most:
+            left = self.left(after.state)
+            if left is None or (self.most is not None and total + left > self.most):
                 continue
             if total < self.known.get(after, total + 1):
                 self.before[epoch, after] = now, deed.executed

@@ -3,16 +3,20 @@
 from collections import Counter
 from collections.abc import Callable
 from fractions import Fraction
+from typing import Any
 
 from serendipity.model import Result, Task
+from serendipity.model.answers.certificate import ClaimVerdict
+from serendipity.model.numbers import agrees, as_written, rounded
 from verify.base import wording
 from verify.base.obligations import is_mean
 from verify.base.optimal_plans import OptimalPlans
+from verify.certificate.achieved import Figures, NotAchievedError, achieved
 from verify.certificate.each_plan import EachPlan, Solved
 from verify.programs.effort import Effort
 from verify.rules.tied import tied_answers
 
-Verdict = tuple[str, str]
+Verdict = tuple[ClaimVerdict, str]
 """``proved`` or ``refuted``, and why."""
 
 
@@ -21,7 +25,7 @@ def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) ->
 
     Args:
         task: the task.
-        result: an answer that breaks no rule; status ``optimal`` or ``feasible``.
+        result: an answer that breaks no rule, or the bound of one that is ``unknown``.
         effort: the solver's settings.
         plans: the human's optimal plans.
 
@@ -30,17 +34,25 @@ def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) ->
         UsageError: there are more than ``max_ties``.
     """
     each = EachPlan(task, result.options, effort, plans)
+    if result.status == "unknown":
+        known = each.all()
+        if any(solved.cost is None for solved in known):
+            return "undecided", wording.TIE_WITHOUT_PLAN
+        return _compared(result, known, each)
     worst = _is_worst(result, each)
     best = not worst and _is_best(result, each)
     if worst or best:
         each.asked = len(tied_answers(result))
-    fault = _listed_fault(result, each)
+    fault = _listed_fault(result, each) or _savings_fault(result, each)
     if fault is not None:
         return "refuted", fault
     if worst:
         return "proved", wording.no_tie_is_dearer(each.graph.count, result.cost or 0.0)
     if best and result.objective == _objective(result, each):
         return "proved", wording.no_tie_is_cheaper(each.graph.count, result.cost or 0.0)
+    fault = _unachieved(result, each, plans) if result.status == "feasible" else None
+    if fault is not None:
+        return "refuted", fault
     known = each.all()
     if any(solved.cost is None for solved in known):
         return "refuted", wording.TIE_WITHOUT_PLAN
@@ -51,7 +63,7 @@ def _is_worst(result: Result, each: EachPlan) -> bool:
     """Whether ``robust`` has found as much as leaving the human alone costs: no answer is dearer."""
     alone = each.alone
     robust = result.status == "optimal" and result.options.ties == "robust"
-    return robust and alone is not None and result.cost == result.objective == float(alone)
+    return robust and alone is not None and agrees(result.cost, alone) and agrees(result.objective, alone)
 
 
 def _is_best(result: Result, each: EachPlan) -> bool:
@@ -59,7 +71,7 @@ def _is_best(result: Result, each: EachPlan) -> bool:
     if (result.status, result.options.ties) != ("optimal", "optimistic"):
         return False
     own = _own(result, each)
-    if own is None or own.cost is None or float(own.cost) != result.cost:
+    if own is None or own.cost is None or not agrees(result.cost, own.cost):
         return False
     return each.none_cheaper(own.cost)
 
@@ -70,11 +82,11 @@ def _own(result: Result, each: EachPlan) -> Solved | None:
     return None if plan is None else each.beside(plan)
 
 
-def _objective(result: Result, each: EachPlan) -> float:
+def _objective(result: Result, each: EachPlan) -> Fraction:
     """Of the answer beside the result's own plan, which is among those that are listed."""
     own = _own(result, each)
     assert own is not None and own.objective is not None, "looked at before"
-    return float(own.objective)
+    return own.objective
 
 
 def _listed_fault(result: Result, each: EachPlan) -> str | None:
@@ -87,9 +99,68 @@ def _listed_fault(result: Result, each: EachPlan) -> str | None:
             continue
         assert plan is not None, "such an answer is not proved to be the best"
         solved = each.beside(plan)
-        right = (None if solved.cost is None else float(solved.cost), solved.opportunity)
-        if (said.cost, said.opportunity) != right:
-            return wording.tie_costs(said.human_plan, right[0])
+        if not agrees(said.cost, solved.cost) or said.opportunity != solved.opportunity:
+            return wording.tie_costs(said.human_plan, None if solved.cost is None else float(solved.cost))
+    return None
+
+
+def _savings_fault(result: Result, each: EachPlan) -> str | None:
+    """Whether an answer with a plan saves something else, where no rule knows what robots owe."""
+    plan = each.graph.named(result.human_plan or ())
+    call = None if plan is None or result.plan is None else each.call(plan)
+    if call is None or not call.robots_goal:
+        return None
+    if call.baseline is None:
+        nothing = result.saving is None and result.saving_alone is None
+        return None if nothing else wording.NOTHING_TO_COMPARE
+    idle = call.prices.cost(call.baseline)
+    saving = idle - as_written(result.cost or 0.0) if result.opportunity else Fraction(0)
+    if not agrees(result.saving, saving):
+        return wording.figure("saving", float(saving), result.saving)
+    unknown = result.status == "feasible" and result.saving_alone is None
+    return (
+        None
+        if unknown or result.saving_alone == 0
+        else wording.figure("saving_alone", 0, result.saving_alone)
+    )
+
+
+def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | None:
+    """Why an answer that was not proved can't be had, or has other figures than what it is made of."""
+    listed = tied_answers(result)
+    if (
+        not is_mean(result)
+        and result.options.ties == "expected"
+        and result.opportunity
+        and each.graph.count > 1
+    ):
+        return wording.ONE_OF_SEVERAL
+    found: list[Figures] = []
+    for said in listed:
+        plan = each.graph.named(said.human_plan)
+        own = result.plan is not None and said.human_plan == result.human_plan  # which rules have replayed
+        if plan is None or own or said.cost is None:
+            continue
+        try:
+            found.append(achieved(said, plan, each, plans))
+        except NotAchievedError as error:
+            return str(error)
+    if not is_mean(result):
+        return None
+    if len(found) != each.graph.count:
+        return wording.TIES_MISSING
+    return _mean_fault(result, Counter(found))
+
+
+def _mean_fault(result: Result, found: Counter[Figures]) -> str | None:
+    cost, objective = (_mean(found, lambda each: each.cost), _mean(found, lambda each: each.objective))
+    if not agrees(result.cost, cost) or not agrees(result.objective, objective):
+        return wording.over_ties("expected", found.total(), cost)
+    saving = None if any(each.saving is None for each in found) else _mean(found, lambda each: each.saving)
+    alone = None if saving is None or result.saving_alone is None else Fraction(0)
+    if not agrees(result.saving, saving) or not agrees(result.saving_alone, alone):
+        words = wording.over_ties("expected", found.total(), cost)
+        return wording.ties_savings(words, rounded(saving), rounded(alone))
     return None
 
 
@@ -104,30 +175,37 @@ def _compared(result: Result, known: Counter[Solved], each: EachPlan) -> Verdict
     ties, count = result.options.ties, known.total()
     if ties == "expected":
         cost = _mean(known, lambda solved: solved.cost)
-        objective = _mean(known, lambda solved: solved.objective)
+        objective = _mean(known, lambda solved: _net(solved, result))
     else:
         cost = (min if ties == "optimistic" else max)(solved.cost or Fraction(0) for solved in known)
-        objective = min(solved.objective or Fraction(0) for solved in known)
-    words, least = wording.over_ties(ties, count, cost), float(objective)
-    if result.status == "feasible":
+        objective = min(_net(solved, result) for solved in known)
+    words, least = wording.over_ties(ties, count, cost), objective
+    if result.status != "optimal":
         assert result.lower_bound is not None, "a rule"
-        if result.lower_bound > least:
+        if as_written(result.lower_bound) > least and not agrees(result.lower_bound, least):
             return "refuted", wording.ties_bound(words, ties)
         return "proved", words
     if result.plan is not None:  # one of the answers, which has an objective of its own
         least = _objective(result, each)
-    if (result.cost, result.objective) != (float(cost), least):
+    if not agrees(result.cost, cost) or not agrees(result.objective, least):
         return "refuted", words
     if is_mean(result):  # else a rule says what is saved
-        right: tuple[float | None, float | None] = (None, None)
+        saving, alone = None, None
         if all(solved.saving is not None for solved in known):
-            right = (float(_mean(known, lambda solved: solved.saving)), 0.0)
-        if (result.saving, result.saving_alone) != right:
-            return "refuted", wording.ties_savings(words, *right)
+            saving, alone = _mean(known, lambda solved: solved.saving), Fraction(0)
+        if not agrees(result.saving, saving) or not agrees(result.saving_alone, alone):
+            return "refuted", wording.ties_savings(words, rounded(saving), rounded(alone))
     return "proved", words
 
 
-def _mean(known: Counter[Solved], figure: Callable[[Solved], Fraction | None]) -> Fraction:
+def _net(solved: Solved, result: Result) -> Fraction:
+    """The objective, net of a window of one epoch where the result claims no help that there is."""
+    priced = solved.opportunity and result.options.windowed and result.options.human_model == "omniscient"
+    net = priced and not result.opportunity
+    return (solved.objective or Fraction(0)) - (result.options.window_weight if net else 0)
+
+
+def _mean(known: Counter[Any], figure: Callable[[Any], Fraction | None]) -> Fraction:
     """Over all plans, of a figure that each of them has."""
     total = Fraction(0)
     for solved, number in known.items():

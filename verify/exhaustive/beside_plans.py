@@ -24,12 +24,13 @@ from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
-from verify.exhaustive.team import MOST_ACTIONS, Team
+from verify.exhaustive.team import Team
 from verify.exhaustive.team_problem import team_problem
+from verify.limits import limits
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable
 from verify.packed.pattern import FAR
-from verify.packed.problem import MOST_WEIGHT, TooLargeError
+from verify.packed.problem import TooLargeError
 from verify.packed.state_table import StateTable
 
 Score = tuple[int, int]
@@ -125,8 +126,10 @@ class HelpBesidePlans:
             raise OtherMethodError("not all optimal plans can be searched beside at once")
         with during("preparing a search beside all optimal plans"):
             part = relevant_part(question)
-            if part is None or len(part.actions) > MOST_ACTIONS:
-                raise OtherMethodError(f"the exhaustive method takes {MOST_ACTIONS} actions at most")
+            if part is None or len(part.actions) > limits().compared_actions:
+                raise OtherMethodError(
+                    f"the exhaustive method takes {limits().compared_actions} actions at most"
+                )
             try:
                 self._prepare(question, part, bounded=bounded)
             except TooLargeError:
@@ -155,14 +158,13 @@ class HelpBesidePlans:
         self._unit = self._base + 1
         self._epoch = epoch * self._base
         self._limit = (alone + epoch) * self._base + alone
-        dearest = max((operator.weight for operator in team.singles), default=0)
         own = [f for f in facts_of_his(question.task, self._deadline) if f in self._layout.place]
         self._mask = np.zeros(self._layout.words, np.uint64)
         for number in {self._layout.place[f].field for f in own}:
             of_his = self._layout.fields[number]
             self._mask[of_his.word] |= np.uint64(of_his.mask)
         self._constant = question.task.init - self._layout.place.keys()
-        if (self._limit + dearest * self._unit * len(self._team.order)) * 4 > MOST_WEIGHT:
+        if self._limit + question.horizon * question.an_epoch * self._unit > limits().weight:
             raise TooLargeError
 
     # -- prefixes

@@ -11,7 +11,6 @@ as one.
 """
 
 from collections.abc import Callable, Iterator
-from typing import Final
 
 import numpy as np
 
@@ -23,22 +22,17 @@ from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import EXACT, FREE, WINDOW, Solution, Subproblem, in_plan
 from verify.base.undecided import UndecidedError, during
 from verify.exhaustive.layers import Layer, advance, first
-from verify.exhaustive.team import MOST_ACTIONS, NOBODY, Steps, Team
+from verify.exhaustive.team import NOBODY, Steps, Team
 from verify.exhaustive.team_problem import as_operator, team_problem
+from verify.limits import limits
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable
 from verify.packed.pattern import FAR
-from verify.packed.problem import MOST_WEIGHT, Problem, TooLargeError
+from verify.packed.problem import Problem, TooLargeError
 from verify.packed.state_table import StateTable
 from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay
-
-_LONGEST: Final = 2_000_000
-"""More epochs than there ever are: a unit of cost weighs as much as so many actions."""
-
-_MOST_MISFITS: Final = 500
-"""Ends whose cheapest completion takes too many epochs, after which others are not looked at."""
 
 
 class OtherMethodError(UndecidedError):
@@ -71,8 +65,8 @@ def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bo
         part = relevant_part(question)
         if part is None:
             return Minimum("none"), 0
-        if len(part.actions) > MOST_ACTIONS:
-            raise OtherMethodError(f"the exhaustive method takes {MOST_ACTIONS} actions at most")
+        if len(part.actions) > limits().compared_actions:
+            raise OtherMethodError(f"the exhaustive method takes {limits().compared_actions} actions at most")
         try:
             search = _Search(question, part, plans, bounded=bounded)
         except TooLargeError:
@@ -99,14 +93,16 @@ class _Search:
         singles, space, self._team_problem = team.singles, team.space, team.problem
         self._goal = self._team_problem.goal
         self._layout = self._team_problem.layout
-        prices = [operator.weight for operator in singles]
-        if max(prices, default=0) * _LONGEST * question.horizon > MOST_WEIGHT:
+        self._unit = (
+            question.horizon + 1
+        )  # a unit of cost weighs more than all actions that there is time for
+        if (question.largest + question.an_epoch + 1) * self._unit > limits().weight:
             raise TooLargeError
         table = OperatorTable(self._layout, singles)
         self._team = Team(task, actions, table, deadline, strict=strict)
         self._table = table
         his = [i for i in actions if task.actions[i].participants == (task.human,)]
-        own = [as_operator((task.actions[i],), question.prices.team[i] * _LONGEST + 1) for i in his]
+        own = [as_operator((task.actions[i],), question.prices.team[i] * self._unit + 1) for i in his]
         alone = list(task.goal.positive), list(task.goal.negative)
         self._alone = Problem(space, facts, own, alone, deadline, bounded=bounded)
         assert not self._layout.differs(self._alone.layout), "the same facts"
@@ -134,12 +130,13 @@ class _Search:
             doing = f"searching exhaustively, {self.states:,} states so far"
             reason = str(LimitReachedError(limit_reason(limit), doing))
             return Minimum("undecided", self._best, self._bound(), reason)
-        except TooManyStatesError:
-            return Minimum("undecided", self._best, self._bound(), "there are too many states")
+        except TooManyStatesError as error:
+            reason = str(error) or "there are too many states"
+            return Minimum("undecided", self._best, self._bound(), reason)
 
     def _bound(self) -> int | None:
         """What is known of the objective before all was looked at."""
-        return None if self._known is None else min(self._known, self._below())
+        return None if self._known is None else min(self._known, self._limit(self._question.horizon) + 1)
 
     def _run(self) -> Minimum:
         question = self._question
@@ -162,8 +159,7 @@ class _Search:
 
     def _without_epochs(self, start: Words) -> bool:
         """Whether there is no plan even if epochs did not count: one action after the other."""
-        limit = self._limit(0)
-        below = None if limit is None else limit + 1
+        below = self._limit(0) + 1
         search, found = self._team_problem.search(start, np.zeros(1, np.int64), below)
         self.states += search.states
         if found is not None:
@@ -179,27 +175,23 @@ class _Search:
             return min(longest or question.horizon, question.horizon)
         return None
 
-    def _limit(self, length: int) -> int | None:
+    def _limit(self, length: int) -> int:
         """The greatest objective that is still asked for, with a window of some length, or less."""
         question = self._question
-        limits = [] if question.most is None else [question.most]
+        given = [question.largest]
         if question.most_cost is not None and not any(question.prices.talk):
-            limits.append(question.most_cost + self._epoch * length)
+            given.append(question.most_cost + self._epoch * length)
         if self._best is not None:
-            limits.append(self._best.objective - 1)
-        return min(limits, default=None)
-
-    def _below(self) -> int:
-        limit = self._limit(self._question.horizon)
-        return int(FAR) if limit is None else limit + 1
+            given.append(self._best.objective - 1)
+        return min(given)
 
     # -- epochs
 
-    def _hopeful(self, states: Words, paid: Ints, rest: int, limit: int | None) -> Ints:
+    def _hopeful(self, states: Words, paid: Ints, rest: int, limit: int) -> Ints:
         """The states that may lead to an objective within the limit."""
         self.states += len(states)
         total = paid + self._team_problem.bounds(states) + rest
-        return np.flatnonzero(total < (FAR if limit is None else limit + 1))
+        return np.flatnonzero(total <= limit)
 
     def _exactly(self, begin: Layer) -> None:
         """The human executes ``pi_H``; robots reach all goals."""
@@ -313,13 +305,13 @@ class _Search:
     def _complete(self, states: Words, paid: Ints, where: Ints, length: int) -> None:
         """The cheapest of all ends with what the human pays from there on, alone."""
         still = where[:, 2] < self._question.horizon
-        for _ in range(_MOST_MISFITS):
+        for _ in range(limits().misfits):
             limit = self._limit(length)
             rows = np.flatnonzero(still)
             if not len(rows):
                 return
-            below = None if limit is None else (limit + 1) * _LONGEST
-            search, found = self._alone.search(states[rows], paid[rows] * _LONGEST, below)
+            below = (limit + 1) * self._unit
+            search, found = self._alone.search(states[rows], paid[rows] * self._unit, below)
             self.states += search.states
             if found is None:
                 return

@@ -8,19 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from serendipity.model import Deadline, GroundAction, Task
+from verify.limits import limits
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable
 
 Bools = NDArray[np.bool_]
 
-MOST_ACTIONS: Final = 3_000
-"""Actions that are compared with each other, all with all."""
-
 _AT_ONCE: Final = 100_000
 """Sets of actions that are looked at before the deadline is, again."""
-
-_STATES_AT_ONCE: Final = 8_192
-"""States whose actions are looked for at once: a hundred and more of each may take part."""
 
 NOBODY: Final = -1
 """Who waits."""
@@ -77,9 +72,10 @@ class Team:
         Raises:
             LimitReachedError: the deadline came first.
         """
-        for first in range(0, len(states), _STATES_AT_ONCE):
+        at_once = limits().states_at_once
+        for first in range(0, len(states), at_once):
             self._deadline.check()
-            some = states[first : first + _STATES_AT_ONCE]
+            some = states[first : first + at_once]
             for steps in self._steps(some, of_human, wait=wait):
                 yield replace(steps, before=steps.before + first)
 

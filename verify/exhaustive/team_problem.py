@@ -9,15 +9,15 @@ import numpy as np
 from serendipity.model import Deadline, GroundAction, LimitReachedError, Step
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.relevance import Relevant
-from verify.base.subproblem import Solution, Subproblem
+from verify.base.subproblem import Solution, Subproblem, least
 from verify.exhaustive.circles import circles
+from verify.limits import limits
 from verify.packed.affordable import affordable
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.operators import Operator
 from verify.packed.problem import Problem, StateSpace
 from verify.programs.counts import least_weight
 from verify.programs.effort import Attempt, Effort, Minimum
-from verify.solvers.mip import LARGEST_COEFFICIENT
 
 _SHARE: Final = 0.15
 """What of the time that is left numbers of actions may take."""
@@ -116,8 +116,9 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Eff
         team: what the team may do.
         effort: where it is given, numbers of actions are asked first whether there is a plan at all.
     """
-    limits = [limit for limit in (question.most, question.most_cost) if limit is not None]
-    below = min(limits) + 1 if limits else None
+    # operators weigh what they add to the objective: with communication that is no cost
+    most = question.most if any(question.prices.talk) else least(question.most, question.most_cost)
+    below = None if most is None else most + 1
     counts = _Counts(question, team, below, effort)
     try:
         if effort is not None and below is not None:
@@ -133,8 +134,9 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Eff
     except LIMITS as limit:
         reason = str(LimitReachedError(limit_reason(limit), "searching joint plans"))
         return Minimum("undecided", bound=counts.least, reason=reason)
-    except TooManyStatesError:
-        return Minimum("undecided", bound=counts.least, reason="there are too many joint states")
+    except TooManyStatesError as error:
+        reason = str(error) or "there are too many joint states"
+        return Minimum("undecided", bound=counts.least, reason=reason)
     if found is None:
         return Minimum("none", states=search.states)
     _, path = search.path(found)
@@ -162,7 +164,7 @@ class _Counts:
     def say_no(self) -> bool:
         """Whether there is no plan within the limits."""
         effort, table, below = self._effort, self.team.problem.table, self._below
-        if effort is None or below is None or not table.weight.all() or below > LARGEST_COEFFICIENT:
+        if effort is None or below is None or not table.weight.all() or below > limits().coefficient:
             return False
         deadline = self._question.deadline.part(_SHARE)
         given = replace(effort, deadline=deadline)

@@ -8,7 +8,6 @@ Only sets in which actions disable each other in a circle have to stay together.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import Final
 
 from serendipity.model import LimitReachedError, Step
 from serendipity.model.errors import LIMITS, limit_reason
@@ -20,15 +19,11 @@ from verify.base.subproblem import Solution, Subproblem
 from verify.base.undecided import during
 from verify.exhaustive.circles import circles
 from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
+from verify.limits import limits
 from verify.packed.problem import TooLargeError
 from verify.programs.agents.product import automata
-from verify.programs.automata.network import FAR, distances, goal_states
+from verify.programs.automata.network import distances, goal_states
 from verify.programs.effort import Effort, Minimum
-
-MOST_STATES: Final = 500_000
-
-_FEW: Final = 5_000
-"""States after which packed ones, and bounds for them, are worth their time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,15 +48,15 @@ def cheapest(question: Subproblem, effort: Effort) -> Minimum:
     Raises:
         LimitReachedError: the deadline came before the search began.
     """
-    bounded = effort.method != "exhaustive"
+    bounded, few = effort.method != "exhaustive", limits().few_joint_states
     with during("preparing the search for joint plans"):
         part = relevant_part(question)
         if part is None:
             return Minimum("none")
         search = JointSearch(question, part)
     if bounded:
-        found = search.run(_FEW)
-        if search.closed <= _FEW:
+        found = search.run(few)
+        if search.closed <= few:
             return replace(found, states=search.closed)
     with during("preparing the search for joint plans"):
         try:
@@ -93,8 +88,8 @@ class LeastLeft:
         self.facts = machine.facts
         self.by_state = dict(zip(machine.states, left, strict=True))
 
-    def __call__(self, state: State) -> int:
-        """The bound in a state."""
+    def __call__(self, state: State) -> int | None:
+        """The bound in a state; None: there is no way to the goals."""
         return self.by_state.get(state & self.facts, 0)
 
 
@@ -119,11 +114,11 @@ class JointSearch:
         self.closed = 0
         self.bound: int | None = None
 
-    def run(self, most_states: int = MOST_STATES) -> Minimum:
+    def run(self, most_states: int | None = None) -> Minimum:
         """The cheapest plan within the question's limits, if it takes no more states than these."""
         self.closed = 0
         try:
-            return self._search(most_states)
+            return self._search(limits().joint_states if most_states is None else most_states)
         except LIMITS as limit:
             doing = f"searching joint plans, {self.closed:,} states so far"
             return Minimum(
@@ -131,7 +126,9 @@ class JointSearch:
             )
 
     def _search(self, most_states: int) -> Minimum:
-        search = PathSearch(self.start, self._successors, self.estimate, self.deadline, self._most() + 1)
+        given = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
+        below = min(given) + 1 if given else None
+        search = PathSearch(self.start, self._successors, self.estimate, self.deadline, below)
         for state, self.bound in search:
             self.closed += 1
             if self.is_goal(state):
@@ -153,10 +150,6 @@ class JointSearch:
         """Whether the goals hold."""
         return state & self.wanted == self.wanted and not state & self.unwanted
 
-    def _most(self) -> int:
-        limits = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
-        return min(limits, default=FAR - 1)
-
     def _found(self, bundles: list[Bundle], cost: int) -> Minimum:
         epochs = enumerate(bundles, start=1)
         steps = tuple(Step(epoch, i) for epoch, bundle in epochs for i in bundle.actions)
@@ -169,8 +162,8 @@ class JointSearch:
                 if state & bundle.pre == bundle.pre and not state & bundle.neg:
                     yield bundle
 
-    def estimate(self, state: int) -> int:
-        """A lower bound on the cost that is left."""
+    def estimate(self, state: int) -> int | None:
+        """A lower bound on the cost that is left; None: there is no way to the goals."""
         return self._left.get(state & self._human, 0)
 
     def _bundles(self, part: Relevant) -> Iterator[Bundle]:

@@ -6,6 +6,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, Deadline, Result, Task
+from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.answers.fields import MalformedError
 from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base import wording
@@ -129,7 +130,7 @@ def _by_rule(name: str, fault: Callable[[], str | None]) -> Claim:
         found = fault()
     except UNDECIDED as error:
         return Claim(name, "undecided", why(error), seconds=perf_counter() - started)
-    verdict = "proved" if found is None else "refuted"
+    verdict: ClaimVerdict = "proved" if found is None else "refuted"
     return Claim(name, verdict, found or wording.FOLLOWED_BY_ALL[name], seconds=perf_counter() - started)
 
 

@@ -5,6 +5,7 @@ from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, Result
+from serendipity.model.answers.certificate import ClaimVerdict
 from verify.base import wording
 from verify.base.execution import plan_step
 from verify.base.optimal_plans import OptimalPlans
@@ -56,7 +57,7 @@ class GoalsProof:
         for name in others:
             yield Claim(name, verdict, wording.like(first, reason), example, 0.0, bound, *spent)
 
-    def _best(self, together: Together, idle: Rank) -> tuple[str, str, Better | None]:
+    def _best(self, together: Together, idle: Rank) -> tuple[ClaimVerdict, str, Better | None]:
         """Whether robots could do better than the answer says they can."""
         limit = self._limit(idle)
         if together.floor() >= limit:

@@ -9,7 +9,7 @@ allows, with distances in the human's automaton, cuts off what can't be better t
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from serendipity.model import Step
 from verify.base.execution import State, after, applicable, fits, sets_beside
@@ -19,10 +19,9 @@ from verify.base.undecided import UndecidedError
 from verify.calls.answer import best_plan
 from verify.calls.call import Call, Score
 from verify.exhaustive.uniform_cost import LeastLeft
+from verify.limits import limits
 from verify.programs.effort import Attempt
 from verify.programs.mending import replans
-
-MOST_NODES: Final = 20_000
 
 Label = tuple[int, State]
 """First epoch of the window (0: not open yet), and the state."""
@@ -155,8 +154,8 @@ class Together:
         for node in layer:
             incumbent.looked_at += 1
             deadline.check()
-            if incumbent.looked_at > MOST_NODES:
-                raise UndecidedError(f"more than {MOST_NODES} robots' plans")
+            if incumbent.looked_at > limits().robots_plans:
+                raise UndecidedError(f"more than {limits().robots_plans} robots' plans")
             for robots in self._choices(node.lines):
                 deadline.check()
                 lines = self._after(node.lines, epoch, robots, incumbent.than)
@@ -250,6 +249,8 @@ class Together:
         bound = line.ended
         for (start, state), (objective, cost) in line.labels.items():
             left = self._left[k](state)
+            if left is None:
+                continue
             wait = 0 if start else self._units.epoch
             bound = least(bound, (objective + left + wait, cost + left))
         return bound

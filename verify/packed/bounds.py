@@ -89,6 +89,11 @@ class Bounds:
             self._ways.append(self._dealt([patterns[k] for k in order], share if self._ways else deadline))
         self._keep_best(_walks(table, start, deadline))
 
+    @property
+    def states(self) -> int:
+        """Of all patterns together."""
+        return sum(pattern.size for way in self._ways for pattern, _ in way)
+
     def __call__(self, states: Words) -> Ints:
         """A bound for each state; ``FAR`` where no goal can be reached.
 

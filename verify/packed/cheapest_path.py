@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
+from verify.limits import limits
 from verify.packed.landmark_cuts import Cuts, LandmarkCuts
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable, Test
@@ -14,15 +15,16 @@ from verify.packed.pattern import FAR
 from verify.packed.state_table import Numbers, StateTable
 from verify.packed.stubborn import StubbornSets
 
-_AT_ONCE: Final = 8_192
-"""States whose operators are looked at before the deadline is, again."""
-
 _CUT_AT_ONCE: Final = 8
 """The same where landmarks are looked for, state by state."""
 
 
 class TooManyStatesError(Exception):
     """More states than the caller allows."""
+
+
+class SumTooLargeError(TooManyStatesError):
+    """What is asked may depend on sums of weights that a machine word does not hold."""
 
 
 class PathSearch:
@@ -33,7 +35,7 @@ class PathSearch:
         goal: what ends a path.
         bound: what is left from some states, never too much; ``FAR`` where no path leads on.
         deadline: polled.
-        below: paths of this weight or more are left out; None: none is.
+        below: paths of this weight or more are left out; with a path's last operator it fits into a word.
         most_states: to be kept at most.
         cuts: what looks for landmarks in each state before it is expanded.
         stubborn: which operators are enough there; None: all are looked at.
@@ -48,7 +50,7 @@ class PathSearch:
         goal: Test,
         bound: Callable[[Words], Ints],
         deadline: Deadline,
-        below: int | None = None,
+        below: int,
         most_states: int = 50_000_000,
         cuts: Sequence[LandmarkCuts] = (),
         stubborn: StubbornSets | None = None,
@@ -57,9 +59,10 @@ class PathSearch:
         self._goal = goal
         self._bound = bound
         self._deadline = deadline
-        self._below = FAR if below is None else min(np.int64(below), FAR)
+        self._below = below
         self._most_states = most_states
         self._cuts = cuts
+        self._at_once = limits().states_at_once
         self._stubborn = stubborn
         self._cut_before: dict[int, Cuts] = {}
         self._states = StateTable(table.layout.words, deadline)
@@ -84,8 +87,8 @@ class PathSearch:
             paid: what was paid for each so far.
         """
         none = np.full(len(states), -1, np.int32)
-        for first in range(0, len(states), _AT_ONCE):
-            part = slice(first, first + _AT_ONCE)
+        for first in range(0, len(states), self._at_once):
+            part = slice(first, first + self._at_once)
             self._enter(states[part], paid[part], none[part], none[part])
 
     def run(self) -> int | None:
@@ -112,8 +115,8 @@ class PathSearch:
                 order = np.argsort(self._left[numbers], kind="stable")
                 self._push(numbers[order[_CUT_AT_ONCE:]])
                 numbers = numbers[order[:_CUT_AT_ONCE]]
-            for first in range(0, len(numbers), _AT_ONCE):
-                self._expand(numbers[first : first + _AT_ONCE])
+            for first in range(0, len(numbers), self._at_once):
+                self._expand(numbers[first : first + self._at_once])
         return None
 
     def paid(self, number: int) -> int:

@@ -7,13 +7,10 @@ from one in which all pairs are found ones.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Final
 
 from serendipity.model import Deadline
 from verify.packed.layout import Effects
 
-MOST_FACTS: Final = 1_500
-MOST_ACTIONS: Final = 30_000
 """Sizes beyond which nobody should ask: it takes time with their product."""
 
 

@@ -10,7 +10,7 @@ from verify.packed.layout import Field, Layout, Words
 from verify.packed.operators import Ints, OperatorTable, Test
 
 FAR: Final = np.int64(2**61)
-"""More than any sum of weights: no way there."""
+"""No way there, or none that anybody asks about: sums of weights that count are below ``limits().weight``."""
 
 _BYTES_A_MOVE: Final = 80
 

@@ -6,27 +6,17 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline, LimitReachedError
+from verify.limits import limits
 from verify.packed.bounds import LITTLE, MUCH, Bounds, Care
-from verify.packed.cheapest_path import PathSearch, TooManyStatesError
+from verify.packed.cheapest_path import PathSearch, SumTooLargeError, TooManyStatesError
 from verify.packed.landmark_cuts import LandmarkCuts
 from verify.packed.layout import Effects, Layout, Words
-from verify.packed.mutexes import MOST_ACTIONS, MOST_FACTS, Pairs, exclusive_groups
+from verify.packed.mutexes import Pairs, exclusive_groups
 from verify.packed.operators import Ints, Operator, OperatorTable
-from verify.packed.stubborn import MOST_COMPARED, StubbornSets
-
-MOST_WEIGHT: Final = 2**60
-"""Of all operators together: sums of weights have to stay below ``FAR``."""
-
-_FEW: Final = 20_000
-"""States after which better bounds are worth their time."""
-
-_MOST: Final = 50_000_000
+from verify.packed.stubborn import StubbornSets
 
 _SHARE: Final = 0.4
 """What of the time that is left goes into a search with landmarks."""
-
-_MOST_CUT: Final = 500_000
-"""States of such a search at most."""
 
 
 class TooLargeError(Exception):
@@ -55,7 +45,7 @@ class StateSpace:
         groups: Iterable[frozenset[int]],
         deadline: Deadline,
     ) -> None:
-        if facts > MOST_FACTS or len(actions) > MOST_ACTIONS:
+        if facts > limits().packed_facts or len(actions) > limits().packed_actions:
             raise TooLargeError
         self._deadline = deadline
         self._groups = tuple(groups)
@@ -104,7 +94,7 @@ class Problem:
         bounded: bool = True,
     ) -> None:
         operators = [each for each in operators if space.pairs.possible(each.pre)]
-        if sum(operator.weight for operator in operators) > MOST_WEIGHT:
+        if sum(operator.weight for operator in operators) > limits().weight:
             raise TooLargeError
         facts = frozenset(facts)
         self._space, self._facts, self._deadline = space, facts, deadline
@@ -140,13 +130,30 @@ class Problem:
             The search, and the state's number in it; None: there is no way for less than ``below``.
 
         Raises:
-            TooManyStatesError: there are more than memory should hold.
+            TooManyStatesError: there are more than memory should hold, or weights too large to tell.
             LimitReachedError: the deadline came first.
         """
+        most = limits().weight
+        search, found = self._searched(starts, paid, most if below is None else min(below, most), hopeless)
+        if found is None and (below is None or below > most) and self._may_pass(most, search):
+            raise SumTooLargeError("costs are too large to be added up in machine words")
+        return search, found
+
+    def _may_pass(self, most: int, search: PathSearch) -> bool:
+        """Whether anything may have been left out because it weighs more than a word should hold.
+
+        A cheapest path goes through no state twice, neither here nor in the pattern of a bound.
+        """
+        states = search.states + (0 if self._bounds is None else self._bounds.states)
+        return int(self.table.weight.max(initial=0)) * states > most
+
+    def _searched(
+        self, starts: Words, paid: Ints, below: int, hopeless: Callable[[], bool] | None
+    ) -> tuple[PathSearch, int | None]:
         if self._bounds is None and self._bounded:
             self._bounds = self._made(starts, LITTLE)
         if not self._careful:
-            quick = self._search(below, _FEW)
+            quick = self._search(below, limits().few_states)
             try:
                 quick.add(starts, paid)
                 return quick, quick.run()
@@ -157,19 +164,17 @@ class Problem:
                 if found is not None:
                     return found
                 self._bounds, self._careful = self._made(starts, MUCH), True
-        search = self._search(below, _MOST)
+        search = self._search(below, limits().packed_states)
         search.add(starts, paid)
         return search, search.run()
 
-    def _with_cuts(
-        self, starts: Words, paid: Ints, below: int | None
-    ) -> tuple[PathSearch, int | None] | None:
+    def _with_cuts(self, starts: Words, paid: Ints, below: int) -> tuple[PathSearch, int | None] | None:
         """The search with landmarks of each state: few states, much work for each; None: too much work."""
         asked = self.table.operators, self._facts, self._wanted
         cuts = [LandmarkCuts(*asked, rarest=rarest) for rarest in (True, False)]
-        sets = StubbornSets(*asked) if len(self.table.operators) <= MOST_COMPARED else None
+        sets = StubbornSets(*asked) if len(self.table.operators) <= limits().stubborn_actions else None
         part = self._deadline.part(_SHARE)
-        search = PathSearch(self.table, self.goal, self.bounds, part, below, _MOST_CUT, cuts, sets)
+        search = PathSearch(self.table, self.goal, self.bounds, part, below, limits().cut_states, cuts, sets)
         try:
             search.add(starts, paid)
             return search, search.run()
@@ -190,7 +195,7 @@ class Problem:
             self._bounds = self._made(states, LITTLE)
         return self._bounds(states)
 
-    def _search(self, below: int | None, most_states: int) -> PathSearch:
+    def _search(self, below: int, most_states: int) -> PathSearch:
         return PathSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
 
     def _made(self, start: Words, care: Care) -> Bounds:

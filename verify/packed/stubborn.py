@@ -17,12 +17,8 @@ plan, and shorter.  So from every state a cheapest plan is found; the set depend
 """
 
 from collections.abc import Iterable, Sequence
-from typing import Final
 
 from verify.packed.operators import Operator
-
-MOST_COMPARED: Final = 10_000
-"""Operators at most: they are compared with each other, all with all."""
 
 
 class StubbornSets:

@@ -14,11 +14,8 @@ from verify.policy.distances import Edge, GameDistances, Moves, PackedCondition,
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))
 
-FAR: Costs = (Fraction(10**12), Fraction(0))
-"""Stands for infinite in bounds, which may be too low but not too high."""
-
-_UNIT = 1 << 40
-"""Weights are the human's cost in this unit, plus their actions (alone) or the robot's cost (together)."""
+_MOST_MOVES = 1 << 40
+"""More moves than anybody looks at, one after the other."""
 
 _MOST_ALONE = 1_000_000
 _MOST_TOGETHER = 150_000
@@ -47,6 +44,7 @@ class Board:
         deadline: when to give up.
         replies_are_dear: the robot changes what they need and can't change themselves, so their
             optimum is another search after each of its moves.
+        far: stands for infinite in bounds, which may be too low but not too high.
     """
 
     def __init__(self, task: Task, *, fixed: bool, deadline: Deadline) -> None:
@@ -56,8 +54,12 @@ class Board:
         humans = self._of(task.human)
         robots = self._of(task.robots[0])
         self._scale = lcm(1, *(task.actions[i].cost.denominator for i in (*humans, *robots)))
+        dearest = [max((task.actions[i].cost for i in ids), default=Fraction(0)) for ids in (humans, robots)]
+        # weights are the human's cost in units, plus their moves (alone) or what the robot pays (together)
+        self.far: Costs = ((dearest[0] + 1) * _MOST_MOVES, Fraction(0))
+        self._unit = int((dearest[1] + 1) * self._scale) * _MOST_MOVES
         self._relevant = _relevant(task, [*humans, *robots], deadline)
-        self._human = [e for i in deadline.each(humans) if (e := self._edge(i, _UNIT, 1)) is not None]
+        self._human = [e for i in deadline.each(humans) if (e := self._edge(i, self._unit, 1)) is not None]
         self._robot = [e for i in deadline.each(robots) if (e := self._edge(i, 1, 0)) is not None]
         self.goal = PackedCondition(_bits(task.goal.positive), _bits(task.goal.negative))
         self.start = _bits(task.init) & self._relevant
@@ -67,7 +69,10 @@ class Board:
             mentioned |= edge.pre | edge.neg | edge.add | edge.delete
         self._his = mentioned
         self._alone = GameDistances(self._human, self.goal, _MOST_ALONE, deadline)
-        together = [replace(edge, weight=edge.weight // _UNIT * _UNIT) for edge in deadline.each(self._human)]
+        together = [
+            replace(edge, weight=edge.weight // self._unit * self._unit)
+            for edge in deadline.each(self._human)
+        ]
         self._joint_moves = Moves([*together, *self._robot], deadline)
         self._together: GameDistances | None = GameDistances(
             [*together, *self._robot], self.goal, _MOST_TOGETHER, deadline
@@ -111,7 +116,7 @@ class Board:
         """What both together pay at least from a state; a weaker bound where that takes too long."""
         known, key = self._tabled(state)
         if known:
-            return FAR if key is None else self._costs(key)
+            return self.far if key is None else self._costs(key)
         return self.count(state)
 
     def _tabled(self, state: int) -> tuple[bool, int | None]:
@@ -129,7 +134,7 @@ class Board:
 
     def _least(self, state: int) -> int:
         facts = sum(cost for bit, cost in self._countable if not state & bit)
-        return max(_UNIT * facts, self._by_himself(state))
+        return max(self._unit * facts, self._by_himself(state))
 
     def _by_himself(self, state: int) -> int:
         """What the human pays at least if whatever the robot can change is as they want it."""
@@ -139,15 +144,15 @@ class Board:
             except UndecidedError:
                 self._private = None
             else:
-                return _UNIT * 10**12 if least is None else least
+                return int(self.far[0] * self._scale) * self._unit if least is None else least
         return 0
 
     def _weight(self, value: Costs) -> int:
         """The least weight that is worth ``value`` or more."""
         prime, supporter = value[0] * self._scale, value[1] * self._scale
         if prime.denominator > 1:
-            return (prime.numerator // prime.denominator + 1) * _UNIT
-        return prime.numerator * _UNIT - (-supporter.numerator // supporter.denominator)
+            return (prime.numerator // prime.denominator + 1) * self._unit
+        return prime.numerator * self._unit - (-supporter.numerator // supporter.denominator)
 
     @cached_property
     def _countable(self) -> list[tuple[int, int]]:
@@ -158,7 +163,7 @@ class Board:
         for edge in self.deadline.each(self._human):
             bit = edge.add & self.goal.pre
             if bit:
-                cheapest[bit] = min(cheapest.get(bit, edge.weight // _UNIT), edge.weight // _UNIT)
+                cheapest[bit] = min(cheapest.get(bit, edge.weight // self._unit), edge.weight // self._unit)
         return list(cheapest.items())
 
     def state(self, delta: StateDelta) -> int:
@@ -193,7 +198,7 @@ class Board:
     def alone(self, state: int) -> Fraction | None:
         """The human's optimal cost with an idle robot; None if they have no plan."""
         key = self._key(state)
-        return None if key is None else Fraction(key // _UNIT, self._scale)
+        return None if key is None else Fraction(key // self._unit, self._scale)
 
     def replies(self, state: int) -> tuple[Reply, ...]:
         """What the human may optimally do; waiting where they have no plan."""
@@ -223,7 +228,7 @@ class Board:
         return self._alone(state & self._his)
 
     def _costs(self, together: int) -> Costs:
-        prime, supporter = divmod(together, _UNIT)
+        prime, supporter = divmod(together, self._unit)
         return Fraction(prime, self._scale), Fraction(supporter, self._scale)
 
     def _edge(self, i: int, unit: int, length: int) -> Edge | None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 from time import perf_counter
 
 from serendipity.model import Claim, Deadline, Result, Task
+from serendipity.model.numbers import agrees
 from verify.base import wording
 from verify.base.obligations import needed
 from verify.base.undecided import UNDECIDED, during, why
@@ -131,7 +132,7 @@ class _Checker:
         """A bound that comes without a proof: whether both together, without turns, pay as much."""
         try:
             bounds = stated_bounds(self._result)
-            if self._result.lower_bound != float(least_sum(bounds)):
+            if not agrees(self._result.lower_bound, least_sum(bounds)):
                 return Claim("lower_bound", "refuted", wording.bound_expected(least_sum(bounds)))
             if (
                 bounds.lower == NOTHING

@@ -7,6 +7,7 @@ from typing import Final
 from serendipity.model import PlanError, Result, Task
 from serendipity.model.answers.answer import PolicyBounds
 from serendipity.model.answers.fields import MalformedError
+from serendipity.model.numbers import agrees
 from verify.policy.board import Board, Costs
 from verify.rules.replay import replay_human
 
@@ -85,14 +86,13 @@ def may_be_less(result: Result) -> bool:
 def figure_faults(task: Task, board: Board, result: Result, value: Costs) -> Iterator[Fault]:
     """Whether every figure is what the policy's value and the human's own plan make it."""
     names = [task.agents[task.human], task.agents[task.robots[0]]]
-    expected = {name: float(cost) for name, cost in zip(names, value, strict=True)}
-    if list(result.agent_costs) != names or result.agent_costs != expected:
-        words = ", ".join(f"{name} {cost:g}" for name, cost in expected.items())
+    if list(result.agent_costs) != names or not all(map(agrees, result.agent_costs.values(), value)):
+        words = ", ".join(f"{name} {float(cost):g}" for name, cost in zip(names, value, strict=True))
         yield "cost", f"agent_costs: expected {words}"
-    total = float(sum(value))
+    total = sum(value, Fraction(0))
     for name in ("cost", "objective"):
-        if getattr(result, name) != total:
-            yield "cost", f"{name}: expected {total:g}, got {getattr(result, name)}"
+        if not agrees(getattr(result, name), total):
+            yield "cost", f"{name}: expected {float(total):g}, got {getattr(result, name)}"
     yield from _own_faults(task, board, result, value)
     yield from _bound_faults(result, value)
 
@@ -115,9 +115,11 @@ def _own_faults(task: Task, board: Board, result: Result, value: Costs) -> Itera
     if cost != alone:
         yield "replay", f"pi_H costs {float(cost):g}, which is not the human's least cost alone"
     saving = cost - value[0]
-    expected = (float(cost), float(saving), 0.0, saving > 0)
-    if (result.human_cost, result.saving, result.saving_alone, result.opportunity) != expected:
-        words = "human_cost {:g}, saving {:g}, saving_alone {:g}, opportunity {}".format(*expected)
+    expected = (cost, saving, Fraction(0))
+    said = (result.human_cost, result.saving, result.saving_alone)
+    if not all(map(agrees, said, expected)) or result.opportunity != (saving > 0):
+        figures = "human_cost {:g}, saving {:g}, saving_alone {:g}".format(*map(float, expected))
+        words = f"{figures}, opportunity {saving > 0}"
         yield "cost", f"expected {words.lower()}"
 
 
@@ -127,5 +129,5 @@ def _bound_faults(result: Result, value: Costs) -> Iterator[Fault]:
         yield "cost", "statistics.bounds.upper is not the policy's value"
     if bounds.lower > value or (result.status == "optimal" and bounds.lower != value):
         yield "lower_bound", f"statistics.bounds.lower does not fit status {result.status}"
-    if result.lower_bound != float(least_sum(bounds)):
+    if not agrees(result.lower_bound, least_sum(bounds)):
         yield "lower_bound", f"lower_bound: expected {float(least_sum(bounds)):g}, got {result.lower_bound}"

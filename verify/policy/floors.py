@@ -10,7 +10,7 @@ from typing import Final
 
 from serendipity.model import Deadline, Policy
 from verify.base.undecided import UNDECIDED, UndecidedError, why
-from verify.policy.board import FAR, NOTHING, Board, Costs, Reply
+from verify.policy.board import NOTHING, Board, Costs, Reply
 from verify.policy.ending import lost_states
 from verify.policy.reading import combine, plus
 
@@ -94,6 +94,6 @@ class Floors:
         if board.goal.holds(reply.state):
             return NOTHING
         if self._lost is not None and reply.state in self._lost:
-            return FAR
+            return board.far
         floor = self._floors.get(reply.state)
         return board.bound(reply.state) if floor is None else floor

@@ -3,6 +3,7 @@
 from fractions import Fraction
 
 from serendipity.model import PlanStep, Result, Task
+from serendipity.model.numbers import agrees
 from verify.policy.board import Board
 from verify.policy.closed import BrokenError
 
@@ -37,7 +38,7 @@ def check_run(task: Task, board: Board, result: Result) -> None:
             raise BrokenError("replay", f"plan, epoch {epoch}: the goal holds before '{done[epoch, True]}'")
     if not board.goal.holds(state):
         raise BrokenError("replay", "plan: the goal does not hold after the last epoch")
-    if [float(total) for total in totals] != list(result.agent_costs.values()):
+    if not all(map(agrees, result.agent_costs.values(), totals)):
         raise BrokenError("cost", f"plan: costs {totals[0]} and {totals[1]}, not what agent_costs says")
 
 
@@ -62,5 +63,5 @@ def _check_step(task: Task, step: PlanStep) -> None:
     agents = [tuple(task.agents[i] for i in action.participants) for action in actions]
     if step.agents not in agents:
         raise BrokenError("replay", f"plan, epoch {step.epoch}: there is no '{step.action}' of these agents")
-    if step.cost not in [float(action.cost) for action in actions]:
+    if not any(agrees(step.cost, action.cost) for action in actions):
         raise BrokenError("cost", f"plan, epoch {step.epoch}: '{step.action}' does not cost {step.cost:g}")

@@ -8,12 +8,11 @@ from serendipity.model import Options, Task
 from verify.base.operators import OwnActions
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
+from verify.limits import limits
 from verify.programs.effort import Attempt, Effort
 from verify.programs.recorded import described, refute
 from verify.proofs.book import Entry, ProofReader, require_same
 from verify.solvers.mip import BYTES_A_TERM, Model
-
-_MOST_STATES: Final = 50_000
 
 _BYTES_A_MOVE: Final = 350 + 3 * BYTES_A_TERM
 
@@ -90,7 +89,7 @@ class _Alone:
                 continue
             for action, after in own.steps(state):
                 if after not in self._number:
-                    if len(states) >= _MOST_STATES:
+                    if len(states) >= limits().alone_states:
                         raise TooManyStatesError
                     self._number[after] = len(states)
                     states.append(after)

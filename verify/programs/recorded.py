@@ -142,7 +142,7 @@ def without_epochs(question: Subproblem) -> Model:
     model.add({}, "<=", 0 if question.rule != WINDOW else -1)
     if question.most_cost is not None:
         model.family = "eq. 11"
-        model.add({}, "<=", question.most_cost)
+        model.add({}, "<=", min(question.most_cost, 0))
     return model
 
 
@@ -190,14 +190,14 @@ def described(name: str, scale: int, model: Model, deadline: Deadline) -> Entry:
 
     Args:
         name: which plans it allows.
-        scale: units of its objective per unit of the domain's cost.
+        scale: units of its objective per unit of the domain's cost; 0: only their order is the same.
         model: the program.
         deadline: polled.
     """
     rows = zip(model.rows, model.families, strict=True)
     return {
         "name": name,
-        "unit": f"1/{scale}",
+        "unit": f"1/{scale}" if scale else "none: smaller numbers whose sums have the order of costs",
         "columns": [list(bounds) for bounds in zip(model.lower, model.upper, strict=True)],
         "objective": [[x, weight] for x, weight in sorted(model.objective.items())],
         "rows": [

@@ -13,8 +13,10 @@ from typing import Any, Final
 
 from serendipity.model import Deadline
 from verify.base.undecided import UndecidedError
+from verify.limits import limits
+from verify.proofs import checker
 from verify.proofs.combination import Combination
-from verify.solvers.model import Model
+from verify.solvers.model import Model, largest
 from verify.solvers.relaxation import Relaxation, Relaxed
 
 Node = dict[str, Any]
@@ -47,6 +49,8 @@ def refutation(model: Model, limit: int | None, deadline: Deadline) -> Node:
         UndecidedError: some values satisfy the rows, or nobody could tell.
         LimitReachedError: the deadline came first.
     """
+    if largest(model, deadline) > limits().coefficient or abs(limit or 0) > checker.MOST:
+        raise UndecidedError("costs need more digits than a proof is looked for with")
     return _Tree(model, limit, deadline).grow()
 
 

@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from serendipity.model.numbers import as_written
+from serendipity.model.numbers import agrees, as_written
 from verify.rules.case import Case, Found
 
 
@@ -15,7 +15,7 @@ def step_cost(case: Case) -> Found | None:
     """Each step costs what its action costs the team: discounted without the human."""
     steps = sorted(case.result.plan or (), key=lambda step: step.epoch)
     for step, (_, i) in zip(steps, case.steps(), strict=True):
-        if step.cost != float(case.price(i)):
+        if not agrees(step.cost, case.price(i)):
             message = f"costs {float(case.price(i)):g}, the result says {step.cost:g}"
             return Found(message, step.epoch, step.action)
     return None
@@ -92,7 +92,7 @@ def saving_alone(case: Case) -> Found | None:
         return Found("a saving alone, though there is nothing to compare it with")
     optimum = case.alone.optimum(case.task.init)
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
-    if 0 < said <= float(most):
+    if said > 0 and (agrees(said, most) or as_written(said) <= most):
         return None
     return Found(f"saving_alone is {said:g}, pi_H costs only {float(most):g} more than an optimal plan")
 
@@ -124,7 +124,8 @@ def _saving_with_robots_goal(case: Case) -> Found | None:
     said = case.result.saving
     if said is None:
         return None
-    if said <= 0 or said < float(_sure(case.human_cost) - case.cost):
+    least = _sure(case.human_cost) - case.cost
+    if said <= 0 or (as_written(said) < least and not agrees(said, least)):
         return Found(
             f"saving is {said:g}, but doing nothing costs at least {float(_sure(case.human_cost)):g}"
         )
@@ -144,7 +145,7 @@ def _sure(cost: Fraction | None) -> Fraction:
 
 
 def _differs(name: str, said: float | None, expected: Fraction | None) -> Found | None:
-    if said == (None if expected is None else float(expected)):
+    if agrees(said, expected):
         return None
     right = "absent" if expected is None else f"{float(expected):.12g}"
     return Found(f"{name} is {right}, the result says {'nothing' if said is None else f'{said:.12g}'}")

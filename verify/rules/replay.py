@@ -103,7 +103,7 @@ def _epoch(
     firsts: list[int] = []
     chosen: Iterator[tuple[int, ...]] = iter([()])
     fault: Fault | None = None
-    for step in steps:
+    for step in steps[: len(task.agents) + 1]:  # of more steps than agents somebody is in two
         ids, fault = _resolve(task, step, state)
         if fault is not None:
             break

@@ -32,11 +32,23 @@ def ties(case: Case) -> Found | None:
         answers = tied_answers(result)
     except MalformedError as error:
         return Found(str(error))
+    if len({answer.human_plan for answer in answers}) < len(answers):
+        return Found("statistics.ties lists two answers for one plan of the human")
     if is_mean(result):
         return None
     own = (result.human_plan, result.cost, result.opportunity)
     if own not in [(answer.human_plan, answer.cost, answer.opportunity) for answer in answers]:
         return Found("the answer is none of those that statistics.ties lists")
+    return _extreme(case, [answer.cost for answer in answers])
+
+
+def _extreme(case: Case, costs: list[float | None]) -> Found | None:
+    """``robust`` is the dearest of the answers, each of which has a plan, ``optimistic`` the cheapest."""
+    ties, known = case.result.options.ties, [cost for cost in costs if cost is not None]
+    if ties == "robust" and (len(known) < len(costs) or case.result.cost != max(known)):
+        return Found("robust: the answer is not the dearest of those that statistics.ties lists")
+    if ties == "optimistic" and case.result.cost != min(known):
+        return Found("optimistic: the answer is not the cheapest of those that statistics.ties lists")
     return None
 
 

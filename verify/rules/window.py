@@ -127,7 +127,8 @@ def preserved_state(case: Case) -> Found | None:
         return None
     rest = tuple(i for _, i in _between(case, window.end, None))
     j = len(case.pi_h) - len(rest)
-    if j < window.start - 1 or case.pi_h[j:] != rest:
+    names = [case.task.actions[i].name for i in (*case.pi_h[max(j, 0) :], *rest)]  # in whichever variant
+    if j < window.start - 1 or names[: len(rest)] != names[len(rest) :]:
         return Found(f"from epoch {window.end} the human does not do an end of pi_H", window.end)
     deadline = case.alone.deadline
     expected = states_of_pi_h(case.task, case.pi_h[:j], deadline)[-1] & facts_of_his(case.task, deadline)

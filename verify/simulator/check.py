@@ -1,6 +1,6 @@
 """Claims about a human who replans, certified by playing the plan once more (semantics 6)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from time import perf_counter
 
@@ -65,18 +65,23 @@ class _Examination:
         model = self.result.options.human_model
         if model in _MODELS and (self.result.opportunity or self.task.robot_goal):
             yield from self._reaction(self._play(model))
+        elif model in _MODELS:  # then they are left alone
+            yield from self._differences(Step(t, i) for t, i in enumerate(self.human_plan, start=1))
 
     def _reaction(self, played: Played) -> Iterator[str]:
         """An answer under a human model is what happens under it."""
         if not played.realised(self._promised()):
             yield "the plan does not work out with the human that it was made for"
-        names = {(step.epoch, self.task.actions[step.action].name) for step in played.steps}
+        yield from self._differences(played.steps)
+        if played.blocked is not None and self.result.options.no_block is not False:
+            yield f"epoch {played.blocked}: robots leave the human without a plan"
+
+    def _differences(self, steps: Iterable[Step]) -> Iterator[str]:
+        names = {(step.epoch, self.task.actions[step.action].name) for step in steps}
         said = {(step.epoch, step.action) for step in self.result.plan or ()}
         for epoch, name in sorted(names ^ said):
             says = "does not say" if (epoch, name) in names else "says wrongly"
             yield f"epoch {epoch}: the plan {says} '{name}'"
-        if played.blocked is not None and self.result.options.no_block is not False:
-            yield f"epoch {played.blocked}: robots leave the human without a plan"
 
     def _play(self, model: str) -> Played:
         horizon = self.result.horizon

@@ -5,6 +5,11 @@
 * HiGHS 1.14 is none of the versions that are asked for: its presolve removes solutions, so that
   feasible programs are called infeasible and dear solutions optimal (ERGO-Code/HiGHS #2961 and
   #3090; a test has such a program).  A model says whether a presolve is worth it at all;
+* numbers of a program are integers of 10^7 at most (``limits().coefficient``).  A tolerance may let
+  something pass that the rows forbid, which is checked in integers; and a bound may be too high by a dual
+  tolerance of 1e-7 for a column in use, and by what doubles lose of 10^7, a billionth: far from the half
+  unit that gaps and rounding leave.  Questions with larger numbers are asked with smaller ones whose sums
+  have the same order (``verify.base.small_numbers``), or not at all;
 * values are rounded; whoever asked re-checks the plan they stand for against the task.
 
 A solver keeps a time limit only roughly.  CBC and, for more than a moment, HiGHS run as processes, which
@@ -15,20 +20,17 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
-from itertools import chain
 from time import perf_counter
 from typing import Final
 
 from serendipity.model import Deadline, LimitReachedError, UsageError
 from serendipity.model.errors import LIMITS, limit_reason
+from verify.limits import limits
 from verify.solvers import cbc, highs
-from verify.solvers.model import Answer, Model, Row, Terms
+from verify.solvers.model import Answer, Model, Row, Terms, largest
 
 SOLVERS: Final = ("highs", "cbc")
 """Names of the solvers; the first is the default, the other the cross-check."""
-
-LARGEST_COEFFICIENT: Final = 10**7
-"""Above it a tolerance of 1e-6 could blur one unit of cost, so no proof is accepted."""
 
 _LOADING: Final = 0.2
 """Seconds for loading HiGHS or PuLP, which nothing interrupts."""
@@ -97,7 +99,7 @@ def _optimise(model: Model, solver: str, deadline: Deadline) -> SolverOutcome:
     if not model.upper:
         holds = all(_true(head) for head in deadline.each(model.heads))
         return SolverOutcome("optimal", (), 0.0) if holds else SolverOutcome("infeasible")
-    if _largest(model, deadline) > LARGEST_COEFFICIENT:
+    if largest(model, deadline) > limits().coefficient:
         return SolverOutcome("undecided", reason="costs need more digits than a solver's tolerance leaves")
     deadline.check()
     deadline.require(_BYTES * len(model.index))
@@ -112,12 +114,6 @@ def _true(head: tuple[str, int]) -> bool:
     """Whether a row without columns holds."""
     sense, right = head
     return {"<=": right >= 0, ">=": right <= 0, "==": right == 0}[sense]
-
-
-def _largest(model: Model, deadline: Deadline) -> int:
-    """The largest absolute value of all numbers in a program."""
-    numbers = (model.objective.values(), (right for _, right in model.heads), model.coefficients)
-    return max(map(abs, deadline.each(chain(*numbers))), default=0)
 
 
 def _outcome(answer: Answer, model: Model, deadline: Deadline) -> SolverOutcome:
@@ -151,7 +147,6 @@ def _rounded(values: Sequence[float], integral: Sequence[bool], deadline: Deadli
 
 
 __all__ = [
-    "LARGEST_COEFFICIENT",
     "SOLVERS",
     "Model",
     "Row",

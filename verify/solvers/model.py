@@ -7,6 +7,7 @@ polls a deadline while it grows.
 from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from typing import NamedTuple
 
 from serendipity.model import Deadline
@@ -104,6 +105,12 @@ class Model:
     def size(self) -> dict[str, int]:
         """Numbers of columns and rows, as certificates report them."""
         return {"variables": len(self.upper), "constraints": len(self.ends)}
+
+
+def largest(model: Model, deadline: Deadline) -> int:
+    """The largest absolute value of all numbers in a program."""
+    numbers = (model.objective.values(), (right for _, right in model.heads), model.coefficients)
+    return max(map(abs, deadline.each(chain(*numbers))), default=0)
 
 
 class Answer(NamedTuple):

@@ -14,10 +14,8 @@ from numpy.typing import NDArray
 from search.apart.alike.robot import Edge, Robot
 from search.apart.rows import Amounts
 from search.apart.timeline import TooManyStatesError
+from search.packed.cost_vector import FAR
 from serendipity.model.resources.deadline import Deadline
-
-NEVER: Final = 1 << 60
-"""What can't be had costs as much."""
 
 _MOST_STATES: Final = 5_000_000
 """Blocks times cells."""
@@ -52,9 +50,9 @@ class Counts:
         if blocks * self._cells > _MOST_STATES:
             raise TooManyStatesError
         deadline.require(3 * 8 * blocks * self._cells)
-        self._amounts = np.full(blocks * self._cells, NEVER, dtype=np.int64)
+        self._amounts = np.full(blocks * self._cells, FAR, dtype=np.int64)
         self._amounts[0] = 0
-        self.least = np.full(self._cells, NEVER, dtype=np.int64)
+        self.least = np.full(self._cells, FAR, dtype=np.int64)
         self.least[0] = 0
         self._edges = robot.edges
         self._strides = np.array([prod(self.shape[i + 1 :]) for i in range(len(most))], dtype=np.int64)

@@ -7,11 +7,11 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from search.apart.alike.counts import NEVER, Counts, run
+from search.apart.alike.counts import Counts, run
 from search.apart.alike.lifted import lifted
 from search.apart.alike.robot import Robot
 from search.apart.alike.tally import Tally
-from search.apart.landmarks import FAR, Landmark, Landmarks
+from search.apart.landmarks import Landmark, Landmarks
 from search.apart.outcomes import MOST_OUTCOMES, Outcomes
 from search.apart.provision import Value
 from search.apart.remaining import Remaining, left_to_pay
@@ -19,6 +19,7 @@ from search.apart.rows import Amounts, Rows, column
 from search.apart.timeline import TooManyStatesError
 from search.apart.window import Window
 from search.context import SearchContext
+from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 
 _MOST_BEGUN: Final = 6
@@ -112,7 +113,7 @@ class AlikeWindow(Window):
             later = sum(int((each - worth).min()) for each in self._apart[number + 1 :])
             self._stages.append(self._both(self._stages[-1], apart, worth, most - later))
         paid = self._stages[-1]
-        found = self._outcomes(paid.reshape(-1), np.flatnonzero((paid - worth < most) & (paid < NEVER)))
+        found = self._outcomes(paid.reshape(-1), np.flatnonzero((paid - worth < most) & (paid < FAR)))
         chosen = found.amounts + left_to_pay(known, found.rows) < self._most(limit)
         self._cells, self._set = found.cells[chosen], found.set[chosen]
         rows = found.rows[:, chosen]
@@ -131,6 +132,8 @@ class AlikeWindow(Window):
             for counter in self._counters
         ]
         found = np.zeros(1, dtype=np.int64)
+        if sum(each * size for each, size in zip(saved, self._apart[0].shape, strict=True)) >= FAR:
+            raise TooManyStatesError
         for each, size in zip(saved, self._apart[0].shape, strict=True):
             found = np.add.outer(found, each * np.arange(size, dtype=np.int64))
         return found.reshape(self._apart[0].shape)
@@ -150,7 +153,7 @@ class AlikeWindow(Window):
         ]
         if len(hopeful[0]) > len(hopeful[1]):
             one, other, hopeful = other, one, hopeful[::-1]
-        found = np.full(one.shape, NEVER, dtype=np.int64)
+        found = np.full(one.shape, FAR, dtype=np.int64)
         for at in hopeful[0]:
             self._context.deadline.check()
             rest = found[tuple(slice(number, None) for number in at)]

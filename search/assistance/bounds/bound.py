@@ -9,7 +9,7 @@ from typing import Final
 from search.assistance.bounds.relaxed_provision import RelaxedProvision
 from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.assistance.distances.closure import Closure
-from search.assistance.game.game import INFINITE, Game
+from search.assistance.game.game import Game
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 
@@ -45,7 +45,7 @@ class Bound:
             self._joint = None
             return self._provision(state)
         if key >= INFINITE_KEY:
-            return INFINITE
+            return INFINITE_KEY
         prime, supporter = divmod(key, 1 << self._shift)
         return (prime << self._unit_bits) + supporter
 

@@ -10,7 +10,8 @@ from heapq import heappop, heappush
 from typing import NamedTuple
 
 from search.algorithms.and_or import AndOrGraph, Rule
-from search.assistance.game.game import INFINITE, Game
+from search.assistance.game.game import Game
+from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
 
@@ -33,11 +34,11 @@ def joint_lower_bound(game: Game, deadline: Deadline) -> int:
         *_actions(game, deadline, prime=False, shift=0),
     ]
     costs = _Relaxation(actions, _greatest, deadline).costs(task.init)
-    return max((costs.get(fact, INFINITE) for fact in task.goal.positive), default=0)
+    return max((costs.get(fact, INFINITE_KEY) for fact in task.goal.positive), default=0)
 
 
 def upper_bound_alone(game: Game) -> int:
-    """The value of some plan of the prime's own; ``INFINITE`` if they have none.
+    """The value of some plan of the prime's own; ``INFINITE_KEY`` if they have none.
 
     Raises:
         LimitReachedError: none was found in time.
@@ -63,12 +64,12 @@ def upper_bound_alone(game: Game) -> int:
                 continue
             seen.add(after)
             facts = relaxation.costs(after)
-            estimate = sum(facts.get(fact, INFINITE) for fact in goal.positive)
-            if estimate < INFINITE:
+            estimate = sum(facts.get(fact, INFINITE_KEY) for fact in goal.positive)
+            if estimate < INFINITE_KEY:
                 count += 1
                 value = cost + (int(action.cost * game.scale) << game.unit_bits)
                 heappush(queue, (estimate, count, value, after))
-    return INFINITE
+    return INFINITE_KEY
 
 
 def _actions(game: Game, deadline: Deadline, *, prime: bool, shift: int) -> list[_Action]:
@@ -98,7 +99,7 @@ class _Relaxation:
 
     def costs(self, state: Iterable[int]) -> dict[int, int]:
         """The cost of each fact that can be reached from a state."""
-        costs, _ = self._graph.settle(state, self._cost, INFINITE)
+        costs, _ = self._graph.settle(state, self._cost, INFINITE_KEY)
         return costs
 
     def _cost(self, k: int, costs: Mapping[int, int]) -> int:

@@ -15,7 +15,8 @@ from functools import partial
 from typing import NamedTuple
 
 from search.algorithms.astar import AStar
-from search.assistance.game.game import INFINITE, Game
+from search.assistance.game.game import Game
+from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Operator
 
@@ -78,14 +79,14 @@ class RelaxedProvision:
     def __call__(self, state: int) -> int:
         """A value that no policy undercuts from ``state``."""
         if self._game.goal.need < 0:
-            return INFINITE
+            return INFINITE_KEY
         return self._search(self._context(state), state & self._private)
 
     def wanted(self, state: int) -> frozenset[int]:
         """Actions of the supporter that provide what a cheapest way is charged for."""
         context = self._context(state)
         at = state & self._private
-        if self._search(context, at) >= INFINITE:
+        if self._search(context, at) >= INFINITE_KEY:
             return frozenset()
         wanted: set[int] = set()
         while True:
@@ -199,9 +200,9 @@ class RelaxedProvision:
         total = 0
         while missing:
             bit = missing & -missing
-            total += context.per_goal.get(bit, INFINITE)
+            total += context.per_goal.get(bit, INFINITE_KEY)
             missing -= bit
-        return min(total, INFINITE)
+        return min(total, INFINITE_KEY)
 
     def _search(self, context: _Context, start: int) -> int:
         """A* over the private fields; it ends at goals and at states whose value is known."""
@@ -209,14 +210,14 @@ class RelaxedProvision:
         if start in known:
             return known[start][0]
         deadline = self._game.deadline
-        search = AStar(start, partial(self._least, context), deadline, limit=INFINITE, deep_first=True)
+        search = AStar(start, partial(self._least, context), deadline, limit=INFINITE_KEY, deep_first=True)
         parents: _Parents = {}
         for at, spent in search:
             if at not in known and self._holds(at):
                 known[at] = (0, None, at)
             if at in known:
                 total = spent + known[at][0]
-                if total < INFINITE and (search.least is None or total <= search.least):
+                if total < INFINITE_KEY and (search.least is None or total <= search.least):
                     return self._remember(known, parents, at)
                 # A known value may exceed the estimate that brought the state up.
                 search.postpone(at, total)
@@ -224,8 +225,8 @@ class RelaxedProvision:
             for value, after, step in self._steps_from(context, at):
                 if search.reach(after, spent + value):
                     parents[after] = at, step, value
-        known[start] = (INFINITE, None, start)
-        return INFINITE
+        known[start] = (INFINITE_KEY, None, start)
+        return INFINITE_KEY
 
     @staticmethod
     def _remember(known: _Known, parents: _Parents, end: int) -> int:

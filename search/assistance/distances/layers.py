@@ -9,13 +9,11 @@ from numpy.typing import NDArray
 from search.algorithms.shortest_paths import LevelQueue
 from search.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.assistance.distances.arrays import Indices, Kinds, Places, Words, distinct
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.resources.deadline import Deadline
 
 _WORD_BITS: Final = 62
-_FAR: Final = np.iinfo(np.int64).max // 4
-_MAX_WEIGHT: Final = 1 << 48
 
 _SORTING: Final = 24
 """Bytes for each element of what is concatenated, sorted and gathered, at the least."""
@@ -61,7 +59,7 @@ class Layers:
         deadline: polled at each transition of each layer; asked for the memory of large arrays.
 
     Raises:
-        ClosureTooLargeError: there are more, or a state does not fit a machine word.
+        ClosureTooLargeError: there are more, or a state or a distance does not fit a machine word.
     """
 
     def __init__(
@@ -74,8 +72,8 @@ class Layers:
         deadline: Deadline,
     ) -> None:
         self._compressed = _Compressed(fields)
-        heaviest = max((arc.weight for arc in arcs), default=0)
-        self._too_many_unless(self._compressed.bits <= _WORD_BITS and heaviest < _MAX_WEIGHT)
+        self._heaviest = max((arc.weight for arc in arcs), default=0)
+        self._too_many_unless(self._compressed.bits <= _WORD_BITS)
         self._deadline = deadline
         self._limit = limit
         self._tests, self._effects = [], []
@@ -96,7 +94,7 @@ class Layers:
         if at == len(self._states) or int(self._states[at]) != packed:
             return None
         found = int(self._distances[at])
-        return INFINITE_KEY if found >= _FAR else found
+        return INFINITE_KEY if found >= FAR else found
 
     def _require(self, size: int) -> None:
         """Ask for the memory of arrays that are large; asking takes a moment."""
@@ -155,12 +153,13 @@ class Layers:
         """Dijkstra from the goal backward, all states of one distance at once; the distance of each state."""
         states = self._states
         pointers, sources, weight_ids = self._predecessors()
-        distances = np.full(len(states), _FAR, dtype=np.int64)
+        distances = np.full(len(states), FAR, dtype=np.int64)
         goals = self._where(self._goal, states)
         distances[goals] = 0
         queue = LevelQueue([(0, goals)])
         for level, parts in queue:
             self._deadline.check()
+            self._too_many_unless(level + self._heaviest < FAR)
             nodes = distinct(np.concatenate(parts))
             nodes = nodes[distances[nodes] == level]
             self._require(_SORTING * int((pointers[nodes + 1] - pointers[nodes]).sum()))

@@ -17,13 +17,10 @@ import numpy as np
 from search.algorithms.shortest_paths import LevelQueue
 from search.assistance.distances.arcs import Arc
 from search.assistance.distances.arrays import Places, Stored, distinct
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.resources.deadline import Deadline
-
-MINOR_BITS: Final = 24
-"""Weights of arcs are ``major << 24 | minor``, compared in this order; the minor is above 0."""
 
 MAX_BITS: Final = 28
 """Bits of a place's number, which has to fit an ``int32``."""
@@ -211,7 +208,7 @@ class Perimeter:
 
     Args:
         places: where states are.
-        arcs: the transitions, each of a minor weight above 0.
+        arcs: the transitions, of weights ``major << ACTIONS_BITS | minor``, which are compared in this order.
         goals: places of distance 0, each once.
         deadline: polled while the ball grows.
     """
@@ -221,8 +218,8 @@ class Perimeter:
         self._deadline = deadline
         wide = places.item == _WIDE
         self._minor_bits, major_bits = (14, 17) if wide else (8, 8)
-        heaviest = max((arc.weight >> MINOR_BITS for arc in arcs), default=0)
-        longest = max((arc.weight % (1 << MINOR_BITS) for arc in arcs), default=0)
+        heaviest = max((arc.weight >> ACTIONS_BITS for arc in arcs), default=0)
+        longest = max((arc.weight % (1 << ACTIONS_BITS) for arc in arcs), default=0)
         self._most_major = (1 << major_bits) - 2 - heaviest
         self._most_minor = (1 << self._minor_bits) - 2 - longest
         # A distance is stored plus 1, so that places that nobody touches take no memory.
@@ -244,11 +241,11 @@ class Perimeter:
             level = self._queue.least
             if found and (level is None or found - 1 >> self._minor_bits < level):
                 major, minor = divmod(found - 1, 1 << self._minor_bits)
-                return (major << MINOR_BITS) + minor
+                return (major << ACTIONS_BITS) + minor
             if level is None:
                 return INFINITE_KEY
-            if level << MINOR_BITS >= limit:
-                return level << MINOR_BITS
+            if level << ACTIONS_BITS >= limit:
+                return level << ACTIONS_BITS
             if not self._grow(level):
                 return None
 
@@ -258,7 +255,7 @@ class Perimeter:
         mask = (1 << top.width) - 1 << top.shift
         by_place: dict[int, list[_Back]] = {at: [] for at in top.at.values()}
         for arc in arcs:
-            major, minor = divmod(arc.weight, 1 << MINOR_BITS)
+            major, minor = divmod(arc.weight, 1 << ACTIONS_BITS)
             weight = (major << self._minor_bits) + minor
             for asked, want, offset in self._places.backward(arc.condition, arc.keep, arc.put):
                 if offset:

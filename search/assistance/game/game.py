@@ -13,16 +13,13 @@ from typing import Final, NamedTuple
 
 from search.assistance.distances.watched import Watched
 from search.assistance.game.own import OwnCosts
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import INFINITE_KEY, require_room
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import HumanPlan
-
-INFINITE: Final = INFINITE_KEY
-"""A run that never ends."""
 
 _RUN_BITS: Final = 40
 """A run has fewer than so many bits' steps."""
@@ -66,6 +63,7 @@ class Game:
         self.scale = lcm(1, *(cost.denominator for cost in self.packed.costs))
         self._scaled = [int(cost * self.scale) for cost in self.packed.costs]
         self.unit_bits = max(self._scaled, default=0).bit_length() + _RUN_BITS
+        require_room(2 * self.unit_bits)
         robot = 1 << task.robots[0]
         self.supporter_ops = tuple(op for op in self.packed.others if op.agents == robot)
         self._supporter_index = Watched(self.supporter_ops, self.packed.fields, deadline)
@@ -124,12 +122,12 @@ class Game:
         return moves
 
     def alone(self, state: int) -> int:
-        """The value if the supporter does nothing for ever; ``INFINITE`` if that does not end.
+        """The value if the supporter does nothing for ever; ``INFINITE_KEY`` if that does not end.
 
         Whatever the prime chooses among their optimal actions, they pay their optimal cost.
         """
         key = self.own.key(state)
-        return INFINITE if key >= INFINITE_KEY else self.own.cost_in(key) << self.unit_bits
+        return INFINITE_KEY if key >= INFINITE_KEY else self.own.cost_in(key) << self.unit_bits
 
     def value_alone(self, plan: HumanPlan) -> int:
         """The value of a plan of the prime's: what the supporter's doing nothing is worth at most."""

@@ -11,18 +11,17 @@ from search.assistance.distances.closure import Closure
 from search.assistance.distances.watched import Watched
 from search.human.individual_planner import IndividualPlanner
 from search.human.pattern_database import PatternDatabase
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.resources.deadline import Deadline
 
-LENGTH_BITS: Final = 24
 MAX_STATES: Final = 3_000_000
 """The largest table of one context; beyond it each state is searched by itself."""
 
 
 class OwnCosts:
-    """The prime's optimal keys ``cost << LENGTH_BITS | length``, with the supporter idle.
+    """The prime's optimal keys ``cost << ACTIONS_BITS | length``, with the supporter idle.
 
     Args:
         encoding: the packed task.
@@ -33,7 +32,7 @@ class OwnCosts:
     def __init__(self, packed: PackedTask, scaled: list[int], deadline: Deadline) -> None:
         self._packed = packed
         self._deadline = deadline
-        self._weights = [(cost << LENGTH_BITS) + 1 for cost in scaled]
+        self._weights = [(cost << ACTIONS_BITS) + 1 for cost in scaled]
         self._changed = packed.changed_by(packed.own)
         self._mask = packed.own_mask | packed.goal.mask
         self._context: dict[int, Closure | None] = {}
@@ -43,7 +42,7 @@ class OwnCosts:
 
     def cost_in(self, key: int) -> int:
         """The scaled cost in a key."""
-        return key >> LENGTH_BITS
+        return key >> ACTIONS_BITS
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The prime's optimal key; ``INFINITE_KEY`` without a plan; at or above ``limit`` any such value."""

@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-from search.assistance.game.game import INFINITE, Game
+from search.assistance.game.game import Game
 from search.assistance.game.solution import Costs
+from search.packed.cost_vector import INFINITE_KEY
 
 Value = Any
 """An ``int`` of the game (robust), or a pair of exact costs (expected); ordered by ``<``."""
@@ -32,7 +33,7 @@ class ChoiceRule(Protocol):
 class Worst:
     """Robust: the lexicographically greatest."""
 
-    infinite: Value = INFINITE
+    infinite: Value = INFINITE_KEY
 
     def lift(self, value: int) -> Value:
         """See :class:`ChoiceRule`."""
@@ -40,7 +41,7 @@ class Worst:
 
     def add(self, value: int, rest: Value) -> Value:
         """See :class:`ChoiceRule`."""
-        return min(value + rest, INFINITE)
+        return min(value + rest, INFINITE_KEY)
 
     def combine(self, values: Sequence[Value]) -> Value:
         """See :class:`ChoiceRule`."""
@@ -48,20 +49,20 @@ class Worst:
 
     def costs(self, game: Game, value: Value) -> Costs | None:
         """See :class:`ChoiceRule`."""
-        return None if value >= INFINITE else game.pair(value)
+        return None if value >= INFINITE_KEY else game.pair(value)
 
 
 class Mean:
     """Expected: the mean of each cost, all actions alike likely."""
 
-    infinite: Value = (INFINITE, INFINITE)
+    infinite: Value = (INFINITE_KEY, INFINITE_KEY)
 
     def __init__(self, game: Game) -> None:
         self._unit = 1 << game.unit_bits
 
     def lift(self, value: int) -> Value:
         """See :class:`ChoiceRule`."""
-        return self.infinite if value >= INFINITE else divmod(value, self._unit)
+        return self.infinite if value >= INFINITE_KEY else divmod(value, self._unit)
 
     def add(self, value: int, rest: Value) -> Value:
         """See :class:`ChoiceRule`."""

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.assistance.bounds.bound import Bound
-from search.assistance.game.game import INFINITE, NOOP, Game, Move
+from search.assistance.game.game import NOOP, Game, Move
 from search.assistance.game.solution import MAX_FLOORS, ZERO, Costs, Entry, Solution
 from search.engine.best_first import Progress, best_first
+from search.packed.cost_vector import INFINITE_KEY
 
 
 class _Node(NamedTuple):
@@ -59,7 +60,7 @@ class CheapestRun:
         self._no_block = no_block
         self._cheapest: dict[tuple[int, bool], int] = {}
         self._closed: dict[int, int] = {}
-        self._best = _Best(INFINITE)
+        self._best = _Best(INFINITE_KEY)
         self._progress = Progress()
         self.expanded = 0
 
@@ -123,7 +124,7 @@ class CheapestRun:
     def _prime(self, node: _Node, best: _Best) -> Iterator[tuple[int, _Node]]:
         game = self._game
         alone = game.alone(node.state)
-        if alone >= INFINITE:
+        if alone >= INFINITE_KEY:
             if not self._blocks(node) and node.parent is not None and node.parent.state != node.state:
                 yield from self._reach(node, Move(0, node.state, NOOP), best)
             return
@@ -136,7 +137,7 @@ class CheapestRun:
     def _blocks(self, node: _Node) -> bool:
         """Whether the supporter's move to a state without a plan took the plan away."""
         before = node.parent
-        return self._no_block and before is not None and self._game.alone(before.state) < INFINITE
+        return self._no_block and before is not None and self._game.alone(before.state) < INFINITE_KEY
 
     def _reach(self, parent: _Node, move: Move, best: _Best) -> Iterator[tuple[int, _Node]]:
         """The node after a move, if nothing as cheap is known; its bound is worked out when it comes up."""
@@ -146,7 +147,7 @@ class CheapestRun:
         node = _Node(move.after, primes, cost, parent, move.action, parent.bound, False)
         if self._game.goal.holds(move.after):
             best.key, best.node = cost, node
-        elif cost < self._cheapest.get((move.after, primes), INFINITE):
+        elif cost < self._cheapest.get((move.after, primes), INFINITE_KEY):
             self._cheapest[move.after, primes] = cost
             yield parent.bound, node
 
@@ -162,11 +163,11 @@ class CheapestRun:
             node = node.parent
         proof: dict[int, Costs] | None = None
         if floors and len(self._closed) <= MAX_FLOORS:
-            known = self._closed if self.lower < INFINITE else {}
+            known = self._closed if self.lower < INFINITE_KEY else {}
             proof = {s: self._rest(cost) for s, cost in known.items()}
         return Solution(
-            lower=None if self.lower >= INFINITE else game.pair(self.lower),
-            upper=None if best.key >= INFINITE else game.pair(best.key),
+            lower=None if self.lower >= INFINITE_KEY else game.pair(self.lower),
+            upper=None if best.key >= INFINITE_KEY else game.pair(best.key),
             policy=dict(reversed(policy.items())),
             floors=proof,
         )

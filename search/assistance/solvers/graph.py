@@ -4,9 +4,10 @@ A *choice* is a state with the supporter to move, a *reply* one with the prime t
 """
 
 from search.assistance.bounds.bound import Bound
-from search.assistance.game.game import INFINITE, NOOP, Game, Move
+from search.assistance.game.game import NOOP, Game, Move
 from search.assistance.game.rules import ChoiceRule, Value
 from search.assistance.solvers.evaluate import Option
+from search.packed.cost_vector import INFINITE_KEY
 
 
 class Graph:
@@ -101,7 +102,7 @@ class Graph:
         """Work out what the prime may do; whether that raised the reply's bound."""
         alone = self.game.alone(at)
         self.idle[at] = self.rule.lift(alone)
-        if alone < INFINITE:
+        if alone < INFINITE_KEY:
             self.replies[at] = self.game.prime(at)
         else:
             self.replies[at] = (Move(0, at, NOOP),)
@@ -111,7 +112,7 @@ class Graph:
         """Drop ``move`` if it is not allowed, or only repeats the state; whether it was dropped."""
         if self.idle[move.after] != self.rule.infinite:
             return False
-        blocks = self._no_block and move.action != NOOP and self.game.alone(state) < INFINITE
+        blocks = self._no_block and move.action != NOOP and self.game.alone(state) < INFINITE_KEY
         if blocks or move.after == state:
             self.choices[state].remove(move)
             return True

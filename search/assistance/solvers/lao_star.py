@@ -10,12 +10,13 @@ solved at once, see :mod:`search.assistance.solvers.cycles`.
 from collections.abc import Iterator
 
 from search.assistance.bounds.bound import Bound
-from search.assistance.game.game import INFINITE, Game, Move
+from search.assistance.game.game import Game, Move
 from search.assistance.game.rules import ChoiceRule, Value
 from search.assistance.game.solution import MAX_FLOORS, Costs, Entry, Solution
 from search.assistance.solvers.cycles import solve_all
 from search.assistance.solvers.evaluate import Option, evaluate
 from search.assistance.solvers.graph import Graph
+from search.packed.cost_vector import INFINITE_KEY
 
 _MOST_BACKUPS = 1000
 _MOST_IDLE_PASSES = 20
@@ -52,7 +53,7 @@ class LaoStar:
             return
         graph.choice_value(game.init)
         alone = game.alone(game.init)
-        if alone < INFINITE:
+        if alone < INFINITE_KEY:
             self._upper = self._rule.lift(alone)
             yield
         while graph.choice_value(game.init) < self._upper:

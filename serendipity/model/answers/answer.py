@@ -3,12 +3,15 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from serendipity.model.answers.policy import Costs, Policy
 from serendipity.model.answers.recognition import Recognition
+from serendipity.model.keywords import Horizon
 from serendipity.model.task.plans import Step, Window
 from serendipity.model.task.task import HumanPlan
+
+Status = Literal["optimal", "feasible", "infeasible", "unknown"]
 
 
 class Improvement(NamedTuple):
@@ -83,9 +86,9 @@ class Answer(NamedTuple):
         gap: how it got better; None where that is not told.
     """
 
-    status: str
+    status: Status
     human_plan: HumanPlan | None = None
-    horizon: int | str | None = None
+    horizon: Horizon | None = None
     reason: str | None = None
     steps: tuple[Step, ...] | None = None
     window: Window | None = None

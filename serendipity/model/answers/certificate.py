@@ -1,11 +1,12 @@
 """A second opinion on a result, claim by claim (schema ``serendipity.certificate/1``)."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Any, Final, Literal, get_args
 
 from serendipity.model.errors import UsageError
 from serendipity.model.task.plans import PlanStep
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.certificate/1"
 CLAIMS: Final = (
@@ -18,7 +19,9 @@ CLAIMS: Final = (
     "infeasible",
     "realised",
 )
-VERDICTS: Final = ("proved", "refuted", "undecided", "not_in_scope")
+Verdict = Literal["proved", "refuted", "undecided"]
+ClaimVerdict = Literal["proved", "refuted", "undecided", "not_in_scope"]
+VERDICTS: Final[tuple[ClaimVerdict, ...]] = get_args(ClaimVerdict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +47,7 @@ class Claim:
     """
 
     claim: str
-    verdict: str
+    verdict: ClaimVerdict
     reason: str
     counterexample: tuple[PlanStep, ...] | None = None
     seconds: float = 0.0
@@ -75,8 +78,8 @@ class Claim:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
+@dataclass(frozen=True, slots=True, repr=False)
+class Certificate(Told):
     """What the verifier says of a result.
 
     Attributes:
@@ -96,7 +99,7 @@ class Certificate:
     solver_calls: int = 0
 
     @property
-    def verdict(self) -> str:
+    def verdict(self) -> Verdict:
         """``refuted`` if a claim is, else ``undecided`` if one is or none is proved, else ``proved``."""
         verdicts = {claim.verdict for claim in self.claims}
         return next((each for each in ("refuted", "undecided", "proved") if each in verdicts), "undecided")
@@ -118,3 +121,19 @@ class Certificate:
             "solver_calls": self.solver_calls,
             "elapsed_seconds": self.elapsed_seconds,
         }
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``verify`` prints."""
+        from serendipity.model.answers.words import claims, verdict
+
+        yield from (claims(self), Line(), verdict(self))
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield repr(self.verdict)
+        yield from (f"{claim.claim} {claim.verdict}" for claim in self.claims if claim is self.refuted)
+        yield f"{len(self.claims)} claims"

@@ -1,8 +1,11 @@
 """Reading the parts of a JSON object one by one, each of one type."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
+
+from serendipity.model.errors import UsageError
+from serendipity.model.numbers import MOST_IN_RESULTS, Figure, exact
 
 T = TypeVar("T")
 
@@ -77,7 +80,7 @@ def finite(value: Any) -> float | None:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     try:
-        number = float(value)
+        number = value if isinstance(value, Figure) else float(value)
     except OverflowError:
         return None
     return number if math.isfinite(number) else None
@@ -88,3 +91,38 @@ def names(value: Any) -> tuple[str, ...] | None:
     if not isinstance(value, list | tuple) or not all(isinstance(name, str) for name in value):
         return None
     return tuple(value)
+
+
+def exact_texts(value: Any) -> Any:
+    """Texts of the figures in a JSON value whose floats do not say it all, in its shape; None without any."""
+    if isinstance(value, Figure):
+        return str(value.exact)
+    texts = {str(key): exact_texts(part) for key, part in _parts(value)}
+    return {key: text for key, text in texts.items() if text is not None} or None
+
+
+def with_exact(value: Any, texts: Any, where: str) -> Any:
+    """A JSON value with the exact figures that :func:`exact_texts` made of it.
+
+    Raises:
+        MalformedError: a text is no rational, or that of another float.
+    """
+    if isinstance(texts, dict):
+        parts = {str(key): part for key, part in _parts(value)}
+        for key, text in texts.items():
+            parts[key] = with_exact(parts.get(key), text, f"{where}.{key}")
+        return list(parts.values()) if isinstance(value, list) else parts
+    number = finite(value)
+    try:
+        found = Figure(exact(texts, where, MOST_IN_RESULTS)) if isinstance(texts, str) else None
+    except UsageError as error:
+        raise MalformedError(str(error)) from None
+    if number is None or found != number:
+        raise MalformedError(f"{where}: expected the exact text of {value!r:.50}, got {texts!r:.50}")
+    return found
+
+
+def _parts(value: Any) -> Iterable[tuple[Any, Any]]:
+    if isinstance(value, dict):
+        return value.items()
+    return enumerate(value) if isinstance(value, list | tuple) else ()

@@ -1,12 +1,14 @@
 """A closed-loop policy of the supporter in silent assistance (semantics 7), with its certificate."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.numbers import MOST_IN_RESULTS, exact
+from serendipity.model.numbers import MOST_IN_RESULTS, exact, plain
 from serendipity.model.task.actions import NOOP
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 Costs = tuple[Fraction, Fraction]
 """The human's total and the supporter's, compared in this order."""
@@ -60,8 +62,8 @@ class Floor:
         return {**self.state.to_dict(), "value": _texts(self.value)}
 
 
-@dataclass(frozen=True, slots=True)
-class Policy:
+@dataclass(frozen=True, slots=True, repr=False)
+class Policy(Told):
     """What the supporter does in each state that can be reached while it helps.
 
     In a state that is not listed it does nothing, and goes on doing nothing for ever.
@@ -83,6 +85,26 @@ class Policy:
             "otherwise": NOOP,
             "floors": floors,
         }
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """The decisions, state by state."""
+        states = [
+            " ".join((*d.state.true, *(f"!{fact}" for fact in d.state.false))) or "at first"
+            for d in self.decisions
+        ]
+        costs = [", ".join(plain(cost) for cost in d.value) for d in self.decisions]
+        actions = [d.action for d in self.decisions]
+        yield Grid(("action", "costs to come", "state"), list(zip(actions, costs, states, strict=True)))
+        yield Line("in any other state nothing any more")
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield f"{len(self.decisions)} states"
+        yield from (f"first {first.action!r}" for first in self.decisions[:1])
 
     @classmethod
     def from_dict(cls, data: Any, file: object = None) -> "Policy":

@@ -1,7 +1,10 @@
 """What checking a proof file has found (schema ``serendipity.proof-check/1``)."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Literal
+
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.proof-check/1"
 
@@ -31,8 +34,8 @@ class RefutedProgram:
         return {name: getattr(self, name) for name in self.__slots__}
 
 
-@dataclass(frozen=True, slots=True)
-class ProofCheck:
+@dataclass(frozen=True, slots=True, repr=False)
+class ProofCheck(Told):
     """What checking a proof file has found.
 
     Attributes:
@@ -44,7 +47,7 @@ class ProofCheck:
         elapsed_seconds: time from file to verdict.
     """
 
-    verdict: str
+    verdict: Literal["accepted", "rejected"]
     reason: str
     claim: str
     compared: bool
@@ -67,3 +70,32 @@ class ProofCheck:
             "programs": [program.to_dict() for program in self.programs],
             "elapsed_seconds": self.elapsed_seconds,
         }
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``check-proof`` prints."""
+        if self.programs:
+            rows = [
+                (
+                    program.name,
+                    f"{program.columns:,}",
+                    f"{program.rows:,}",
+                    f"{program.leaves:,}",
+                    "nothing at all" if program.limit is None else f"nothing up to {program.limit}",
+                    "" if program.optimum is None else str(program.optimum),
+                )
+                for program in self.programs
+            ]
+            yield Grid(("program", "columns", "rows", "leaves", "refuted", "solution"), rows)
+            yield Line()
+        style = "green" if self.accepted else "bold red"
+        yield Line(f"{self.verdict}, {self.claim}: {self.reason}", style)
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield repr(self.verdict)
+        yield self.claim
+        yield f"{len(self.programs)} programs"

@@ -1,13 +1,15 @@
 """What recognition answers, and its JSON form (schema ``serendipity.recognition/1``)."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.model.answers.fields import Fields, MalformedError
-from serendipity.model.numbers import as_written, rounded
+from serendipity.model.numbers import as_written, plain, rounded
 from serendipity.model.schemas import schema_fault
 from serendipity.model.table import Table, Tabular
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.recognition/1"
 
@@ -21,6 +23,8 @@ _COLUMNS: Final = {
     "cost_without_observed": float,
     "plan": str,
 }
+
+UNEXPLAINED: Final = "no goal explains what was observed: the posterior is the prior"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +58,7 @@ class GoalPosterior:
         return {
             "name": self.name,
             "goal": list(self.goal),
-            "prior": float(self.prior),
+            "prior": rounded(self.prior),
             "likelihood": self.likelihood,
             "posterior": self.posterior,
             "cost_with_observed": rounded(self.with_observed),
@@ -63,8 +67,8 @@ class GoalPosterior:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class Recognition(Tabular):
+@dataclass(frozen=True, slots=True, repr=False)
+class Recognition(Tabular, Told):
     """The posterior over the human's goals.
 
     Attributes:
@@ -114,6 +118,35 @@ class Recognition(Tabular):
             "explained": self.explained,
             "goals": [goal.to_dict() for goal in self.goals],
         }
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``recognise`` prints: the posterior, and a line that says if it is only the prior."""
+        if not self.explained:
+            yield Line(UNEXPLAINED)
+        best = self.most_likely
+        yield Line(f"the most likely goal of {self.human} is {best.name} ({best.posterior:.4g})")
+        yield Line()
+        header = ("posterior", "prior", "with observed", "without", "goal")
+        rows = [
+            (
+                f"{goal.posterior:.4f}",
+                f"{float(goal.prior):.4f}",
+                plain(goal.with_observed),
+                plain(goal.without_observed),
+                goal.name,
+            )
+            for goal in self.goals
+        ]
+        yield Grid(header, rows, frozenset({self.goals.index(best)}), numbered=True)
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield f"{len(self.goals)} goals of {self.human}"
+        yield f"{self.most_likely.name} {self.most_likely.posterior:.4g}"
 
 
 def read_recognition(value: Any) -> Recognition:

@@ -1,10 +1,12 @@
 """The answer to a planning call, and its JSON form (schema ``serendipity.result/1``)."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any, Final
+from typing import Any, Final, get_args
 
-from serendipity.model.answers.answer import PolicyBounds
-from serendipity.model.answers.fields import finite, names
+from serendipity._version import __version__
+from serendipity.model.answers.answer import PolicyBounds, Status
+from serendipity.model.answers.fields import MalformedError, exact_texts, finite, names, with_exact
 from serendipity.model.answers.policy import Policy
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.answers.result_parts import (
@@ -16,18 +18,21 @@ from serendipity.model.answers.result_parts import (
 )
 from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
+from serendipity.model.keywords import Horizon, Mode
+from serendipity.model.numbers import plain
 from serendipity.model.options import Options
 from serendipity.model.schemas import schema_fault
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.plans import PlanStep, Window
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.result/1"
 _COLUMNS: Final = {"epoch": int, "agents": str, "action": str, "cost": float}
-STATUSES: Final = ("optimal", "feasible", "infeasible", "unknown")
+STATUSES: Final[tuple[Status, ...]] = get_args(Status)
 
 
-@dataclass(frozen=True, slots=True)
-class Result(Tabular):
+@dataclass(frozen=True, slots=True, repr=False)
+class Result(Tabular, Told):
     """What ``plan`` answers; fields as in ``docs/reference`` (costs in the domain's unit).
 
     ``status``: ``optimal`` (proved), ``feasible`` (a plan; the limit came first),
@@ -38,10 +43,12 @@ class Result(Tabular):
     and ``optimal_plans`` (how many there are), ``goals`` and ``recognition`` (where their goal is not
     known), ``bounds`` (mode ``assistance``), ``gap`` (how the answer got better).  A part of a file that
     is of another form stays in ``statistics``, and ``malformed`` says what is wrong with it.
+
+    ``version`` is that of the program that made it; None where its file does not say.
     """
 
-    mode: str
-    status: str
+    mode: Mode
+    status: Status
     human: str
     options: Options
     human_plan: tuple[str, ...] | None = None
@@ -51,7 +58,7 @@ class Result(Tabular):
     saving: float | None = None
     objective: float | None = None
     lower_bound: float | None = None
-    horizon: int | str | None = None
+    horizon: Horizon | None = None
     window: Window | None = None
     reason: str | None = None
     saving_alone: float | None = None
@@ -67,6 +74,7 @@ class Result(Tabular):
     bounds: PolicyBounds | None = None
     gap: tuple[GapEntry, ...] | None = field(default=None, compare=False)  # it depends on the clock
     malformed: dict[str, str] = field(default_factory=dict)
+    version: str | None = field(default_factory=lambda: __version__, compare=False)
 
     def figure(self, name: str) -> int | float | None:
         """A number of the statistics; None where there is none of that name."""
@@ -83,10 +91,20 @@ class Result(Tabular):
         return getattr(self, part) is not None or part in self.malformed
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON object; plain values only."""
+        """The JSON object; plain values only.
+
+        Where the floats of its figures do not say it all, ``exact`` has texts in the same shape:
+        ``{"cost": "10000000001/9999999999", "plan": {"0": {"cost": ...}}}``.
+        """
+        data = self._plain()
+        texts = exact_texts(data)
+        return data if texts is None else {**data, "exact": texts}
+
+    def _plain(self) -> dict[str, Any]:
         plan = None if self.plan is None else [step.to_dict() for step in self.plan]
         return {
             "schema": SCHEMA,
+            "version": self.version,
             "mode": self.mode,
             "status": self.status,
             "human": self.human,
@@ -108,6 +126,25 @@ class Result(Tabular):
             "statistics": {**self.statistics, **self._parts()},
             "policy": None if self.policy is None else self.policy.to_dict(),
         }
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``plan`` prints of it; without its task, which has a name, and may have more robots."""
+        from serendipity.model.answers.words import told
+
+        return told(self)
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield repr(self.status)
+        yield self.mode
+        helped = f" -> {plain(self.cost)}" if self.opportunity else ""
+        yield f"{self.human}: {plain(self.human_cost)}{helped}"
+        if self.window is not None:
+            yield f"window [{self.window.start}, {self.window.end})"
 
     def _parts(self) -> dict[str, Any]:
         """What stands in ``statistics`` in JSON beside the figures."""
@@ -162,7 +199,10 @@ class _Reader(StepReader):
             raise self.error(f"expected a JSON object, got {type(data).__name__}")
         if fault := schema_fault(data.get("schema"), SCHEMA):
             raise self.error(fault)
-        self.data = data
+        try:
+            self.data = with_exact(data, data.get("exact", {}), "exact")
+        except MalformedError as error:
+            raise self.error(str(error)) from None
 
     def result(self) -> Result:
         options = self._options()
@@ -195,6 +235,7 @@ class _Reader(StepReader):
             statistics=statistics,
             policy=self._policy(),
             malformed=malformed,
+            version=self._optional_text("version") if "version" in self.data else None,
             **parts,
         )
 
@@ -252,7 +293,7 @@ class _Reader(StepReader):
         except UsageError as error:
             raise self.error(str(error)) from None
 
-    def _horizon(self) -> int | str | None:
+    def _horizon(self) -> Horizon | None:
         value = self._field("horizon")
         if value is None or value == "inf":
             return value  # type: ignore[no-any-return]

@@ -27,17 +27,30 @@ class TiedAnswer:
         cost: what the answer costs the team, or None without a plan.
         opportunity: whether a robot helps.
         realised: verdicts on humans who replan, by model; None where nobody has looked.
+        plan: what everybody does, where it is not proved that nothing is better; else None.
+        window: of that plan.
     """
 
     human_plan: tuple[str, ...]
     cost: float | None
     opportunity: bool
     realised: dict[str, bool] | None = None
+    plan: tuple[PlanStep, ...] | None = None
+    window: Window | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
-        data = {"human_plan": list(self.human_plan), "cost": self.cost, "opportunity": self.opportunity}
-        return data if self.realised is None else {**data, "realised": dict(self.realised)}
+        data: dict[str, Any] = {
+            "human_plan": list(self.human_plan),
+            "cost": self.cost,
+            "opportunity": self.opportunity,
+        }
+        if self.realised is not None:
+            data["realised"] = dict(self.realised)
+        if self.plan is not None:
+            data["window"] = None if self.window is None else self.window.to_dict()
+            data["plan"] = [step.to_dict() for step in self.plan]
+        return data
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,10 +139,10 @@ def _ties(value: Any) -> tuple[TiedAnswer, ...]:
 def _tied(entry: Any) -> TiedAnswer:
     if not isinstance(entry, Mapping):
         raise MalformedError("statistics.ties: expected an object for each answer")
-    plan, cost, opportunity, realised = (
+    human_plan, cost, opportunity, realised = (
         entry.get(key) for key in ("human_plan", "cost", "opportunity", "realised")
     )
-    read = names(plan)
+    read = names(human_plan)
     if read is None:
         raise MalformedError("statistics.ties: expected human_plan to be a list of actions")
     number = finite(cost)
@@ -139,7 +152,11 @@ def _tied(entry: Any) -> TiedAnswer:
         raise MalformedError("statistics.ties: expected opportunity to be true or false")
     if realised is not None and not _are_verdicts(realised):
         raise MalformedError("statistics.ties: expected realised to be true or false for each human model")
-    return TiedAnswer(read, number, opportunity, realised)
+    try:
+        plan, window = StepReader(None).plan(entry.get("plan")), StepReader(None).window(entry.get("window"))
+    except InputError as error:
+        raise MalformedError(f"statistics.ties: {error}") from None
+    return TiedAnswer(read, number, opportunity, realised, plan, window)
 
 
 def _are_verdicts(value: Any) -> bool:

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from serendipity.model.errors import limit_words
 from serendipity.model.task.plans import PlanStep
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.trace/1"
 
@@ -65,8 +66,8 @@ class TraceEpoch:
     skipped: tuple[TraceSkip, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Trace:
+@dataclass(frozen=True, slots=True, repr=False)
+class Trace(Told):
     """A plan played against a human who replans (semantics 6).
 
     Attributes:
@@ -117,6 +118,20 @@ class Trace:
                     yield f"  {', '.join(step.agents)}: {step.action}"
             for skip in epoch.skipped:
                 yield f"  does not happen: {skip.action} ({WHY[skip.why]})"
+        yield self._verdict()
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``simulate`` prints."""
+        return map(Line, self.lines())
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield self.human
+        yield f"{len(self.epochs)} epochs"
         yield self._verdict()
 
     def text(self) -> str:

@@ -4,7 +4,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.connection import Connection, wait
@@ -17,34 +17,54 @@ B = TypeVar("B")
 
 
 def in_processes(
-    work: Callable[[A], B], assignments: Sequence[A], jobs: int, *, advice: str = ""
+    work: Callable[[A], B], assignments: Sequence[A], jobs: int, lost: Callable[[A], B] | None = None
 ) -> Iterator[B]:
     """In ``jobs`` processes, in the order in which they are finished; they end where nobody asks for more.
+
+    Where a process is killed, what may have been its assignment is done again, in a process of its own.
 
     Args:
         work: a function of a module, which is done for each assignment.
         assignments: what to do.
         jobs: how many processes.
-        advice: what to do if one of them is killed, for the error.
+        lost: what an assignment comes to whose process is killed again.
 
     Raises:
-        SerendipityError: a process was killed.
+        SerendipityError: a process was killed twice, and there is no ``lost``.
     """
+    left = list(assignments)
+    while left:
+        jobs = min(jobs, len(left))
+        if not (yield from _in_pool(work, left, jobs)):
+            return
+        suspects, left = left[:jobs], left[jobs:]
+        for suspect in suspects:
+            if (yield from _in_pool(work, [suspect], 1)):
+                if lost is None:
+                    raise SerendipityError("a worker process was killed twice, perhaps for want of memory")
+                yield lost(suspect)
+
+
+def _in_pool(work: Callable[[A], B], left: list[A], workers: int) -> Generator[B, None, bool]:
+    """What assignments come to, each of which is taken off the list; whether a process was killed."""
     # Not forked: a thread of the progress display may hold a lock at that moment.
     context = multiprocessing.get_context("spawn")
-    workers = min(jobs, len(assignments))
     wanted, ours = context.Pipe(duplex=False)
     pool = ProcessPoolExecutor(workers, context, initializer=_end_with_parent, initargs=(wanted,))
     try:
-        for future in as_completed([pool.submit(work, assignment) for assignment in assignments]):
-            yield future.result()
+        futures = {pool.submit(work, assignment): assignment for assignment in left}
+        for future in as_completed(futures):
+            done = future.result()
+            left.remove(futures[future])
+            yield done
     except BrokenProcessPool:
-        raise SerendipityError(f"a worker process was killed, perhaps for want of memory{advice}") from None
+        return True
     except BaseException:
         ours.close()  # workers don't finish what nobody waits for
         raise
     finally:
         pool.shutdown(cancel_futures=True)
+    return False
 
 
 def _end_with_parent(wanted: Connection) -> None:

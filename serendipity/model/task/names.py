@@ -1,9 +1,13 @@
-"""Ground actions by name."""
+"""Ground actions and facts by name."""
 
 from bisect import bisect_left
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Final
 
 from serendipity.model.task.actions import GroundAction
+
+_HINTS: Final = 3
 
 
 class ActionNames(Mapping[str, tuple[int, ...]]):
@@ -35,3 +39,16 @@ class ActionNames(Mapping[str, tuple[int, ...]]):
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
+
+
+def no_fact(name: str, facts: Iterable[str]) -> str:
+    """What to say of a fact that there is none of: a few that are called much like it come with it."""
+    by_predicate: dict[str, list[str]] = {}
+    for fact in facts:
+        by_predicate.setdefault(fact.partition(" ")[0], []).append(fact)
+    predicate, *words = name.split() or [""]
+    like = get_close_matches(predicate, by_predicate, n=1)
+    near = [fact for key in like for fact in by_predicate[key]]
+    likely = [fact for fact in near if set(words).issubset(fact.split())] or near
+    hint = f": perhaps {' or '.join(map(repr, likely[:_HINTS]))}" if likely else ""
+    return f"there is no fact '{name}' in the task{hint}"

@@ -1,6 +1,7 @@
 """The task: agents, facts, ground actions, initial state, goals."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import InitVar, dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -11,6 +12,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply
 from serendipity.model.task.names import ActionNames
 from serendipity.model.task.variables import Variable, find_variables
+from serendipity.model.telling import Grid, Line, Told, team
 
 HumanPlan = tuple[int, ...]
 """``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t."""
@@ -38,8 +40,8 @@ def several(names: Iterable[str], what: str) -> tuple[str, ...]:
     return found
 
 
-@dataclass(frozen=True)
-class Task:
+@dataclass(frozen=True, repr=False)
+class Task(Told):
     """A multi-agent planning task with one human (Def. 1.0, 1.1; semantics 1).
 
     Attributes:
@@ -87,6 +89,26 @@ class Task:
             known_variables = find_variables(self.facts, self.init, self.actions)
         object.__setattr__(self, "variables", known_variables)
 
+    def told(self) -> Iterator[Line | Grid]:
+        """Who and what there is, and what is to be reached."""
+        human, robots = self.agents[self.human], [self.agents[i] for i in self.robots]
+        yield Line(f"{self.name}: {team(human, robots)}")
+        yield Line(
+            f"{len(self.facts)} facts in {len(self.variables)} variables, {len(self.actions)} ground actions"
+        )
+        for who, goal in ((human, self.goal), ("robots", self.robot_goal)):
+            literals = [self.facts[i] for i in goal.positive] + [f"!{self.facts[i]}" for i in goal.negative]
+            if literals:
+                yield Line(f"goal of {who}: {', '.join(literals)}")
+        yield from map(Line, self.warnings)
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield repr(self.name)
+        yield f"{len(self.agents)} agents"
+        yield f"{len(self.facts)} facts"
+        yield f"{len(self.actions)} actions"
+
     @property
     def robots(self) -> tuple[int, ...]:
         """Ids of all agents but the human."""
@@ -120,16 +142,20 @@ class Task:
 
     def _after(self, state: frozenset[int], action_id: int, step: int) -> frozenset[int]:
         """The state after a step of the human's plan."""
+        return apply(state, self._step(state, action_id, step))
+
+    def _step(self, state: AbstractSet[int], action_id: int, step: int) -> GroundAction:
+        """The action of a step of the human's plan, which they can do alone in the state."""
         action = self.actions[action_id]
         if action.participants == (self.human,):
             if action.applicable(state):
-                return apply(state, action)
+                return action
             reason = f"is not applicable: {self._first_unmet(action, state)}"
         else:
             reason = f"is not an action that {self.agents[self.human]} can do alone"
         raise PlanError(f"human plan, step {step}: '{action.name}' {reason}", step=step)
 
-    def _require_goal(self, state: frozenset[int], plan: HumanPlan) -> None:
+    def _require_goal(self, state: AbstractSet[int], plan: HumanPlan) -> None:
         if not self.goal.holds(state):
             last = f"after its last step '{self.actions[plan[-1]].name}'" if plan else "with no step"
             raise PlanError(f"human plan: the goal does not hold {last}")
@@ -149,10 +175,13 @@ class Task:
             UsageError: they are no list of names.
         """
         plan: list[int] = []
-        state = self.init
+        state = set(self.init)  # moved in place: such plans may be very long
+        known: dict[str, tuple[int, ...]] = {}
         for step, text in enumerate(several(names, "human plan"), start=1):
             name = canonical_name(text)
-            ids = self.named.get(name, ())
+            if name not in known:
+                known[name] = self.named.get(name, ())
+            ids = known[name]
             chosen = next((i for i in ids if self.actions[i].applicable(state)), None)
             if chosen is None and self.waits(name):
                 continue
@@ -161,7 +190,9 @@ class Task:
                 raise PlanError(message, step=step)
             chosen = ids[0] if chosen is None else chosen
             plan.append(chosen)
-            state = self._after(state, chosen, len(plan))
+            action = self._step(state, chosen, len(plan))
+            state.difference_update(action.delete)
+            state.update(action.add)
         self._require_goal(state, tuple(plan))
         return tuple(plan)
 
@@ -232,7 +263,7 @@ class Task:
             raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human!s:.50}'")
         return replace(self, human=self.agents.index(name), known_variables=self.variables)
 
-    def _first_unmet(self, action: GroundAction, state: frozenset[int]) -> str:
+    def _first_unmet(self, action: GroundAction, state: AbstractSet[int]) -> str:
         missing = next((f for f in action.pre if f not in state), None)
         if missing is not None:
             return f"'{self.facts[missing]}' is false"

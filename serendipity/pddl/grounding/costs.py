@@ -14,7 +14,7 @@ from serendipity.model import InputError
 from serendipity.pddl.grounding.product import Product
 from serendipity.pddl.grounding.quantifiers import ground_key
 from serendipity.pddl.parsing.lifted import Expression, FunctionValue, Key, Operation, Schema, Unit
-from serendipity.pddl.parsing.scope import calculate
+from serendipity.pddl.parsing.scope import calculate, cost_fault
 from serendipity.pddl.parsing.tree import quoted
 
 ONE: Final = Fraction(1)
@@ -54,7 +54,7 @@ class Costs:
             return [ONE] * product.size
         increases = schema.increases
         if len(increases) == 1 and isinstance(increases[0], Fraction):
-            return [increases[0]] * product.size
+            return [increases[0]] * product.size  # such values were checked where they were read
         if all(isinstance(value, Fraction) for value in increases):
             return [self._sum(increases, {})] * product.size
         return [self._cost(schema, unit, values) for values in product]
@@ -67,9 +67,10 @@ class Costs:
         except KeyError as missing:
             problem = f"no initial value of {quoted(' '.join(missing.args[0]))} for its cost"
         else:
-            if cost >= 0:
+            fault = cost_fault(cost)
+            if fault is None:
                 return cost
-            problem = f"expected a cost of at least 0, got {float(cost):g}"
+            problem = fault
         # One object for each problem: there may be very many actions that have it.
         return self._bad.setdefault(
             (problem, unit.domain_file, schema.line), BadCost(problem, unit, schema.line)
@@ -82,6 +83,6 @@ class Costs:
         match expression:
             case FunctionValue(key):
                 return self._values[ground_key(key, values)]
-            case Operation(operator, left, right):
-                return calculate(operator, self._value(left, values), self._value(right, values))
+            case Operation(operator, parts):
+                return calculate(operator, [self._value(part, values) for part in parts])
         return expression

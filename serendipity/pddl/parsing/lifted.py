@@ -82,11 +82,10 @@ class FunctionValue:
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """``left operator right``, the operator being one of ``+ - * /``."""
+    """Two values or more with one of ``+ - * /`` between them, from the left to the right."""
 
     operator: str
-    left: "Expression"
-    right: "Expression"
+    values: tuple["Expression", ...]
 
 
 Expression = Fraction | FunctionValue | Operation
@@ -122,7 +121,8 @@ class Domain:
     """A checked domain file.
 
     ``predicates`` and ``functions`` map a name to the types of its parameters; ``factored`` says
-    whether ``:private`` in the files of this domain names no agent (MA-PDDL).
+    whether ``:private`` in the files of this domain names no agent (MA-PDDL); ``empty_lists`` are
+    the lines where a type stands behind no constant.
     """
 
     name: str
@@ -132,6 +132,7 @@ class Domain:
     functions: dict[str, tuple[Type, ...]]
     schemas: tuple[Schema, ...]
     factored: bool = False
+    empty_lists: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +149,7 @@ class Problem:
         goal: in negation normal form; an empty ``And`` where there is none.
         goal_line: where the goal is, or None.
         metric: whether it asks to minimise the total cost.
+        empty_lists: the lines where a type stands behind no object.
     """
 
     name: str
@@ -159,6 +161,7 @@ class Problem:
     goal: Formula
     goal_line: int | None
     metric: bool
+    empty_lists: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -5,16 +5,17 @@ Errors carry the line; the caller adds the file.
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from graphlib import CycleError, TopologicalSorter
 from typing import Final
 
 from serendipity.model import InputError
 from serendipity.pddl.parsing.initial import read_initial
 from serendipity.pddl.parsing.lifted import And, Domain, Formula, Problem, Schema
-from serendipity.pddl.parsing.scope import TOTAL_COST, Scope, check_type
+from serendipity.pddl.parsing.scope import TOTAL_COST, Scope, check_type, cost_fault
 from serendipity.pddl.parsing.sections import Form, read_form
 from serendipity.pddl.parsing.syntax import VARIABLE, Typed, read_action, signatures, typed_list
 from serendipity.pddl.parsing.tree import Node, expected, name_at, naming, node_at, quoted, refuse_more
-from serendipity.pddl.parsing.types import OBJECT, Type, Types, type_text
+from serendipity.pddl.parsing.types import MAX_LEVELS, OBJECT, Type, Types, type_text
 from serendipity.pddl.work import Work
 
 _KEPT: Final = 64
@@ -47,7 +48,8 @@ def read_problem(text: str, domain: Domain, work: Work) -> Problem:
         InputError: with the line, without the file.
     """
     form = read_form(text, "problem", work)
-    listed = typed_list(form.section(":objects"), 1, "an object", private=1 if domain.factored else 2)
+    empty: list[int] = []
+    listed = typed_list(form.section(":objects"), 1, "an object", 1 if domain.factored else 2, empty)
     objects = _objects(listed, domain.types, domain.constants)
     scope = Scope(domain.types, domain.predicates, domain.functions, objects, work)
     with naming("initial state"):
@@ -63,6 +65,7 @@ def read_problem(text: str, domain: Domain, work: Work) -> Problem:
         And() if goal is None else _goal(goal, scope),
         None if goal is None else goal.line,
         _minimises_cost(form.sections.get(":metric")),
+        tuple(empty),
     )
 
 
@@ -70,7 +73,9 @@ def _domain(form: Form, work: Work) -> Domain:
     types = _types(typed_list(form.section(":types"), 1, "a type"))
     factored = ":factored-privacy" in form.requirements
     private = 1 if factored else 2
-    constants = _objects(typed_list(form.section(":constants"), 1, "an object", private), types, {})
+    empty: list[int] = []
+    listed = typed_list(form.section(":constants"), 1, "an object", private, empty)
+    constants = _objects(listed, types, {})
     predicates = _signatures(form.section(":predicates"), "predicate", types, work)
     functions = _signatures(form.section(":functions"), "function", types, work)
     schemas: dict[str, Schema] = {}
@@ -80,7 +85,9 @@ def _domain(form: Form, work: Work) -> Domain:
         if first is not schema:
             message = f"action {quoted(schema.name)} is defined already in line {first.line}"
             raise InputError(message, line=schema.line)
-    return Domain(form.name, types, constants, predicates, functions, tuple(schemas.values()), factored)
+    return Domain(
+        form.name, types, constants, predicates, functions, tuple(schemas.values()), factored, tuple(empty)
+    )
 
 
 def _signatures(section: Node, what: str, types: Types, work: Work) -> dict[str, tuple[Type, ...]]:
@@ -105,8 +112,9 @@ def _schema(section: Node, scope: Scope) -> Schema:
         precondition = scope.condition(text.parts.get(":precondition", nothing))
         effects, increases = scope.effects(text.parts[":effect"])
         for value in increases:
-            if isinstance(value, Fraction) and value < 0:
-                raise InputError(f"expected a cost of at least 0, got {float(value):g}", line=text.line)
+            fault = cost_fault(value) if isinstance(value, Fraction) else None
+            if fault is not None:
+                raise InputError(fault, line=text.line)
     return Schema(
         text.name,
         text.line,
@@ -132,20 +140,23 @@ def _types(listed: Iterable[Typed]) -> Types:
         for name in above:
             if name != OBJECT:
                 parents.setdefault(name, (OBJECT,))
-    _refuse_circles(parents, lines)
+    _refuse_heights(parents, lines)
     return Types(parents)
 
 
-def _refuse_circles(parents: Mapping[str, Type], lines: Mapping[str, int]) -> None:
-    """Take away types all of whose supertypes are gone; what stays is on a circle, or below one."""
-    rest = {name: set(above) & parents.keys() for name, above in parents.items()}
-    while gone := {name for name, above in rest.items() if not above}:
-        rest = {name: above - gone for name, above in rest.items() if name not in gone}
-    while below := rest.keys() - {name for above in rest.values() for name in above}:
-        rest = {name: above for name, above in rest.items() if name not in below}
-    if rest:
-        name = min(rest, key=lambda name: (lines.get(name, 0), name))
-        raise InputError(f"type {quoted(name)} is its own supertype", line=lines.get(name))
+def _refuse_heights(parents: Mapping[str, Type], lines: Mapping[str, int]) -> None:
+    """Refuse circles, and hierarchies that are too high."""
+    try:
+        lowest_last = [*TopologicalSorter(parents).static_order()]
+    except CycleError as error:
+        name = min(error.args[1], key=lambda name: (lines.get(name, 0), name))
+        raise InputError(f"type {quoted(name)} is its own supertype", line=lines.get(name)) from None
+    levels = {OBJECT: 0}
+    for name in lowest_last:
+        levels[name] = 1 + max((levels[above] for above in parents.get(name, ())), default=-1)
+        if levels[name] > MAX_LEVELS:
+            message = f"types are nested too deeply: at most {MAX_LEVELS} above one another"
+            raise InputError(message, line=lines.get(name))
 
 
 def _objects(listed: Iterable[Typed], types: Types, known: Mapping[str, Type]) -> dict[str, Type]:

@@ -1,14 +1,15 @@
 """Conditions, effects and costs in a place: names, arities and types are right afterwards."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, reduce
+from operator import add, mul, sub, truediv
 from re import compile as regex
 from typing import Final
 
 from serendipity.model import InputError
-from serendipity.model.numbers import fraction
+from serendipity.model.numbers import MOST_DIGITS, fraction
 from serendipity.pddl.parsing.lifted import (
     EQUALITY,
     And,
@@ -27,6 +28,16 @@ from serendipity.pddl.parsing.syntax import VARIABLE, Typed, typed_list
 from serendipity.pddl.parsing.tree import Item, Node, expected, name_at, node_at, quoted, refuse_more
 from serendipity.pddl.parsing.types import ANYTHING, Type, Types, type_text
 from serendipity.pddl.work import Work
+
+_MOST_DIGITS: Final = 2 * MOST_DIGITS
+"""Digits of a cost: a number in a file may have so many, its exponent included."""
+
+_OPERATORS: Final[dict[str, Callable[[Fraction, Fraction], Fraction]]] = {
+    "+": add,
+    "-": sub,
+    "*": mul,
+    "/": truediv,
+}
 
 TOTAL_COST: Final = "total-cost"
 
@@ -240,36 +251,32 @@ class Scope:
         operator, *_ = inner.items
         if len(inner.items) < 3:
             raise expected(f"two values to {operator}", inner, len(inner.items))
-        values = [self._expression(inner, j) for j in _rest(inner)]
-        result = values[0]
-        for value in values[1:]:
-            result = _operation(str(operator), result, value, inner.line)
-        return result
+        return _operation(str(operator), [self._expression(inner, j) for j in _rest(inner)], inner.line)
 
 
 def _rest(node: Node) -> range:
     return range(1, len(node.items))
 
 
-def _operation(operator: str, left: Expression, right: Expression, line: int) -> Expression:
-    if not (isinstance(left, Fraction) and isinstance(right, Fraction)):
-        return Operation(operator, left, right)
-    if operator == "/" and right == 0:
+def _operation(operator: str, values: Sequence[Expression], line: int) -> Expression:
+    numbers = [value for value in values if isinstance(value, Fraction)]
+    if len(numbers) < len(values):
+        return Operation(operator, tuple(values))
+    if operator == "/" and 0 in numbers[1:]:
         raise InputError("division by zero in a cost", line=line)
-    return calculate(operator, left, right)
+    return calculate(operator, numbers)
 
 
-def calculate(operator: str, left: Fraction, right: Fraction) -> Fraction:
-    """``left operator right``, exactly."""
-    match operator:
-        case "+":
-            return left + right
-        case "-":
-            return left - right
-        case "*":
-            return left * right
-        case _:
-            return left / right
+def calculate(operator: str, values: Iterable[Fraction]) -> Fraction:
+    """The values with ``operator`` between them, from the left to the right, exactly."""
+    return reduce(_OPERATORS[operator], values)
+
+
+def cost_fault(value: Fraction) -> str | None:
+    """What is wrong with the cost of an action, or None."""
+    if max(abs(value.numerator), value.denominator) >= 10**_MOST_DIGITS:
+        return f"expected a cost of at most {_MOST_DIGITS} digits"
+    return f"expected a cost of at least 0, got {float(value):g}" if value < 0 else None
 
 
 def is_number(item: Item) -> bool:

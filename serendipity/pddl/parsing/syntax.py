@@ -47,7 +47,9 @@ class ActionText:
     parts: dict[str, Node] = field(default_factory=dict)
 
 
-def typed_list(node: Node, start: int, what: str, private: int = 0) -> list[Typed]:
+def typed_list(
+    node: Node, start: int, what: str, private: int = 0, empty: list[int] | None = None
+) -> list[Typed]:
     """``a b - type c``, from item ``start`` of a node.
 
     Args:
@@ -55,6 +57,7 @@ def typed_list(node: Node, start: int, what: str, private: int = 0) -> list[Type
         start: its first item.
         what: how an error calls its names; ``a variable`` if they begin with ``?``.
         private: where the names in ``(:private ...)`` start; 0 if there may be none.
+        empty: takes the lines of types before which no name stands; None where that is an error.
 
     Raises:
         InputError: it is not of that form; with the line.
@@ -68,8 +71,12 @@ def typed_list(node: Node, start: int, what: str, private: int = 0) -> list[Type
             kind = _type_at(node, i + 1)
             found[-untyped:] = [typed._replace(type=kind) for typed in found[-untyped:]]
             untyped, i = 0, i + 2
+        elif item == "-" and empty is not None:
+            _type_at(node, i + 1)
+            empty.append(node.line_of(i))
+            i += 2
         elif private and isinstance(item, Node) and item.head == PRIVATE:
-            found += typed_list(item, private, what)
+            found += typed_list(item, private, what, empty=empty)
             untyped, i = 0, i + 1
         else:
             name = _variable_at(node, i) if what == VARIABLE else name_at(node, i, what)

@@ -10,30 +10,28 @@ Type = tuple[str, ...]
 
 ANYTHING: Final[Type] = (OBJECT,)
 
+MAX_LEVELS: Final = 128
+"""Types above one another; who asks for what is above a type climbs them one by one."""
+
 
 class Types:
     """A type hierarchy: who is a subtype of whom.
 
     Args:
-        parents: by name, the type above it; ``object`` is above those that are not in it.
+        parents: by name, the type above it, without circles, and at most :data:`MAX_LEVELS` levels of
+            them; every type but ``object`` is in it.
     """
 
     def __init__(self, parents: Mapping[str, Type]) -> None:
         self.parents = parents
         self._subtypes: dict[tuple[Type, Type], bool] = {}
-        self._above: dict[str, frozenset[str]] = {OBJECT: frozenset(ANYTHING)}
-        for name in parents:
-            self._climb(name)
 
-    def _climb(self, name: str) -> frozenset[str]:
-        if name not in self._above:
-            self._above[name] = frozenset((name, OBJECT))  # ends a circle, which is refused elsewhere
-            above = [self._climb(parent) for parent in self.parents.get(name, ANYTHING)]
-            self._above[name] = self._above[name].union(*above)
-        return self._above[name]
+    def _above(self, name: str) -> set[str]:
+        """The type and all that are above it."""
+        return {name}.union(*map(self._above, self.parents.get(name, ())), ANYTHING)
 
     def __contains__(self, name: str) -> bool:
-        return name in self._above
+        return name in self.parents or name == OBJECT
 
     def is_subtype(self, kind: Type, expected: Type) -> bool:
         """Whether every object of type ``kind`` is of type ``expected``."""
@@ -51,7 +49,7 @@ class Types:
 
     def comparable(self, a: Type, b: Type) -> bool:
         """Whether an object may be of both: a name of one is above a name of the other."""
-        return any(x in self._above[y] or y in self._above[x] for x in a for y in b)
+        return any(x in self._above(y) or y in self._above(x) for x in a for y in b)
 
 
 def type_text(kind: Type) -> str:

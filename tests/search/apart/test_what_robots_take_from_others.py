@@ -6,7 +6,8 @@ from random import Random
 import pytest
 
 from search.apart import timeline
-from search.apart.detours import NEVER, detours, leaves
+from search.apart.detours import detours, leaves
+from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask
@@ -109,7 +110,7 @@ def test_the_cheapest_way_of_others() -> None:
     assert by_first[loaded >> shift, dropped >> shift] == 10
     assert by_first[dropped >> shift, dropped >> shift] == 0
     by_second = detours(packed, parcel, robots["load_r"], _ten)
-    assert by_second[start >> shift, dropped >> shift] == NEVER
+    assert by_second[start >> shift, dropped >> shift] == FAR
 
 
 def _hand_overs(dice: Random) -> Task:

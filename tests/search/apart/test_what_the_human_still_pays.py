@@ -8,10 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.apart.landmarks import FAR, Landmarks
+from search.apart.landmarks import Landmarks
 from search.apart.provision import Value
 from search.apart.remaining import left_to_pay
 from search.apart.rows import codes, column
+from search.packed.cost_vector import FAR
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from search.prepared_task import PreparedTask

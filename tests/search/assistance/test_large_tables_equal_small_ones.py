@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from search.assistance.distances import closure
 from search.assistance.distances.closure import Arc, Closure
 from search.assistance.distances.perimeter import ball_around
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
@@ -64,7 +64,7 @@ def systems(draw: st.DrawFn) -> tuple[list[Arc], PackedGoal]:
         put = sum(draw(st.sampled_from(VALUES[i])) for i in changed)
         keep = 0b111111 & ~sum(FIELDS[i] for i in changed)
         cost = draw(st.sampled_from([0, 1, 1, 2]))
-        return Arc(condition(), keep, put, (cost << 24) + draw(st.integers(1, 2)))
+        return Arc(condition(), keep, put, (cost << ACTIONS_BITS) + draw(st.integers(1, 2)))
 
     return [arc() for _ in range(draw(st.integers(1, 8)))], condition()
 
@@ -81,8 +81,12 @@ def test_ball_knows_the_distance_of_every_state_in_reach(
     while pending:
         state = pending.pop()
         distance = known.key(state)
-        rough = ball.key(state, limit << 24)
-        assert rough == distance if distance < limit << 24 else limit << 24 <= rough <= distance
+        rough = ball.key(state, limit << ACTIONS_BITS)
+        assert (
+            rough == distance
+            if distance < limit << ACTIONS_BITS
+            else limit << ACTIONS_BITS <= rough <= distance
+        )
         assert ball.key(state, INFINITE_KEY) == distance
         for arc in arcs:
             after = state & arc.keep | arc.put

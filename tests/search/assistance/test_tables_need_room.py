@@ -8,6 +8,7 @@ from search.assistance.distances import closure
 from search.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
 from search.assistance.distances.layers import Layers
 from search.assistance.distances.perimeter import PackedPlaces, ball_around
+from search.packed.cost_vector import ACTIONS_BITS
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.cases import case_5
@@ -33,7 +34,7 @@ class Late(Deadline):
 def line(length: int) -> tuple[list[Arc], PackedGoal, int]:
     """Steps from 0 to ``length - 1``, one after another; the last one is the goal."""
     mask = (1 << length.bit_length()) - 1
-    arcs = [Arc(PackedGoal(mask, at, ()), ~mask, at + 1, 1 << 24 | 1) for at in range(length - 1)]
+    arcs = [Arc(PackedGoal(mask, at, ()), ~mask, at + 1, (1 << ACTIONS_BITS) + 1) for at in range(length - 1)]
     return arcs, PackedGoal(mask, length - 1, ()), mask
 
 
@@ -41,7 +42,7 @@ def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.M
     monkeypatch.setattr(closure, "SMALL", 1)
     arcs, goal, mask = line(40)
     values = [list(range(40))]
-    assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * (1 << 24 | 1)
+    assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
     monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
     monkeypatch.setattr("search.assistance.distances.perimeter._LARGE", 0)
     with pytest.raises(ClosureTooLargeError):

@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity import Result, UsageError
-from serendipity.cli.text.policy_text import policy_lines, totals_line
+from serendipity.cli.text.policy_text import policy_lines
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_5, case_6, case_8
 
@@ -98,7 +98,7 @@ def test_policy_is_printed_as_a_plan_with_branches() -> None:
     text = "\n".join(policy_lines(case_5(), result))
     assert "walk p a b: go on at" in text
     assert "carry s b d" in text
-    assert totals_line(result) == "p pays 1.5, s pays 0.5 on average; alone p pays 2"
+    assert "p pays 1.5, s pays 0.5 on average; alone p pays 2" in str(result).splitlines()
 
 
 @pytest.mark.parametrize("ties", ["fixed", "robust", "optimistic", "expected"])

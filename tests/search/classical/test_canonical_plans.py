@@ -8,16 +8,16 @@ from hypothesis import strategies as st
 
 from search.classical.canonical import canonical_plan, in_order
 from search.classical.planner import ClassicalPlanner
-from search.classical.problem import NO_PLAN
 from search.kernel.library import library
+from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from serendipity import Task
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.builders import usar
+from serendipity.testing.builders import task, usar
 from serendipity.testing.strategies import tasks
-from tests.search.abstractions.test_bounds_are_admissible import packed_of
-from tests.search.classical.test_kernel_equals_brute_force import amounts, assert_leads_to_goal, planner_of
+from tests.search.abstractions.test_bounds_are_admissible import exact, packed_of
+from tests.search.classical.test_kernel_equals_brute_force import assert_leads_to_goal, planner_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
 
@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel he
 def first_of_all(packed: PackedTask, planner: ClassicalPlanner, costs: dict[int, int]) -> list[int] | None:
     """The smallest operators along which brute-force costs add up."""
     state, plan = packed.init, []
-    if costs[state] == NO_PLAN:
+    if costs[state] == INFINITE_KEY:
         return None
     while costs[state]:
         for number in planner.allowed(state):
@@ -41,22 +41,22 @@ def first_of_all(packed: PackedTask, planner: ClassicalPlanner, costs: dict[int,
 @given(tasks(), st.integers(0, 2**32))
 def test_the_canonical_plan_is_the_first(task: Task, seed: int) -> None:
     packed = packed_of(task)
-    planner, costs, random = planner_of(packed), amounts(packed), Random(seed)
+    planner, costs, random = planner_of(packed), exact(packed), Random(seed)
     expected = first_of_all(packed, planner, costs)
     assert canonical_plan(planner, packed.init, Deadline()) == expected
     for _ in range(5):  # whatever else has been asked
-        planner.cheapest(random.choice([*costs]), Deadline(), random.choice([NO_PLAN, 1 << 25, 1 << 26]))
+        planner.cheapest(random.choice([*costs]), Deadline(), random.choice([INFINITE_KEY, 1 << 33, 1 << 34]))
     assert canonical_plan(planner, packed.init, Deadline()) == expected
 
 
 @given(tasks())
 def test_plans_are_known_from_states_whose_cost_was_found(task: Task) -> None:
     packed = packed_of(task)
-    planner, costs = planner_of(packed), amounts(packed)
+    planner, costs = planner_of(packed), exact(packed)
     for state, cost in costs.items():
         found = planner.cheapest(state, Deadline())
         plan = planner.known_plan(state)
-        assert (plan is None) == (found == NO_PLAN)
+        assert (plan is None) == (found == INFINITE_KEY)
         if plan is not None:
             assert assert_leads_to_goal(packed, state, plan) == cost
 
@@ -64,7 +64,7 @@ def test_plans_are_known_from_states_whose_cost_was_found(task: Task) -> None:
 @given(tasks())
 def test_what_was_come_across_is_a_plan(task: Task) -> None:
     packed = packed_of(task)
-    for state, cost in amounts(packed).items():
+    for state, cost in exact(packed).items():
         planner = planner_of(packed)
         assert planner.best_so_far(state) is None
         planner.cheapest(state, Deadline(), limit=cost)  # none is below
@@ -89,7 +89,7 @@ class Ends(Deadline):
 def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("search.classical.planner.SLICE", 0)
     packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
-    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    planner, cost = planner_of(packed), exact(packed)[packed.init]
     kept = []
     for looks in range(1000):
         planner = planner_of(packed)
@@ -126,7 +126,25 @@ def test_operators_that_have_nothing_to_do_with_each_other_are_sorted() -> None:
         return Operator(asks, 0, ~sets, sets, ((forbids, forbids),) if forbids else (), 0, 1, 0)
 
     free = [op(0b0001, 0b0001), op(0b0010, 0b0010), op(0b0100, 0b0100)]
-    assert in_order(free, [2, 1, 0]) == [0, 1, 2]
-    assert in_order([op(0b0010, 0b0001), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # 0 asks for what 1 sets
-    assert in_order([op(0, 0b0010), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # both set it
-    assert in_order([op(0, 0b0001, 0b0010), *free[1:]], [2, 1, 0]) == [1, 0, 2]  # 0 must not find it
+    assert in_order(free, [2, 1, 0], Deadline()) == [0, 1, 2]
+    for other in (
+        op(0b0010, 0b0001),  # asks for what 1 sets
+        op(0, 0b0010),  # sets it, too
+        op(0, 0b0001, 0b0010),  # must not find it
+    ):
+        assert in_order([other, *free[1:]], [2, 1, 0], Deadline()) == [1, 0, 2]
+
+
+def test_the_clock_is_looked_at_while_a_long_plan_is_put_together() -> None:
+    many = 200
+    chores = {f"do{i} h": f"-> done{i}" for i in range(many)}
+    packed = packed_of(
+        task(agents="h r", human="h", goal=" ".join(f"done{i}" for i in range(many)), actions=chores)
+    )
+    planner = planner_of(packed)
+    planner.cheapest(packed.init, Deadline())
+    assert sorted(planner.known_plan(packed.init, Ends(20)) or ()) == [*range(many)]
+    with pytest.raises(LimitReachedError):
+        planner.known_plan(packed.init, Ends(5))
+    with pytest.raises(LimitReachedError):
+        in_order(planner.problem.operators, range(many), Ends(100))

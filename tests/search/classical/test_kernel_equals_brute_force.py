@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from search.classical import planner as planner_module
 from search.classical.planner import ClassicalPlanner
-from search.classical.problem import NO_PLAN
 from search.human.own_problem import own_planner
 from search.kernel.build import compile_kernel, compiler
 from search.kernel.library import BINARY, SOURCE, library, load
@@ -35,11 +34,6 @@ def planner_of(packed: PackedTask) -> ClassicalPlanner:
     return planner
 
 
-def amounts(packed: PackedTask) -> dict[int, int]:
-    """The cheapest amount from each state that the human can reach alone, by brute force."""
-    return {state: NO_PLAN if key >= INFINITE_KEY else key for state, key in exact(packed).items()}
-
-
 def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> int:
     """Replay operators; what they weigh."""
     weights, total = own_weights(packed), 0
@@ -54,7 +48,7 @@ def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> 
 @given(tasks())
 def test_bounds_never_exceed(task: Task) -> None:
     packed = packed_of(task)
-    planner, costs = planner_of(packed), amounts(packed)
+    planner, costs = planner_of(packed), exact(packed)
     for state, cost in costs.items():
         assert planner.bound(state, Deadline()) <= cost
     # All ways to break ties, and what follows from one state for the next.
@@ -66,7 +60,7 @@ def test_bounds_never_exceed(task: Task) -> None:
 @given(tasks())
 def test_tables_never_exceed(task: Task) -> None:
     packed = packed_of(task)
-    planner, costs = planner_of(packed), amounts(packed)
+    planner, costs = planner_of(packed), exact(packed)
     planner.cheapest(packed.init, Deadline(), limit=1)  # the start is a sample
     planner._make_tables(Deadline())
     for state, cost in costs.items():
@@ -77,10 +71,10 @@ def test_tables_never_exceed(task: Task) -> None:
 @given(tasks())
 def test_a_new_planner_finds_the_optimum(task: Task) -> None:
     packed = packed_of(task)
-    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    planner, cost = planner_of(packed), exact(packed)[packed.init]
     assert planner.cheapest(packed.init, Deadline()) == cost
     found = planner.cheapest_plan(packed.init, Deadline())
-    assert (found is None) == (cost == NO_PLAN)
+    assert (found is None) == (cost == INFINITE_KEY)
     if found is not None:
         assert assert_leads_to_goal(packed, packed.init, found) == cost
 
@@ -88,11 +82,13 @@ def test_a_new_planner_finds_the_optimum(task: Task) -> None:
 @given(tasks(), st.integers(0, 2**32))
 def test_what_was_learnt_changes_no_answer(task: Task, seed: int) -> None:
     packed = packed_of(task)
-    planner, costs, random = planner_of(packed), amounts(packed), Random(seed)
-    weights = sorted({*costs.values()} - {NO_PLAN}) or [1]
+    planner, costs, random = planner_of(packed), exact(packed), Random(seed)
+    weights = sorted({*costs.values()} - {INFINITE_KEY}) or [1]
     for _ in range(3 * len(costs)):
         state, cost = random.choice([*costs.items()])
-        limit = random.choice([NO_PLAN, NO_PLAN, random.choice(weights), random.choice(weights) + 1])
+        limit = random.choice(
+            [INFINITE_KEY, INFINITE_KEY, random.choice(weights), random.choice(weights) + 1]
+        )
         found = planner.cheapest(state, Deadline(), limit)
         assert found == cost if cost < limit else found >= limit
         some = random.choice([*costs])
@@ -123,7 +119,7 @@ def interrupted(packed: PackedTask, limit: int, asked: Callable[[], list[int]]) 
                 found = planner.go_on(Impatient())
     assert not planner.is_open
     best = planner.best_so_far(packed.init)
-    if found < min(limit, NO_PLAN):
+    if found < min(limit, INFINITE_KEY):
         assert best is not None and assert_leads_to_goal(packed, packed.init, best) == found
     return found
 
@@ -131,9 +127,9 @@ def interrupted(packed: PackedTask, limit: int, asked: Callable[[], list[int]]) 
 @given(tasks(), st.integers(0, 2**32))
 def test_an_interrupted_search_goes_on(task: Task, seed: int) -> None:
     packed = packed_of(task)
-    costs, random = amounts(packed), Random(seed)
+    costs, random = exact(packed), Random(seed)
     cost = costs[packed.init]
-    limit = random.choice([NO_PLAN, cost, min(cost + 1, NO_PLAN)])
+    limit = random.choice([INFINITE_KEY, cost, min(cost + 1, INFINITE_KEY)])
     found = interrupted(packed, limit, lambda: random.sample([*costs], min(10, len(costs))))
     assert found == cost if cost < limit else found >= limit
 
@@ -143,7 +139,7 @@ def test_bounds_of_states_that_wait_lose_none() -> None:
         packed = packed_of(family_task("blocks", seed, 5))
         cost, random = planner_of(packed).cheapest(packed.init, Deadline()), Random(seed)
         near = sorted({walked(packed, random) for _ in range(300)})
-        assert interrupted(packed, NO_PLAN, partial(random.sample, near, min(20, len(near)))) == cost
+        assert interrupted(packed, INFINITE_KEY, partial(random.sample, near, min(20, len(near)))) == cost
 
 
 def walked(packed: PackedTask, random: Random) -> int:
@@ -159,10 +155,10 @@ def walked(packed: PackedTask, random: Random) -> int:
 @given(tasks())
 def test_a_first_plan_is_a_plan(task: Task) -> None:
     packed = packed_of(task)
-    planner, costs = planner_of(packed), amounts(packed)
+    planner, costs = planner_of(packed), exact(packed)
     for state, cost in costs.items():
         found = planner.first_plan(state, Deadline())
-        assert (found is None) == (cost == NO_PLAN)
+        assert (found is None) == (cost == INFINITE_KEY)
         if found is not None:
             assert assert_leads_to_goal(packed, state, found) >= cost
 
@@ -191,7 +187,7 @@ def frugal(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 @pytest.mark.usefixtures("frugal")
 def test_memory_is_asked_for() -> None:
     packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
-    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    planner, cost = planner_of(packed), exact(packed)[packed.init]
     for ask in (planner.cheapest, planner.first_plan, planner.bound):
         with pytest.raises(LimitReachedError):
             ask(packed.init, Refusing(1000))
@@ -202,7 +198,7 @@ def test_memory_is_asked_for() -> None:
 @pytest.mark.usefixtures("frugal")
 def test_what_was_allocated_is_kept_while_more_is_asked_for() -> None:
     packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
-    planner, cost = planner_of(packed), amounts(packed)[packed.init]
+    planner, cost = planner_of(packed), exact(packed)[packed.init]
     found = planner.first_plan(packed.init, Refusing(1e8))
     assert found is not None
     assert assert_leads_to_goal(packed, packed.init, found) >= cost

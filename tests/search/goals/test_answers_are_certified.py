@@ -24,6 +24,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import Call
 from verify.goals import together
 from verify.goals.beliefs import compiled
+from verify.limits import limited
 
 _FAR = (Fraction(10**9), Fraction(10**9))
 
@@ -275,13 +276,13 @@ def test_nobody_reaches_anything() -> None:
     assert serendipity.verify(workshop("!q -> z @ 5"), Result.from_dict(possible)).verdict == "refuted"
 
 
-def test_limits_leave_it_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_limits_leave_it_undecided() -> None:
     task, doctored = _answer()
     answer = helped(task, 1, 1)
     assert _verdicts(serendipity.verify(task, answer, time_limit=0))["optimal"][0] == "undecided"
     _left_alone(doctored)  # what each goal by itself allows does not settle it
-    monkeypatch.setattr(together, "MOST_NODES", 0)
-    certificate = serendipity.verify(task, Result.from_dict(doctored))
+    with limited(robots_plans=0):
+        certificate = serendipity.verify(task, Result.from_dict(doctored))
     assert _verdicts(certificate)["no_opportunity"] == ("undecided", "more than 0 robots' plans")
 
 

@@ -16,6 +16,8 @@ TRIAGE = "conducted_triage commx room1"
         ("", ["goals.txt", "at least one goal"]),
         ("# nothing\n\n; at all\n", ["goals.txt", "at least one goal"]),
         ("[]", ["goals.txt", "at least one goal"]),
+        ("1: conducted_triage room1\n", ["goals.txt:1", "perhaps 'conducted_triage commx room1'"]),
+        ("1: condcted_triage room1\n", ["goals.txt:1", "perhaps 'conducted_triage commx room1'"]),
         (f"1: {TRIAGE}\n2: no such fact\n", ["goals.txt:2", "there is no fact 'no such fact'"]),
         (f'[{{"goal": ["{TRIAGE}"]}},\n {{"goal": ["nix"]}}]', ["goals.txt:2", "there is no fact 'nix'"]),
         (f"-1: {TRIAGE}", ["goals.txt:1", "prior", "at least 0"]),

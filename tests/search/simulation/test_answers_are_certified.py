@@ -10,13 +10,14 @@ from hypothesis import given, settings
 import serendipity
 from serendipity.model import Certificate, Options, PlanStep, Result, Task, surroundings
 from serendipity.testing.builders import task as build
+from serendipity.testing.by_hand import result
 from serendipity.testing.cases import case_1, case_2, case_4
 from serendipity.testing.oracle.reactions import best_reaction
 from tests.search.simulation.strategies import Reaction, reactions
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import Call
-from verify.certificate import reactions as played
 from verify.certificate.reactions import cheapest_reaction
+from verify.limits import limited
 
 MODELS = ["observant", "local"]
 
@@ -155,12 +156,12 @@ def test_infeasible_is_examined() -> None:
     assert _verdicts(serendipity.verify(task, denied))["infeasible"] == "refuted"
 
 
-def test_limits_leave_it_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_limits_leave_it_undecided() -> None:
     task = case_1()
     result = serendipity.plan(task, discount="0.9", human_model="observant")
     assert _verdicts(serendipity.verify(task, result, time_limit=0))["optimal"] == "undecided"
-    monkeypatch.setattr(played, "MOST_MOMENTS", 3)
-    only_played = serendipity.verify(task, result, method="exhaustive")
+    with limited(moments=3):
+        only_played = serendipity.verify(task, result, method="exhaustive")
     assert _verdicts(only_played)["optimal"] == "undecided"
 
 
@@ -189,3 +190,14 @@ def test_a_moment_that_a_later_epoch_reaches_at_less_cost_costs_what_it_did() ->
     result = serendipity.plan(task, discount=0.9, ties="optimistic", human_model="local")
     assert result.cost == 8.1
     assert serendipity.verify(task, result).verdict == "proved"
+
+
+@pytest.mark.parametrize("human_model", MODELS)
+def test_without_help_the_answer_is_the_humans_own_plan(human_model: str) -> None:
+    """``do h`` once more than needed, at twice the cost, said to be the best."""
+    task = build(goal="g", actions={"do h": "-> g", "idle r": "-> q"})
+    right = serendipity.plan(task, human_model=human_model, horizon=2)
+    twice = result(task, {1: "do h", 2: "do h"}, human_plan=("do h",), human_model=human_model, horizon=2)
+    twice = replace(twice, saving=0.0, realised=right.realised)
+    assert serendipity.verify(task, right).verdict == "proved"
+    assert serendipity.verify(task, twice).verdict == "refuted"

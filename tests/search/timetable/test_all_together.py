@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from itertools import chain
+from math import lcm
 from random import Random
 
 import pytest
@@ -18,6 +19,7 @@ from search.timetable import epochs
 from search.timetable.all_together import AllTogether
 from serendipity.evaluation.crosscheck import random_call
 from serendipity.model import Options, Task
+from serendipity.model.numbers import as_written
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import conflicting
 from serendipity.testing.builders import task as build
@@ -47,6 +49,12 @@ def _drawn(seed: int) -> tuple[Task, Options]:
     return call.task, ONE_EPOCH.but(**rules)
 
 
+def _largest_cost(task: Task, options: Options) -> int:
+    """In whole units: the kernel's layers are for those that are not too many."""
+    costs = [task.team_cost(action, options.discount) for action in task.actions]
+    return int(max(costs) * lcm(*(cost.denominator for cost in costs)))
+
+
 def _looked_at(task: Task, options: Options) -> tuple[SearchContext, Incumbent, Progress] | None:
     """What is found from ``pi_H`` as the incumbent; None where the human has no plan, or needs none."""
     context = SearchContext(PreparedTask(task), options, Deadline())
@@ -74,7 +82,8 @@ def test_the_best_window_of_one_epoch_is_found(
     better = 0
     for seed in range(250):
         task, options = draw(seed)  # type: ignore[operator]
-        found = None if task.robot_goal.positive or task.robot_goal.negative else _looked_at(task, options)
+        asked = not task.robot_goal and _largest_cost(task, options) < 1 << 20
+        found = _looked_at(task, options) if asked else None
         if found is None:
             continue
         context, incumbent, progress = found
@@ -96,10 +105,7 @@ def test_a_call_that_it_settles(monkeypatch: pytest.MonkeyPatch) -> None:
         task, options = _of_family(seed)
         answer = serendipity.plan(task, discount=options.discount, interference=options.interference)
         if answer.status == "optimal":
-            assert (
-                Fraction(str(answer.objective)).limit_denominator(10**6)
-                == best(task, answer.options).objective
-            )
+            assert as_written(answer.objective or 0.0) == best(task, answer.options).objective
             assert serendipity.check(task, answer).verdict != "refuted"
 
 

@@ -10,6 +10,7 @@ from serendipity.testing.countdown import Countdown
 from verify.beside import leavings, rows
 from verify.beside.leavings import differences, together
 from verify.beside.rows import Collected, Layer, cheapest
+from verify.limits import limited
 from verify.packed.cheapest_path import TooManyStatesError
 
 MANY = 10**9
@@ -59,13 +60,12 @@ def test_the_clock_is_looked_at_word_by_word() -> None:
 
 
 def test_too_many_together_are_given_up_as_soon_as_they_are_too_many(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(leavings, "_MOST", 100)
     monkeypatch.setattr(leavings, "_AT_ONCE", 40)
     monkeypatch.setattr(rows, "_AT_ONCE", 40)
     low = np.arange(1, 101, dtype=np.uint64).reshape(-1, 1)
     free = np.zeros(100, np.int64)
     deadline = Countdown(MANY)
-    with pytest.raises(TooManyStatesError):
+    with limited(left_behind=100), pytest.raises(TooManyStatesError):
         together([(low, free), (low << np.uint64(10), free)], 0, deadline)
     assert looks_of(deadline) < 100  # there are 10,000 pairs of them, which would be 100 looks and more
 

@@ -15,6 +15,7 @@ NO_CLAIM: Final = (
     "policy.floors",
     "realised",
     "statistics.constraints",
+    "statistics.kernel",
     "statistics.elapsed_seconds",
     "statistics.encoding",
     "statistics.expanded",
@@ -25,6 +26,7 @@ NO_CLAIM: Final = (
     "statistics.solver_calls",
     "statistics.ties.*.realised",
     "statistics.variables",
+    "version",
 )
 """Fields without a claim, and what is below them; ``realised`` may say less than it could."""
 

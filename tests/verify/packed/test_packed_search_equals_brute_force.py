@@ -15,6 +15,7 @@ from serendipity.testing.strategies import tasks
 from verify.base.execution import State, after, applicable, states_of_pi_h
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
+from verify.limits import limited
 from verify.packed import operators as packed
 from verify.packed.bounds import LITTLE
 from verify.packed.mutexes import Pairs
@@ -171,25 +172,22 @@ def test_several_starts_share_a_search() -> None:
 
 
 @pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
-def test_the_human_alone_packed_and_not(
-    name: str, seed: int, size: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_human_alone_packed_and_not(name: str, seed: int, size: int) -> None:
     task = family_task(name, seed, size)
     plain = IndividualOptimum(task)
-    monkeypatch.setattr("verify.base.individual._MANY", 0)
     packed = IndividualOptimum(task)
     states = reached(task)
     for state in states[:: max(1, len(states) // 15)]:
-        with monkeypatch.context() as patch:
-            patch.setattr("verify.base.individual._MANY", 10**9)
+        with limited(many_own_states=10**9):
             expected = plain.optimum(state)
-        assert packed.optimum(state) == expected
-        if expected is not None:
-            cost, length = expected
-            assert IndividualOptimum(task).within(state, cost, length)
-            assert not length or not IndividualOptimum(task).within(state, cost, length - 1)
-        else:
-            assert not IndividualOptimum(task).within(state, Fraction(1000), 1000)
+        with limited(many_own_states=0):
+            assert packed.optimum(state) == expected
+            if expected is not None:
+                cost, length = expected
+                assert IndividualOptimum(task).within(state, cost, length)
+                assert not length or not IndividualOptimum(task).within(state, cost, length - 1)
+            else:
+                assert not IndividualOptimum(task).within(state, Fraction(1000), 1000)
 
 
 @pytest.mark.parametrize(("name", "seed", "size"), FAMILY)

@@ -1,6 +1,7 @@
 """What is proved is written down, and anybody who reads it again agrees."""
 
 import gzip
+import itertools
 import json
 import os
 import subprocess
@@ -26,6 +27,7 @@ from tests.verify.test_ip_parts import DETOUR
 from tests.verify.untrue import dearer
 from verify.base.undecided import UndecidedError
 from verify.calls.solve import solve
+from verify.limits import limited
 from verify.proofs.checker import RejectedProofError, program, refute
 from verify.proofs.tree import refutation
 from verify.solvers.mip import Model
@@ -242,3 +244,15 @@ def test_a_leaf_that_leaves_something_is_rejected() -> None:
     }
     with pytest.raises(RejectedProofError, match="leaf 1 leaves something"):
         refute(program(entry, "program"))
+
+
+def test_numbers_beyond_machine_words_are_added_up_exactly() -> None:
+    """Of three sets two are needed, where one is paid for; a limit on all of them is far away."""
+    model = Model()
+    columns = [model.binary() for _ in range(3)]
+    model.objective = dict.fromkeys(columns, 1)
+    model.add(dict.fromkeys(columns, 7), "<=", 10**25)
+    for pair in itertools.combinations(columns, 2):
+        model.add(dict.fromkeys(pair, 1), ">=", 1)
+    with limited(coefficient=10**26):
+        refute(program(entry(model, 1), "covering"))

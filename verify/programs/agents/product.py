@@ -13,18 +13,10 @@ from typing import Final
 
 from serendipity.model import Deadline, GroundAction, Task
 from verify.base.relevance import Relevant
-
-MOST_STATES: Final = 2000
-"""Facts are left out of an automaton, and become shared ones, rather than pass this size."""
-
-STATES_A_VALUE: Final = 24
-"""The same, for each value of the variable with the most values: an automaton without it says little."""
+from verify.limits import limits
 
 _SMALL: Final = 4
 """States of a small automaton for each fact of its largest group."""
-
-_LARGE: Final = 100_000
-"""Moves of an automaton that is large enough: once a fact does not fit, no other is tried."""
 
 _MANY: Final = 500_000
 """Moves from which on there may be no memory for more."""
@@ -94,7 +86,7 @@ def automata(
     owner = private_facts(task, part, deadline) if owner is None else owner
     result = []
     largest = max((len(variable.facts) for variable in task.variables), default=0)
-    most = max(MOST_STATES, STATES_A_VALUE * largest)
+    most = max(limits().automaton_states, limits().states_a_value * largest)
     for agent in range(len(task.agents)):
         mine = frozenset(f for f, a in deadline.each(owner.items()) if a == agent)
         actions = {
@@ -166,7 +158,7 @@ class SmallAutomata:
         actions = {i: task.actions[i] for i in each(part.actions) if agent in task.actions[i].participants}
         goals = (*task.goal.positive, *task.goal.negative)
         goal = [f for f in goals if f in self._mine[agent] and f not in facts]
-        most = max(MOST_STATES, _SMALL * len(facts))
+        most = max(limits().automaton_states, _SMALL * len(facts))
         explorer = _Explorer(task, part, agent, actions, most, self._deadline)
         found = (
             explorer.explore(facts.union(goal[:1], others))
@@ -208,7 +200,7 @@ class _Explorer:
         assert best is not None
         for piece in sorted(pieces, key=lambda piece: (-len(piece), min(piece))):
             larger = self.explore(best.facts | piece)
-            if larger is None and sum(map(len, best.moves)) > _LARGE:
+            if larger is None and sum(map(len, best.moves)) > limits().automaton_moves:
                 break
             best = larger or best
         return best

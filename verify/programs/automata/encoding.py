@@ -8,10 +8,10 @@ from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
+from verify.limits import limits
 from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
 from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
-    FAR,
     HumanNetwork,
     Network,
     RobotNetwork,
@@ -25,9 +25,6 @@ from verify.programs.automata.suffixes import bound_suffix
 from verify.programs.automata.windows import keep_within_windows
 from verify.programs.promising import OfState, Team, keep_promising
 from verify.solvers.mip import Model
-
-MANY_ACTIONS: Final = 5_000
-"""Actions from which on small automata go before the large ones."""
 
 _WORTH: Final = 0.9
 """A turn of small automata that leaves more than this share of the actions was idle."""
@@ -88,11 +85,11 @@ class AutomataEncoding:
         self, part: Relevant, owner: Mapping[int, int], expected: tuple[frozenset[int], ...]
     ) -> Relevant | None:
         """What small automata leave of many actions; None if there is no plan within the limits."""
-        if len(part.actions) <= MANY_ACTIONS:
+        if len(part.actions) <= limits().many_actions:
             return part
         task, idle = self.question.task, 0
         small = SmallAutomata(task, self._groups, self.deadline, owner)
-        while len(part.actions) > MANY_ACTIONS and idle < _IDLE_TURNS:
+        while len(part.actions) > limits().many_actions and idle < _IDLE_TURNS:
             machines = small.turn(part)
             if machines is None:
                 break
@@ -171,7 +168,7 @@ class AutomataEncoding:
             networks=networks,
             human=human,
             horizon=question.horizon,
-            most=FAR - 1 if question.most is None else question.most,
+            most=question.largest,
             wanted_true=wanted_true,
             wanted_false=wanted_false,
             finals=finals,
@@ -211,7 +208,7 @@ class AutomataEncoding:
                 neg=neg,
                 price=[a + b for a, b in zip(prices.team, prices.talk, strict=True)],
                 horizon=question.horizon,
-                most=FAR - 1 if question.most is None else question.most - window,
+                most=question.largest - window,
                 wanted_true=wanted_true,
                 wanted_false=wanted_false,
                 finals=[goal_states(question, machine) for machine in machines],

@@ -5,7 +5,7 @@ then, and, for a joint action, an arc of the same action for each participant.
 from collections.abc import Callable
 from typing import Final
 
-from verify.programs.automata.network import ACTION, FAR, WAIT, Arc, actions_of
+from verify.programs.automata.network import ACTION, WAIT, Arc, actions_of
 from verify.programs.automata.setting import Setting
 
 _MANY: Final = 50_000
@@ -80,7 +80,10 @@ class Forward:
             for arc in network.outgoing(node, epoch):
                 _, target, action, weight, needs = arc
                 state = network.state_of[target]
-                in_reach = actions[state] <= left and done + weight + weights[state] <= setting.most
+                left_to_do, left_to_pay = actions[state], weights[state]
+                if left_to_do is None or left_to_pay is None:
+                    continue
+                in_reach = left_to_do <= left and done + weight + left_to_pay <= setting.most
                 if in_reach and usable(action) and needs <= self.true:
                     found.append(arc)
         return found
@@ -113,9 +116,10 @@ class Forward:
             self.deadline.require(len(arcs) * _BYTES_AN_ARC)
         before = self.reach[k][-1]
         reached: dict[int, int] = {}
+        far = self.setting.far
         for source, target, _, weight, _ in self.deadline.each(arcs):
             total = before[source] + weight
-            if total < reached.get(target, FAR):
+            if total < reached.get(target, far):
                 reached[target] = total
         self.setting.networks[k].layers[epoch - 1] = arcs
         self.reach[k].append(reached)

@@ -25,9 +25,6 @@ TARGET: Final = 1
 ACTION: Final = 2
 """Where an arc has its nodes and its action; tuples, since named ones take five times as long to make."""
 
-FAR: Final = 10**15
-"""More than any sum of weights: no way there."""
-
 
 @dataclass(slots=True)
 class Network:
@@ -155,8 +152,8 @@ def actions_of(arcs: Iterable[Arc], deadline: Deadline) -> set[int]:
 
 def distances(
     automaton: Automaton, weights: list[int], goals: set[int], deadline: Deadline
-) -> tuple[list[int], list[int]]:
-    """Least weight and fewest actions from each automaton state to a goal state; a lower bound.
+) -> tuple[list[int | None], list[int | None]]:
+    """Least weight and fewest actions from each automaton state to a goal state; None: there is no way.
 
     Args:
         automaton: states and moves.
@@ -172,7 +169,7 @@ def distances(
     least = dijkstra(ends.items(), backward.__getitem__, deadline)
     fewest = dijkstra(ends.items(), lambda state: ((source, 1) for source, _ in backward[state]), deadline)
     states = range(len(backward))
-    return [least.get(state, FAR) for state in states], [fewest.get(state, FAR) for state in states]
+    return [least.get(state) for state in states], [fewest.get(state) for state in states]
 
 
 def goal_states(question: Subproblem, automaton: Automaton) -> set[int]:

@@ -14,7 +14,7 @@ from collections import defaultdict
 from collections.abc import Container, Mapping, Sequence
 
 from verify.programs.automata.forward import Forward
-from verify.programs.automata.network import FAR, SOURCE, TARGET, WAIT, Arc, actions_of
+from verify.programs.automata.network import SOURCE, TARGET, WAIT, Arc, actions_of
 from verify.programs.automata.setting import Setting
 
 MOST_ROUNDS = 6
@@ -26,7 +26,8 @@ def unroll(setting: Setting) -> bool:
     A unit of flow in layers of arcs is made of such paths, so the rows say the same of what is dropped;
     what the arcs need may be true if nothing is ever deleted.
     """
-    setting.bounds = [0] * len(setting.bounds[0]), [0] * len(setting.bounds[1])
+    count = len(setting.bounds[0])
+    setting.bounds = [0] * count, [0] * count
     forward = Forward(setting)
     forward.unroll()
     count = -1
@@ -76,7 +77,7 @@ def _least_weights(setting: Setting, forward: Forward) -> bool:
     robots = [k for k in range(len(setting.networks)) if k != human]
     provided = _Providers(setting, forward, robots)
     through = _human_backward(setting, forward, provided)
-    if not through.cheapest < FAR:
+    if not through.cheapest < setting.far:
         return False
     for k in robots:
         if setting.networks[k].open_end:
@@ -112,7 +113,7 @@ class _Providers:
         for source, _, action, weight, _ in self.setting.deadline.each(layer):
             if action != WAIT:
                 total = before[source] + weight
-                if total < cheapest.get(action, FAR):
+                if total < cheapest.get(action, self.setting.far):
                     cheapest[action] = total
         for i, total in self.setting.deadline.each(cheapest.items()):
             ground = self.setting.task.actions[i]
@@ -132,17 +133,17 @@ class _Providers:
         pre = (*self.setting.outer_pre[action], *needs) if action != WAIT else tuple(needs)
         for f in pre:
             if f not in init and f not in inside and f not in self.his_true:
-                most = max(most, _cheapest_before(self.true[f], epoch))
+                most = max(most, _cheapest_before(self.true[f], epoch, self.setting.far))
         if action != WAIT:
             for f in self.setting.outer_neg[action]:
                 if f in init and f not in inside and f not in self.his_false:
-                    most = max(most, _cheapest_before(self.false[f], epoch))
+                    most = max(most, _cheapest_before(self.false[f], epoch, self.setting.far))
             most = max(most, sum(self.joint.get((action, epoch), ())))
         return most
 
 
-def _cheapest_before(providers: list[tuple[int, int]], epoch: int) -> int:
-    return min((total for when, total in providers if when < epoch), default=FAR)
+def _cheapest_before(providers: list[tuple[int, int]], epoch: int, far: int) -> int:
+    return min((total for when, total in providers if when < epoch), default=far)
 
 
 class _Through:
@@ -150,7 +151,7 @@ class _Through:
 
     def __init__(self, setting: Setting) -> None:
         self.setting = setting
-        self.cheapest = FAR
+        self.cheapest = self.far = setting.far
         self.true: dict[int, list[tuple[int, int]]] = defaultdict(list)
         self.false: dict[int, list[tuple[int, int]]] = defaultdict(list)
         self.joint: dict[tuple[int, int], int] = {}
@@ -159,17 +160,17 @@ class _Through:
 
     def note(self, epoch: int, kept: Sequence[Arc], totals: Sequence[int]) -> None:
         """An epoch's arcs that are kept, each with the least weight of a path through it."""
-        self.cheapest = min(totals, default=FAR)
+        self.cheapest = min(totals, default=self.far)
         least: dict[tuple[int, frozenset[int]], int] = {}
-        active, in_suffix = FAR, self.setting.human.in_suffix
+        active, in_suffix = self.far, self.setting.human.in_suffix
         for (_, target, action, _, needs), total in self.setting.deadline.each(
             zip(kept, totals, strict=True)
         ):
-            if total < least.get((action, needs), FAR):
+            if total < least.get((action, needs), self.far):
                 least[action, needs] = total
             if total < active and not in_suffix(target):
                 active = total
-        if active < FAR:
+        if active < self.far:
             self.active[epoch] = active
         for (action, needs), total in self.setting.deadline.each(least.items()):
             self._note_uses(action, epoch, needs, total)
@@ -185,7 +186,7 @@ class _Through:
             self.false[f].append((epoch, total))
         if len(self.setting.task.actions[action].participants) > 1:
             key = (action, epoch)
-            self.joint[key] = min(total, self.joint.get(key, FAR))
+            self.joint[key] = min(total, self.joint.get(key, self.far))
 
 
 def _human_backward(setting: Setting, forward: Forward, provided: _Providers) -> _Through:
@@ -247,30 +248,28 @@ def _before(kept: Sequence[Arc], after: Mapping[int, int]) -> dict[int, int]:
     before: dict[int, int] = {}
     for source, target, _, weight, _ in kept:
         rest = weight + after[target]
-        if rest < before.get(source, FAR):
-            before[source] = rest
+        before[source] = min(rest, before.get(source, rest))
     return before
 
 
 def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Through) -> None:
     """A robot that may stop anywhere: it does so after an arc of which somebody makes use."""
-    network, use = setting.networks[k], _Use(setting, k, through)
+    network, use, far = setting.networks[k], _Use(setting, k, through), setting.far
     after: dict[int, int] = {}
     for epoch in range(setting.horizon, 0, -1):
         reached = forward.reach[k][epoch - 1]
-        exits: dict[int, int] = {WAIT: FAR}
-        active = through.active.get(epoch, FAR)
+        exits: dict[int, int] = {WAIT: far}
+        active = through.active.get(epoch, far)
         kept: list[Arc] = []
         before: dict[int, int] = {}
         for arc in setting.deadline.each(network.layers[epoch - 1]):
             source, target, action, weight, _ = arc
             if action not in exits:
                 exits[action] = max(use.least(action, epoch), active)
-            rest = weight + min(exits[action], after.get(target, FAR))
-            if reached[source] + rest <= setting.most and (action == WAIT or active < FAR):
+            rest = weight + min(exits[action], after.get(target, far))
+            if reached[source] + rest <= setting.most and (action == WAIT or active < far):
                 kept.append(arc)
-                if rest < before.get(source, FAR):
-                    before[source] = rest
+                before[source] = min(rest, before.get(source, rest))
         network.layers[epoch - 1] = kept
         after = before
 
@@ -289,10 +288,10 @@ class _Use:
         ground, through = self.setting.task.actions[action], self.through
         if len(ground.participants) > 1:
             with_human = self.setting.task.human in ground.participants
-            return through.joint.get((action, epoch), FAR) if with_human else through.cheapest
+            return through.joint.get((action, epoch), through.far) if with_human else through.cheapest
         return min(
-            _worth(ground.add, epoch, self.true, through.true, through.cheapest),
-            _worth(ground.delete, epoch, self.false, through.false, through.cheapest),
+            _worth(ground.add, epoch, self.true, through.true, through),
+            _worth(ground.delete, epoch, self.false, through.false, through),
         )
 
 
@@ -312,12 +311,12 @@ def _worth(
     epoch: int,
     used: set[int],
     by_human: dict[int, list[tuple[int, int]]],
-    cheapest: int,
+    through: _Through,
 ) -> int:
     """Least weight of the human's path if one of the facts is made use of after ``epoch``."""
-    best = FAR
+    best = through.far
     for f in facts:
         if f in used:
-            return cheapest
-        best = min(best, min((total for when, total in by_human.get(f, ()) if when > epoch), default=FAR))
+            return through.cheapest
+        best = min(best, min((total for when, total in by_human.get(f, ()) if when > epoch), default=best))
     return best

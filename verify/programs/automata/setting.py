@@ -24,10 +24,11 @@ class Setting:
         wanted_false: facts that a goal wants false.
         finals: end nodes' automaton states that the goals allow, by agent.
         deadline: polled by the pruning and the program.
-        bounds: for the human's automaton states, least weight and actions to a goal state.
+        bounds: for the human's automaton states, least weight and actions to a goal state; None: no way.
         spare: what robots may have spent, at most, when one of them is in an automaton state and goes on.
         latest: the epoch after which that is too late.
         last: the human's nodes in which a plan may end; None where pruning has left no other.
+        far: more than a plan within the limit weighs, and than there are epochs: as good as no way.
         outer_pre: facts outside the participants' automata that each action needs true.
         outer_neg: the same, false.
     """
@@ -42,14 +43,16 @@ class Setting:
     wanted_false: frozenset[int]
     finals: list[set[int]]
     deadline: Deadline
-    bounds: tuple[list[int], list[int]]
+    bounds: tuple[list[int | None], list[int | None]]
     spare: OfState | None = None
     latest: OfState | None = None
     last: frozenset[int] | None = None
+    far: int = field(init=False)
     outer_pre: dict[int, tuple[int, ...]] = field(default_factory=dict)
     outer_neg: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.far = max(self.most, self.horizon) + 1
         machines = [network.automaton for network in self.networks]
         self.outer_pre, self.outer_neg = outer_needs(self.task, self.part, machines, self.deadline)
 

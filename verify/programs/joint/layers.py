@@ -16,12 +16,12 @@ within the limit, has kept those as well.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Final
 
 from serendipity.model import Deadline, Step, Window
 from verify.base.subproblem import FREE, WINDOW, Subproblem
+from verify.limits import limits
 from verify.programs.automata.control import INSIDE
-from verify.programs.automata.network import FAR, WAIT, Arc
+from verify.programs.automata.network import WAIT, Arc
 from verify.programs.automata.setting import Setting
 from verify.programs.joint.shared import STOPPED, SharedFacts
 
@@ -31,10 +31,6 @@ _Joint = tuple[int, ...]
 
 _Layer = dict[_Joint, tuple[int, int]]
 """What was paid for each joint state, and what robots paid of that."""
-
-
-MOST_STATES: Final = 100_000
-"""Joint states that are kept at most."""
 
 
 class JointPathsError(Exception):
@@ -114,7 +110,7 @@ class JointLayers:
                     if better and self._hopeful(epoch, after, total, by_robots):
                         following[after] = total, by_robots
                         parents[after] = joint, actions
-                if self.states + len(following) > MOST_STATES:
+                if self.states + len(following) > limits().joint_paths:
                     raise JointPathsError
             layer = self._improved(following, best)
             self.states += len(layer)
@@ -142,10 +138,10 @@ class JointLayers:
         for joint, both in layer.items():
             paid = both[0]
             if self._may_wait(joint):
-                least = min(best.get(other, FAR) for other in _less_waited(joint))
-                if paid >= least and not self._may_end(joint):
+                known = (best[other] for other in _less_waited(joint) if other in best)
+                if paid >= min(known, default=paid + 1) and not self._may_end(joint):
                     continue
-                best[joint] = min(paid, best.get(joint, FAR))
+                best[joint] = min(paid, best.get(joint, paid))
             kept[joint] = both
         return kept
 
@@ -301,11 +297,11 @@ class JointLayers:
         for epoch in range(setting.horizon, 0, -1):
             before: dict[int, int] = {}
             for source, target, action, weight, _ in self._deadline.each(network.layers[epoch - 1]):
-                rest = after.get(target, FAR)
+                rest = after.get(target)
                 if not network.open_end and action != WAIT and self._shared.noticed(action, epoch):
                     rest = 0
-                if rest < FAR and weight + rest < before.get(source, FAR):
-                    before[source] = weight + rest
+                if rest is not None:
+                    before[source] = min(weight + rest, before.get(source, weight + rest))
             found.append(before)
             after = before
         found.reverse()

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from serendipity.model import Deadline
 from verify.programs.agents.product import Move
-from verify.programs.promising.team import FAR, Team
+from verify.programs.promising.team import Team
 
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
@@ -78,6 +78,7 @@ class Actions:
         team: its task, needs and prices.
 
     Attributes:
+        far: the team's: stands for no way.
         price: what each adds to the objective.
         needs: literals outside of its participants' automata.
         changes: literals that it makes true.
@@ -91,6 +92,7 @@ class Actions:
         task, each = team.task, team.deadline.each
         self._count, self.facts = len(task.actions), len(task.facts)
         self._ids = np.fromiter(team.pre, np.int64, len(team.pre))
+        self.far = team.far
         self.price = np.array(team.price, np.int64)
         ground = [task.actions[i] for i in each(team.pre)]
         self.needs = self._literals(list(team.pre.values()), [team.neg[i] for i in team.pre])
@@ -168,34 +170,34 @@ class Arcs:
 def distances(
     edges: tuple[Ints, Ints, Ints],
     values: Ints,
+    far: int,
     deadline: Deadline,
-    limit: int = FAR - 1,
-    rest: Ints | None = None,
+    limit: int | None = None,
 ) -> Ints:
     """Least distances in a graph, from nodes that have one; all nodes of one distance are looked at at once.
 
     Args:
         edges: where each starts, where it leads, and what it weighs.
-        values: for each node the distance that it starts with, or ``FAR``.
+        values: for each node the distance that it starts with, or ``far``.
+        far: stands for no way.
         deadline: polled.
-        limit: a node whose distance and rest exceed it is not looked at.
-        rest: what is left from each node, or None for nothing.
+        limit: a node that is further is not looked at; None: each is that there is a way to.
     """
     values = values.copy()
     source, target, weight = edges
     leaving = Rows.by(source, len(values))
     seen = np.zeros(len(values), bool)
-    most = np.full(len(values), limit) if rest is None else limit - rest
+    most = far - 1 if limit is None else limit
     while True:
         deadline.check()
-        now = _least(values, seen)
+        now = _least(values, seen, far)
         if not len(now):
             return values
         seen[now] = True
         out = leaving.at(now)
         after = target[out]
         total = values[now[0]] + weight[out]
-        kept = total <= most[after]
+        kept = total <= most
         np.minimum.at(values, after[kept], total[kept])
 
 
@@ -206,13 +208,13 @@ class Ways:
         moves: where each starts, its action, where it leads, and its price.
         lacking: the actions that need what they have to make, and the literals that these are.
         actions: what they change.
-        start: for each state what is paid there at first, or ``FAR``.
+        start: for each state what is paid there at first, or ``far``.
         left: what is left to be paid from each state; where all of it exceeds ``limit`` nobody goes.
         limit: what may be paid.
         deadline: polled.
 
     Attributes:
-        done: for each state the least price of a way there, or ``FAR``.
+        done: for each state the least price of a way there, or ``far``.
         ready: for each action what is paid before the facts are there that they have to make.
     """
 
@@ -228,12 +230,13 @@ class Ways:
     ) -> None:
         self._source, self._action, self._target, self._weight = moves
         self._actions, self._most, count = actions, limit - left, len(actions.price)
+        self._far = far = actions.far
         self.done = start.copy()
         self._missing = np.bincount(lacking[0], minlength=count)
-        self.ready = np.where(self._missing, FAR, 0)
+        self.ready = np.where(self._missing, far, 0)
         self._wanted = which(lacking[1].tolist(), len(actions.initially))
         self._waiting = Rows.by(lacking[1], len(self._wanted), lacking[0])
-        self._literals = np.full(len(self._wanted), FAR)
+        self._literals = np.full(len(self._wanted), far)
         self._leaving = Rows.by(self._source, len(start))
         self._of_action = Rows.by(self._action, count)
         self._run(deadline)
@@ -242,7 +245,7 @@ class Ways:
         seen, known = np.zeros(len(self.done), bool), np.zeros(len(self._literals), bool)
         while True:
             deadline.check()
-            here, made = _least(self.done, seen), _least(self._literals, known)
+            here, made = _least(self.done, seen, self._far), _least(self._literals, known, self._far)
             first = [
                 int(values[now[0]]) for values, now in ((self.done, here), (self._literals, made)) if len(now)
             ]
@@ -271,11 +274,11 @@ class Ways:
         np.minimum.at(self._literals, facts[wanted], prices[wanted])
 
 
-def _least(values: Ints, seen: Mask) -> Ints:
+def _least(values: Ints, seen: Mask, far: int) -> Ints:
     """The nodes of least value that have not been seen."""
-    open_values = np.where(seen, FAR, values)
-    least = open_values.min(initial=FAR)
-    return _NOTHING if least >= FAR else np.flatnonzero(open_values == least)
+    open_values = np.where(seen, far, values)
+    least = open_values.min(initial=far)
+    return _NOTHING if least >= far else np.flatnonzero(open_values == least)
 
 
 def which(ids: Iterable[int], count: int) -> Mask:

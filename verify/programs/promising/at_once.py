@@ -4,7 +4,6 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Rows
-from verify.programs.promising.team import FAR
 from verify.programs.promising.use import NEVER
 
 
@@ -20,8 +19,8 @@ class SpendingAtOnce:
         deadline: polled.
 
     Attributes:
-        states: for each state what was spent on the way there; ``FAR``: it is not reached.
-        ready: for each action what was spent before it could take place; ``FAR``: it can't.
+        states: for each state what was spent on the way there; ``far``: it is not reached.
+        ready: for each action what was spent before it could take place; ``far``: it can't.
         parts: by agent and action, what was spent before the agent is where it starts.
     """
 
@@ -29,6 +28,7 @@ class SpendingAtOnce:
         self, actions: Actions, arcs: Arcs, counted: Mask, price: Ints, offered: Mask, deadline: Deadline
     ) -> None:
         self._actions, self._arcs, self._price, self._counted = actions, arcs, price, counted
+        self._far = far = actions.far
         count = len(price)
         self._mine = np.flatnonzero(counted[arcs.agent])
         self._leaving = Rows.by(arcs.source[self._mine], arcs.states, self._mine)
@@ -36,10 +36,10 @@ class SpendingAtOnce:
         self.free = actions.initially.copy()
         self.free[actions.changes.at(np.flatnonzero(offered))] = True
         literals = len(actions.initially)
-        self.literals = np.where(self.free, 0, FAR)
-        self.states = np.full(arcs.states, FAR)
-        self.ready = np.full(count, FAR)
-        self.parts = np.full((len(counted), count), FAR)
+        self.literals = np.where(self.free, 0, far)
+        self.states = np.full(arcs.states, far)
+        self.ready = np.full(count, far)
+        self.parts = np.full((len(counted), count), far)
         keys, needs = actions.needs.keys(), actions.needs.items
         lacking = ~self.free[needs]
         self._waiting = Rows.by(needs[lacking], literals, keys[lacking])
@@ -55,10 +55,10 @@ class SpendingAtOnce:
 
     def made(self, by: Mask) -> Ints:
         """For each literal what was spent once an action that is among some makes it; 0 if it is true."""
-        changes, done = self._actions.changes, by & (self.ready < FAR)
+        changes, done = self._actions.changes, by & (self.ready < self._far)
         makers = changes.keys()
         chosen = done[makers] & self._actions.needed[changes.items]
-        found = np.where(self._actions.initially, 0, FAR)
+        found = np.where(self._actions.initially, 0, self._far)
         after = self.ready[makers[chosen]] + self._price[makers[chosen]]
         np.minimum.at(found, changes.items[chosen], after)
         return found
@@ -75,7 +75,7 @@ class SpendingAtOnce:
         """For each move what was spent once it is done."""
         arcs = self._arcs
         before = np.maximum(self.states[arcs.source], self.ready[arcs.action])
-        return np.where(before >= FAR, FAR, before + self._price[arcs.action])
+        return np.where(before >= self._far, self._far, before + self._price[arcs.action])
 
     def _run(self, deadline: Deadline) -> None:
         first = self._arcs.first
@@ -85,11 +85,11 @@ class SpendingAtOnce:
         while True:
             deadline.check()
             states, literals = (
-                np.where(seen_states, FAR, self.states),
-                np.where(seen_literals, FAR, self.literals),
+                np.where(seen_states, self._far, self.states),
+                np.where(seen_literals, self._far, self.literals),
             )
-            value = min(states.min(initial=FAR), literals.min(initial=FAR))
-            if value >= FAR:
+            value = min(states.min(initial=self._far), literals.min(initial=self._far))
+            if value >= self._far:
                 return
             here, known = np.flatnonzero(states == value), np.flatnonzero(literals == value)
             seen_states[here] = True
@@ -101,14 +101,14 @@ class SpendingAtOnce:
         arcs, count = self._arcs, len(self.ready)
         parts = np.unique(arcs.agent[leaving] * count + arcs.action[leaving])
         agent, action = np.divmod(parts, count)
-        new = self.parts[agent, action] == FAR
+        new = self.parts[agent, action] == self._far
         self.parts[agent[new], action[new]] = value
         there = np.concatenate((action[new], lacked))
         np.subtract.at(self._missing, there, 1)
         there = np.unique(there)
-        ready = there[(self._missing[there] == 0) & (self.ready[there] == FAR)]
+        ready = there[(self._missing[there] == 0) & (self.ready[there] == self._far)]
         self.ready[ready] = value
-        possible = leaving[self.ready[arcs.action[leaving]] < FAR]
+        possible = leaving[self.ready[arcs.action[leaving]] < self._far]
         blocked = self._of_action.at(ready)
         going = np.concatenate((possible, blocked[seen[arcs.source[blocked]]]))
         np.minimum.at(self.states, arcs.target[going], value + self._price[arcs.action[going]])

@@ -9,7 +9,7 @@ import numpy as np
 from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Ways, distances, which
 from verify.programs.promising.at_once import SpendingAtOnce, UseAtOnce
 from verify.programs.promising.person import cuts
-from verify.programs.promising.team import FAR, Team
+from verify.programs.promising.team import Team
 from verify.programs.promising.use import NEVER
 
 
@@ -33,12 +33,12 @@ class _Judged:
         taking = offered & (low <= self.partners) & (self.partners <= high)
         asked = actions.needs.at(np.flatnonzero(offered))
         asked = asked[(low <= self.made[asked]) & (self.made[asked] <= high)]
-        return int(np.concatenate((spent.partners[taking], spent.made[asked])).min(initial=FAR))
+        return int(np.concatenate((spent.partners[taking], spent.made[asked])).min(initial=actions.far))
 
 
 @dataclass(frozen=True, slots=True)
 class _Level:
-    """As :class:`.person.Level` has it; ``FAR`` where there is no way."""
+    """As :class:`.person.Level` has it; ``far`` where there is no way."""
 
     least: int
     most: int
@@ -99,7 +99,7 @@ class ManyMoves:
         left = self._fewest(his)
         least = np.maximum.reduce([self._least(found, judged.needs) for judged, found in both])
         in_time = epochs.arcs() <= self._last(his, left)
-        kept_by_him = his & in_time & (least < FAR)
+        kept_by_him = his & in_time & (least < self._team.far)
         total = max(min(level.total for level in found) for _, found in both)
         kept_by_robots = self._useful(kept_by_him, least, total, spent.arcs(), epochs.arcs())
         self._arcs = arcs.only(kept_by_him | kept_by_robots)
@@ -133,15 +133,15 @@ class ManyMoves:
         there = (arcs.agent == self._human) & (judged.needs[arcs.action] <= most)
         source, action, target = arcs.source[there], arcs.action[there], arcs.target[there]
         weight, limit, goal = self._actions.price[action], team.most - least, self._ends()
-        left = distances((target, source, weight), goal, team.deadline, limit)
-        start = self._of_his(opened, FAR)
-        if (start + left).min(initial=FAR) > limit:
+        left = distances((target, source, weight), goal, team.far, team.deadline, limit)
+        start = self._of_his(opened, self._team.far)
+        if (start + left).min(initial=self._team.far) > limit:
             return None
         lacking = self._lacking(np.unique(action), judged.made > most, before)
         ways = Ways(
             (source, action, target, weight), lacking, self._actions, start, left, limit, team.deadline
         )
-        total = int((ways.done + goal).min(initial=FAR))
+        total = int((ways.done + goal).min(initial=self._team.far))
         return None if total > limit else _Level(least, most, before, ways.done, left, ways.ready, total)
 
     def _lacking(self, asking: Ints, missing: Mask, before: int) -> tuple[Ints, Ints]:
@@ -156,12 +156,13 @@ class ManyMoves:
         """Values of the human's states, and another one for all that have none."""
         first, found = self._arcs.first[self._human], np.full(self._arcs.states, other)
         states = np.fromiter(values, np.int64, len(values))
-        found[first + states] = np.fromiter(values.values(), np.int64, len(values))
+        within = (min(value, self._team.far) for value in values.values())
+        found[first + states] = np.fromiter(within, np.int64, len(values))
         return found
 
     def _planned(self) -> Ints:
-        """For each move how many of the human's are done before it, if it is planned; ``FAR`` if not."""
-        arcs, found = self._arcs, np.full(len(self._arcs.source), FAR)
+        """For each move how many of the human's are done before it, if it is planned; ``far`` if not."""
+        arcs, found = self._arcs, np.full(len(self._arcs.source), self._team.far)
         planned = {} if self._team.windows is None else self._team.windows.planned
         first = int(arcs.first[self._human])
         known = {(first + state) * self._count + i: before for (state, i), before in planned.items()}
@@ -176,16 +177,17 @@ class ManyMoves:
         return found
 
     def _ends(self) -> Ints:
-        """0 for the human's states in which a plan may end, ``FAR`` for others."""
-        goal = np.full(self._arcs.states, FAR)
+        """0 for the human's states in which a plan may end, ``far`` for others."""
+        goal = np.full(self._arcs.states, self._team.far)
         goal[self._arcs.first[self._human] + np.array(sorted(self._team.finals[self._human]), np.int64)] = 0
         return goal
 
     def _fewest(self, mask: Mask) -> Ints:
         """For each state of the human's the fewest actions to the end, over some moves."""
         arcs = self._arcs
-        source, target = arcs.source[mask], arcs.target[mask]
-        return distances((target, source, np.ones(len(source), np.int64)), self._ends(), self._team.deadline)
+        source, target, team = arcs.source[mask], arcs.target[mask], self._team
+        ones = np.ones(len(source), np.int64)
+        return distances((target, source, ones), self._ends(), team.far, team.deadline)
 
     def _last(self, his: Mask, left: Ints) -> Ints:
         """For each of the human's moves the last epoch that leaves enough; in a window, if it is joint."""
@@ -200,7 +202,7 @@ class ManyMoves:
     def _least(self, found: list[_Level], needs: Ints) -> Ints:
         """For each of the human's moves the least price of a path over it, where it is cheap enough."""
         arcs, most = self._arcs, self._team.most
-        best = np.full(len(arcs.source), FAR)
+        best = np.full(len(arcs.source), self._team.far)
         planned = self._planned()
         for level in found:
             paid = np.maximum(level.done[arcs.source], level.ready[arcs.action])

@@ -13,14 +13,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
+from verify.limits import limits
 from verify.programs.agents.product import Move
 from verify.programs.promising.person import Asked, Level, fewest, levels
 from verify.programs.promising.spending import Spending
-from verify.programs.promising.team import FAR, Team
+from verify.programs.promising.team import Team
 from verify.programs.promising.use import Use
-
-MANY_MOVES: Final = 10_000
-"""Moves from which on arrays are worth their while."""
 
 _MOST_ROUNDS: Final = 6
 
@@ -37,7 +35,8 @@ def keep_promising(team: Team) -> bool:
     Args:
         team: its ``moves`` are replaced.
     """
-    if team.count() < MANY_MOVES:
+    few = team.count() < limits().many_moves
+    if few or 4 * (team.far + max(team.price, default=0)) > limits().weight:
         return _rounds(team.count, lambda: _round(team))
     from verify.programs.promising.many_moves import ManyMoves  # loads numpy, which few calls need
 
@@ -101,7 +100,7 @@ def _keep_human(team: Team, judged: list[_Judged], epochs: Spending) -> None:
                 for action, target in moves
                 if epochs.arc(human, state, action)
                 <= min(team.horizon - left[target], team.last(state, action))
-                and _least(team, judged, state, action, target) < FAR
+                and _least(team, judged, state, action, target) < team.far
             ]
         )
     team.moves[human] = kept
@@ -109,16 +108,16 @@ def _keep_human(team: Team, judged: list[_Judged], epochs: Spending) -> None:
 
 def _least(team: Team, judged: list[_Judged], state: int, action: int, target: int) -> int:
     """The least price of the human's actions on a path over a move, on levels where it is cheap enough."""
-    planned = FAR if team.windows is None else team.windows.planned.get((state, action), FAR)
+    planned = team.far if team.windows is None else team.windows.planned.get((state, action), team.far)
     return max(_least_of(team, each, planned, state, action, target) for each in judged)
 
 
 def _least_of(team: Team, judged: _Judged, planned: int, state: int, action: int, target: int) -> int:
-    best = FAR
+    best = team.far
     for level in judged.found:
         if judged.asked.needs[action] <= level.most:
-            paid = max(level.done.get(state, FAR), level.ready.get(action, 0))
-            path = paid + team.price[action] + level.left.get(target, FAR)
+            paid = max(level.done.get(state, team.far), level.ready.get(action, 0))
+            path = paid + team.price[action] + level.left.get(target, team.far)
             path = level.total if planned < level.before else path
             if path + level.least <= team.most:
                 best = min(best, path)

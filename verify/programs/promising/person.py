@@ -18,7 +18,7 @@ from typing import Final
 
 from verify.programs.agents.product import Move
 from verify.programs.promising.spending import Spending
-from verify.programs.promising.team import FAR, Team
+from verify.programs.promising.team import Team
 
 _LEVELS: Final = 10
 
@@ -60,9 +60,9 @@ class Asked:
     def literals(self, team: Team, action: int) -> Iterator[tuple[Literal, int]]:
         """The facts that an action needs true, and false, and what they ask for."""
         for f in team.pre[action]:
-            yield (f, True), self.true.get(f, FAR)
+            yield (f, True), self.true.get(f, team.far)
         for f in team.neg[action]:
-            yield (f, False), self.false.get(f, FAR)
+            yield (f, False), self.false.get(f, team.far)
 
     def each(self, team: Team) -> Iterator[tuple[int, Literal | int]]:
         """All that is asked for, and of which action or fact."""
@@ -71,12 +71,12 @@ class Asked:
             for literal, value in self.literals(team, i):
                 yield value, literal
 
-    def value(self, what: Literal | int) -> int:
+    def value(self, team: Team, what: Literal | int) -> int:
         """What is asked for of an action or fact."""
         if isinstance(what, int):
             return self.partners[what]
         f, holds = what
-        return (self.true if holds else self.false).get(f, FAR)
+        return (self.true if holds else self.false).get(f, team.far)
 
 
 @dataclass(slots=True)
@@ -124,7 +124,9 @@ def levels(team: Team, asked: Asked, spent: Asked) -> list[Level]:
         if asked.by_epoch and team.windows is not None:
             before, opened = team.windows.open(least)
             if least:
-                least = min(spent.value(what) for value, what in asked.each(team) if least <= value <= most)
+                least = min(
+                    spent.value(team, what) for value, what in asked.each(team) if least <= value <= most
+                )
         level = _level(team, backward, asked, (least, most), before, opened)
         if level is not None:
             found.append(level)
@@ -151,12 +153,12 @@ def _level(
     human, (least, most) = team.task.human, limits
     limit, finals = team.most - least, team.finals[human]
     left = _distances(team, backward, dict.fromkeys(finals, 0), asked.needs, most, limit)
-    if min((paid + left.get(state, FAR) for state, paid in opened.items()), default=FAR) > limit:
+    if min((paid + left.get(state, team.far) for state, paid in opened.items()), default=team.far) > limit:
         return None
     planned = {} if team.windows is None else team.windows.planned
     earlier = {i for (_, i), position in planned.items() if position < before}
     ways = _Ways(team, asked, most, earlier, opened, left, limit)
-    total = min((ways.done.get(state, FAR) for state in finals), default=FAR)
+    total = min((ways.done.get(state, team.far) for state in finals), default=team.far)
     return None if total > limit else Level(least, most, before, ways.done, left, ways.ready, total)
 
 
@@ -173,7 +175,7 @@ class _Ways:
         left: Mapping[int, int],
         limit: int,
     ) -> None:
-        self._team, self._left, self._limit = team, left, limit
+        self._team, self._left, self._limit, self._far = team, left, limit, team.far
         self.done, self.ready = dict(opened), dict[int, int]()
         self._made: dict[Literal, int] = {(f, True): 0 for i in earlier for f in team.task.actions[i].add}
         self._made |= {(f, False): 0 for i in earlier for f in team.task.actions[i].delete}
@@ -186,7 +188,7 @@ class _Ways:
             for what in lacking:
                 self._waiting.setdefault(what, []).append(i)
             if lacking:
-                self._missing[i], self.ready[i] = len(lacking), FAR
+                self._missing[i], self.ready[i] = len(lacking), team.far
         self._possible = {i for i, value in asked.needs.items() if value <= most}
         self._blocked: dict[int, list[int]] = {}
         self._queue: list[tuple[int, int, Literal]] = [
@@ -213,23 +215,23 @@ class _Ways:
     def _leave(self, value: int, state: int) -> None:
         for action, target in self._team.moves[self._team.task.human][state]:
             if action in self._possible:
-                if self.ready.get(action, 0) < FAR:
+                if self.ready.get(action, 0) < self._far:
                     self._go(value, action, target)
                 else:
                     self._blocked.setdefault(action, []).append(target)
 
     def _go(self, value: int, action: int, target: int) -> None:
-        total = value + self._team.price[action]
-        if total + self._left.get(target, FAR) > self._limit:
+        total, far = value + self._team.price[action], self._far
+        if total + self._left.get(target, far) > self._limit:
             return
-        if total < self.done.get(target, FAR):
+        if total < self.done.get(target, far):
             self.done[target] = total
             heappush(self._queue, (total, target, _NO_FACT))
         ground = self._team.task.actions[action]
         for facts, holds in ((ground.add, True), (ground.delete, False)):
             for f in facts:
                 literal = f, holds
-                if literal in self._waiting and total < self._made.get(literal, FAR):
+                if literal in self._waiting and total < self._made.get(literal, far):
                     self._made[literal] = total
                     heappush(self._queue, (total, -1, literal))
 
@@ -243,7 +245,7 @@ def _distances(
     limit: int,
 ) -> dict[int, int]:
     """Least prices of ways over actions whose needs cost at most ``most``, within a limit."""
-    price, best = team.price, dict(sources)
+    price, best, far = team.price, dict(sources), team.far
     queue = [(0, state) for state in best]
     while queue:
         team.deadline.tick()
@@ -251,29 +253,29 @@ def _distances(
         if distance > best[state]:
             continue
         for action, target in edges[state]:
-            if needs.get(action, FAR) > most:
+            if needs.get(action, far) > most:
                 continue
             total = distance + price[action]
-            if total <= limit and total < best.get(target, FAR):
+            if total <= limit and total < best.get(target, far):
                 best[target] = total
                 heappush(queue, (total, target))
     return best
 
 
 def fewest(team: Team) -> list[int]:
-    """For each state of the human's the fewest actions to the end; ``FAR``: there is no way."""
+    """For each state of the human's the fewest actions to the end; ``far``: there is no way."""
     backward = team.backward(team.task.human)
-    found = [FAR] * len(backward)
+    found = [team.far] * len(backward)
     layer = list(team.finals[team.task.human])
     for state in layer:
         found[state] = 0
     steps = 0
-    while layer:
+    while layer and steps < team.far:
         steps += 1
         following = []
         for state in team.deadline.each(layer):
             for _, source in backward[state]:
-                if found[source] == FAR:
+                if found[source] == team.far:
                     found[source] = steps
                     following.append(source)
         layer = following

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Iterable
 from heapq import heappop, heappush
 
 from verify.programs.agents.product import Move
-from verify.programs.promising.team import FAR, Team
+from verify.programs.promising.team import Team
 
 _Event = tuple[int, int, int, int]
 """A value, a kind, and what it is about."""
@@ -29,16 +29,16 @@ class Spending:
         offered: the actions that those who are left out take part in; what they change is free.
 
     Attributes:
-        states: by agent, for each state what was spent on the way there; ``FAR``: it is not reached.
+        states: by agent, for each state what was spent on the way there; ``far``: it is not reached.
         ready: what was spent before an action could take place; an action that can't is missing.
     """
 
     def __init__(
         self, team: Team, agents: Collection[int], price: Callable[[int], int], offered: Collection[int] = ()
     ) -> None:
-        self._team = team
+        self._team, self._far = team, team.far
         self._price = price
-        self.states = {k: [FAR] * len(team.moves[k]) for k in agents}
+        self.states = {k: [self._far] * len(team.moves[k]) for k in agents}
         self.ready: dict[int, int] = {}
         self._free_true = set(team.task.init)
         self._free_false: set[int] = set()
@@ -57,18 +57,18 @@ class Spending:
         self._run()
 
     def before(self, action: int) -> int:
-        """What was spent before an action that others need is there; ``FAR``: it can't take place."""
-        return self.ready.get(action, FAR)
+        """What was spent before an action that others need is there; ``far``: it can't take place."""
+        return self.ready.get(action, self._far)
 
     def facts(self, action: int) -> int:
         """What was spent before the facts are there that an action needs outside of automata."""
         team, least = self._team, 0
         for f in team.pre[action]:
             if f not in self._free_true:
-                least = max(least, self._true.get(f, FAR))
+                least = max(least, self._true.get(f, self._far))
         for f in team.neg[action]:
             if f in team.task.init and f not in self._free_false:
-                least = max(least, self._false.get(f, FAR))
+                least = max(least, self._false.get(f, self._far))
         return least
 
     def made(self, actions: Iterable[int]) -> tuple[dict[int, int], dict[int, int]]:
@@ -80,8 +80,8 @@ class Spending:
             after, ground = self.before(i) + self._price(i), task.actions[i]
             for facts, known in ((ground.add, true), (ground.delete, false)):
                 for f in facts:
-                    if after < FAR and f in needed:
-                        known[f] = min(after, known.get(f, FAR))
+                    if after < self._far and f in needed:
+                        known[f] = min(after, known.get(f, self._far))
         return true, false
 
     def partners(self, action: int, but: int) -> int:
@@ -89,13 +89,13 @@ class Spending:
         least = 0
         for k in self._team.task.actions[action].participants:
             if k in self.states and k != but:
-                least = max(least, self._at.get((action, k), FAR))
+                least = max(least, self._at.get((action, k), self._far))
         return least
 
     def arc(self, agent: int, state: int, action: int) -> int:
         """What was spent once an agent has done an action from a state."""
         if action not in self.ready:
-            return FAR
+            return self._far
         return max(self.states[agent][state], self.ready[action]) + self._price(action)
 
     def _run(self) -> None:

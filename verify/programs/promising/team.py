@@ -6,10 +6,6 @@ from dataclasses import dataclass, field
 from serendipity.model import Deadline, Task
 from verify.programs.agents.product import Automaton, Move
 
-FAR = 10**15
-"""More than any sum of weights."""
-
-
 OfState = Callable[[int, int], int]
 """Of an agent and a state of their automaton."""
 
@@ -58,6 +54,7 @@ class Team:
         moves: by agent and state, the moves that are left.
         spare: what robots may have spent, at most, when one of them is in a state and goes on.
         latest: the epoch after which that is too late.
+        far: more than a plan within the limit costs, and than there are epochs: as good as no way.
         needed: the facts that some action needs outside its participants' automata.
     """
 
@@ -78,8 +75,10 @@ class Team:
     needed: frozenset[int] = frozenset()
     spare: OfState | None = None
     latest: OfState | None = None
+    far: int = field(init=False)
 
     def __post_init__(self) -> None:
+        self.far = max(self.most, self.horizon) + 1
         self.moves = [machine.moves for machine in self.machines]
         needs = (*self.pre.values(), *self.neg.values())
         self.needed = frozenset(f for facts in self.deadline.each(needs) for f in facts)

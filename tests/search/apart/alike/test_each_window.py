@@ -4,12 +4,11 @@ from random import Random
 
 from search.apart.alike.robots import CountedRobots
 from search.apart.alike.tally import tally
-from search.apart.landmarks import FAR
 from search.apart.one_window import RobotsApart
 from search.apart.short_windows import Robots
 from search.apart.window import ACTION, Window
 from search.context import SearchContext
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.operators import Operator
 from search.prepared_task import PreparedTask
 from serendipity.model import Options

@@ -1,0 +1,246 @@
+"""Answers as text for people: the plan in parallel columns, a column per agent."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import fields
+from fractions import Fraction
+from typing import TYPE_CHECKING, Final
+
+from serendipity.model.answers.recognition import UNEXPLAINED
+from serendipity.model.numbers import as_written, plain
+from serendipity.model.options import Options
+from serendipity.model.telling import Grid, Line, team
+
+if TYPE_CHECKING:
+    from serendipity.model.answers.certificate import Certificate
+    from serendipity.model.answers.result import Result
+    from serendipity.model.task.plans import Window
+
+_REASONS: Final = {
+    "no-human-plan": "the human can't reach the goal alone, so there is no plan to preserve",
+    "no-plan": "no plan reaches the goals within the horizon",
+}
+"""What the commonest reasons of an infeasible result mean."""
+
+
+def told(result: "Result") -> Iterator[Line | Grid]:
+    """A result, as far as it can be told without its task."""
+    robots = _robots(result)
+    if result.goals is not None:
+        yield from for_goals(result)
+        return
+    yield Line(team(result.human, robots))
+    yield from opening(result, robots)
+    if result.policy is not None and result.plan is None:
+        yield from (Line(), *result.policy.told(), Line())
+    yield from map(Line, closing(result))
+
+
+def _robots(result: "Result") -> list[str]:
+    """The robots that a result names."""
+    named = [*result.agent_costs, *(agent for step in result.plan or () for agent in step.agents)]
+    return [agent for agent in dict.fromkeys(named) if agent != result.human]
+
+
+def opening(result: "Result", robots: Sequence[str]) -> Iterator[Line | Grid]:
+    """What is answered, and the plan in parallel columns."""
+    yield from map(Line, _headlines(result))
+    if result.plan is not None and (result.plan or result.human_plan):
+        yield from (Line(), _columns(result, robots), Line())
+
+
+def _headlines(result: "Result") -> Iterator[str]:
+    yield f"{', '.join(_options(result.options))}: {_summary(result)}"
+    if result.human_plan == ():
+        yield f"{result.human}'s goal holds already, so there is nothing to help {result.human} with"
+    if result.mode == "assistance" and result.agent_costs:
+        yield _totals(result)
+    elif result.cost is not None and result.human_cost is not None:
+        yield _costs(result.human_cost, result.cost, result.saving if result.opportunity else None)
+    elif result.cost is not None:
+        yield f"cost {plain(result.cost)}"
+    if result.window is not None:
+        last = result.window.end - 1
+        epochs = f"epoch {last}" if len(result.window) == 1 else f"epochs {result.window.start} to {last}"
+        who = result.human
+        phases = f"before it {who} follows the former plan, after it {who} goes on alone"
+        yield f"window: {epochs} (marked *); {phases}"
+
+
+def _costs(before: float, after: float, saving: float | None) -> str:
+    """The costs without and with help, with as many digits as tell them apart."""
+    figures = plain(before), plain(after)
+    if saving and figures[0] == figures[1]:
+        figures = f"{before:.17g}", f"{after:.17g}"
+    if saving and figures[0] == figures[1]:
+        return f"cost {plain(before)}, saving {plain(saving)}"
+    return f"cost {figures[0]} -> {figures[1]}{f', saving {plain(saving)}' if saving else ''}"
+
+
+def _options(options: Options) -> Iterator[str]:
+    """The mode, and every option that is not the default."""
+    usual = Options()
+    yield options.mode
+    for option in fields(Options):
+        value = getattr(options, option.name)
+        if option.name != "mode" and value != getattr(usual, option.name):
+            shown = plain(value) if isinstance(value, Fraction | float) else str(value)
+            yield f"{option.name} {shown}"
+
+
+def _summary(result: "Result") -> str:
+    if result.status == "infeasible":
+        return f"infeasible (proved): {_REASONS.get(result.reason or '', result.reason or 'no plan')}"
+    if result.status == "unknown":
+        return f"{'interrupted' if result.reason == 'cancelled' else 'the limit came'} before any answer"
+    proof = "proved to be the best" if result.status == "optimal" else _gap(result)
+    if result.opportunity:
+        return f"an opportunity, {proof}"
+    if result.mode in ("serendipity", "communication"):
+        return f"no opportunity, {proof}" if result.status == "feasible" else "no opportunity (proved)"
+    return f"a plan, {proof}"
+
+
+def _gap(result: "Result") -> str:
+    known = f": {_least_cost(result)}" if result.lower_bound else ""
+    return f"not proved to be the best{known}"
+
+
+def _least_cost(result: "Result") -> str:
+    """What the lower bound of an unproved answer means for costs: without the price of the window itself."""
+    assert result.lower_bound is not None
+    bound, weight = as_written(result.lower_bound), result.options.window_weight
+    paid = "paid, announcements included" if result.options.communication_weight else "paid"
+    if result.window is None or not result.options.windowed:
+        return f"at least {plain(bound)} has to be {paid}"
+    if weight <= (result.human_cost or 0):  # costs may outweigh windows: no figure without both
+        return f"no less than {plain(bound)} is possible, with {plain(weight)} for each epoch of a window"
+    epochs = max(1, min(int(bound / weight), len(result.window)))
+    least = plain(max(bound - epochs * weight, Fraction(0)))
+    if epochs == len(result.window):
+        return f"at least {least} has to be {paid}"
+    return f"in a window of {epochs} epoch{'s' if epochs > 1 else ''}, at least {least} has to be {paid}"
+
+
+def _columns(result: "Result", robots: Sequence[str]) -> Grid:
+    """Epochs down, agents across; a joint action stands in each participant's column."""
+    agents = [result.human, *robots]
+    former = result.human_plan or ()
+    steps = {(step.epoch, agent): step.action for step in result.plan or () for agent in step.agents}
+    changed = tuple(step.action for step in result.plan or () if result.human in step.agents) != former
+    inside = range(0) if result.window is None else range(result.window.start, result.window.end)
+    epochs = range(1, max([epoch for epoch, _ in steps] + [len(former)]) + 1)
+    rows = []
+    for epoch in epochs:
+        row = [f"{'* ' if epoch in inside else ''}{epoch}", *(steps.get((epoch, a), "") for a in agents)]
+        if changed:
+            row += former[epoch - 1 : epoch]
+        rows.append(row)
+    costs = ["cost", *(plain(result.agent_costs[a]) if a in result.agent_costs else "" for a in agents)]
+    if changed and result.human_cost is not None:
+        costs.append(plain(result.human_cost))
+    header = ["epoch", *agents, *([f"{result.human}'s former plan"] if changed else [])]
+    return Grid(header, [*rows, costs], frozenset(epoch - 1 for epoch in inside), numbered=True)
+
+
+def closing(result: "Result") -> Iterator[str]:
+    """What else is to be said of an answer."""
+    if result.saving_alone:
+        yield f"{result.human} could save {plain(result.saving_alone)} alone: the given plan is not the best"
+    elif _may_be_dear(result):
+        yield f"{result.human} may have a cheaper plan alone: this one is not proved to be the best"
+    if result.ties and result.optimal_plans is None:
+        yield f"no other plan of the human's was looked at ({result.options.ties})"
+    elif result.ties:
+        helped = sum(tie.opportunity for tie in result.ties)
+        many = f"{len(result.ties)} optimal plan{'s' if len(result.ties) > 1 else ''} of the human"
+        yield f"{many}, an opportunity with {helped} ({result.options.ties})"
+    for model, realised in sorted(result.realised.items()):
+        article = "an" if model[0] in "aeiou" else "a"
+        yield f"with {article} {model} human the plan {'works out' if realised else 'does not work out'}"
+    elapsed, expanded = result.figure("elapsed_seconds"), result.figure("expanded")
+    if elapsed is not None:
+        yield f"planned in {_seconds(elapsed)}" + (f", {expanded} nodes expanded" if expanded else "")
+
+
+def _may_be_dear(result: "Result") -> bool:
+    """Whether it is not known what the human could save alone, though nobody's goals stand against that."""
+    compared = result.human_plan is not None and result.saving is not None and result.mode != "individual"
+    return compared and result.status == "feasible" and result.saving_alone is None
+
+
+def verdict(certificate: "Certificate") -> Line:
+    """What a certificate comes to."""
+    wrong = certificate.refuted
+    if wrong is not None:
+        line, style = f"refuted, {wrong.claim}: {wrong.reason}", "bold red"
+    elif certificate.verdict == "undecided":
+        left = next((claim for claim in certificate.claims if claim.verdict == "undecided"), None)
+        line = "has no answer to check" if left is None else f"undecided, {left.claim}: {left.reason}"
+        style = "yellow"
+    else:
+        proved = [claim.claim for claim in certificate.claims if claim.verdict == "proved"]
+        line, style = f"proves {', '.join(proved)}" if proved else "finds nothing wrong", "green"
+    return Line(f"checker: {line} ({_seconds(certificate.elapsed_seconds)})", style)
+
+
+def claims(certificate: "Certificate") -> Grid:
+    """A certificate, claim by claim."""
+    rows = [
+        (claim.claim, claim.verdict.replace("_", " "), _seconds(claim.seconds), claim.reason)
+        for claim in certificate.claims
+    ]
+    return Grid(("claim", "verdict", "time", "reason"), rows)
+
+
+def _seconds(seconds: float) -> str:
+    return f"{seconds:.2f} s" if seconds >= 1 else f"{seconds * 1000:.1f} ms"
+
+
+def _totals(result: "Result") -> str:
+    """Both totals of semantics 7, and what the human pays alone."""
+    unknown = result.status == "feasible" and result.human_plan is None  # what the human pays alone
+    idle = result.plan is None and result.policy is not None and not result.policy.decisions
+    pays = "pays at most" if unknown and idle else "pays"
+    paid = ", ".join(f"{agent} {pays} {plain(cost)}" for agent, cost in result.agent_costs.items())
+    mean = " on average" if result.options.ties == "expected" else ""
+    alone = "" if result.human_cost is None else f"; alone {result.human} pays {plain(result.human_cost)}"
+    return f"{paid}{mean}{alone}"
+
+
+def for_goals(result: "Result") -> Iterator[Line | Grid]:
+    """The robots' plan, and what happens for each goal that is considered."""
+    if result.status == "unknown":
+        yield Line("the limit came before any answer")
+        return
+    entries = result.goals or ()
+    if result.recognition is not None and not result.recognition.explained:
+        yield Line(UNEXPLAINED)
+    if result.cost is None:
+        why = result.reason or result.status
+        yield Line(f"no plan: {result.human} can reach none of the goals alone ({why})")
+        return
+    weight = plain(result.options.window_weight)
+    gap = f"not proved; at least {plain(result.lower_bound)}, with {weight} for each epoch of a window"
+    proof = "proved" if result.status == "optimal" else gap
+    if not result.opportunity:
+        yield Line(f"the robots leave {result.human} alone: expected cost {plain(result.cost)} ({proof})")
+    else:
+        saving = f"{plain(result.saving)} less than {plain(result.human_cost)}"
+        yield Line(f"expected cost {plain(result.cost)}, {saving} ({proof})")
+    yield Line()
+    header = ("probability", "cost", "window", "goal")
+    rows = [
+        (f"{entry.probability:.4f}", plain(entry.cost), _window(entry.window), entry.name)
+        for entry in entries
+    ]
+    yield Grid(header, rows, numbered=True)
+    if result.plan:
+        yield Line()
+        who = "everybody does" if len(entries) == 1 else "whatever the goal is, robots do"
+        yield Line(f"{who}:")
+        steps = [(str(step.epoch), ", ".join(step.agents), step.action) for step in result.plan]
+        yield Grid(("epoch", "agents", "action"), steps, numbered=True)
+
+
+def _window(window: "Window | None") -> str:
+    return "-" if window is None else f"[{window.start}, {window.end})"

@@ -1,0 +1,130 @@
+"""What answers look like to people: in one line, as text, and as a table in a notebook."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+from serendipity.model.printable import markup, message, printable, printable_json
+
+GAP: Final = 3
+"""Blanks between columns."""
+_LONGEST: Final = 119
+"""Characters of a ``repr``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of text.
+
+    Attributes:
+        text: without a line break.
+        style: of rich, on a terminal.
+    """
+
+    text: str = ""
+    style: str = ""
+
+    def printable(self) -> "Line":
+        """Without characters that can't be seen."""
+        return replace(self, text=printable(self.text))
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """A table without rules.
+
+    Attributes:
+        header: column headings; the first column is aligned to the right if ``numbered``.
+        rows: cells; rows may be shorter than the header.
+        marked: indices of the rows that stand out.
+        numbered: whether the first column holds numbers.
+    """
+
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    marked: frozenset[int] = frozenset()
+    numbered: bool = False
+
+    def printable(self) -> "Grid":
+        """Without characters that can't be seen."""
+        rows = [[*map(printable, row)] for row in self.rows]
+        return replace(self, header=[*map(printable, self.header)], rows=rows)
+
+
+def as_text(parts: Iterable[Line | Grid]) -> str:
+    """Lines and grids as plain text, however wide."""
+    lines: list[str] = []
+    for part in parts:
+        shown = part.printable()
+        lines += [shown.text] if isinstance(shown, Line) else _plain(shown)
+    return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def _plain(grid: Grid) -> list[str]:
+    table = [grid.header, *grid.rows]
+    columns = range(len(grid.header))
+    widths = [max(len(row[i]) for row in table if i < len(row)) for i in columns]
+    lines = []
+    for row in table:
+        cells = [cell.ljust(widths[i]) for i, cell in enumerate(row)]
+        if grid.numbered:
+            cells[0] = row[0].rjust(widths[0])
+        lines.append((" " * GAP).join(cells))
+    return lines
+
+
+def as_html(parts: Iterable[Line | Grid]) -> str:
+    """Lines and grids as a piece of a page."""
+    return f"<div>{''.join(map(_html, parts))}</div>"
+
+
+def _html(part: Line | Grid) -> str:
+    if isinstance(part, Line):
+        text = markup(part.text).replace("  ", "&emsp;")
+        shown = f"<b>{text}</b>" if "bold" in part.style else text
+        return f'<p style="margin:0;min-height:1ex">{shown}</p>'
+    head = "".join(f'<th style="text-align:left">{markup(cell)}</th>' for cell in part.header)
+    rows = []
+    for i, row in enumerate(part.rows):
+        weight = ' style="font-weight:bold"' if i in part.marked else ""
+        cells = "".join(f'<td style="text-align:left">{markup(cell)}</td>' for cell in row)
+        rows.append(f"<tr{weight}>{cells}</tr>")
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+class Told(ABC):
+    """What says in one line what it is, and prints as the command line does."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def told(self) -> Iterator[Line | Grid]:
+        """What the command line prints."""
+
+    @abstractmethod
+    def _in_short(self) -> Iterable[str]:
+        """What stands between the brackets of its ``repr``."""
+
+    def __repr__(self) -> str:
+        return message(f"{type(self).__name__}({', '.join(self._in_short())})", _LONGEST)
+
+    def __str__(self) -> str:
+        return as_text(self.told()).removesuffix("\n")
+
+    def _repr_html_(self) -> str:
+        return as_html(self.told())
+
+
+def team(human: str, robots: Sequence[str]) -> str:
+    """Who is who."""
+    if not robots:
+        return f"human {human}, no robot"
+    return f"human {human}, robot{'s' if len(robots) > 1 else ''} {', '.join(robots)}"
+
+
+def json_of(value: dict[str, Any]) -> str:
+    """A JSON object as text, indented; characters that can't be seen are escaped."""
+    from serendipity.model.json_text import json_text
+
+    return printable_json(json_text(value)) + "\n"

@@ -1,0 +1,78 @@
+"""Results say exactly what they found, in memory and in JSON, whatever the costs are."""
+
+import json
+import pickle
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from serendipity import Result, plan, verify
+from serendipity.model import InputError
+from serendipity.model.numbers import Figure, as_written
+from serendipity.testing import task
+
+_ODD = Fraction(1012, 997) + Fraction(9984, 9973) + Fraction(1, 10**15 + 37)
+_TASK = task(
+    agents="h r",
+    human="h",
+    goal="g",
+    actions={
+        "do h": f"-> g @ {_ODD + 7}",
+        "do2 h": f"-> g @ {_ODD + 7}",
+        "quick h": "q -> g @ 53/130",
+        "open r": f"-> q @ {_ODD}",
+        "both h r": "q -> g @ 4/7",
+    },
+)
+_CALLS = (
+    {"mode": "individual"},
+    {"discount": Fraction(2, 3), "horizon": 2},
+    {"discount": Fraction(2, 3), "horizon": 2, "ties": "expected"},
+    {"mode": "communication", "horizon": 2, "communication_weight": Fraction(1, 7)},
+    {"mode": "composite", "horizon": "inf", "discount": Fraction(1, 10**15 + 37)},
+    {"mode": "composite", "horizon": 2},
+    {"human_model": "observant", "horizon": 2},
+    {"goals": ({"goal": ("g",), "prior": Fraction(2, 7)}, {"goal": ("q", "g"), "prior": Fraction(5, 7)})},
+)
+
+
+def _reread(result: Result) -> Result:
+    return Result.from_dict(json.loads(json.dumps(result.to_dict())))
+
+
+@pytest.mark.parametrize("options", _CALLS, ids=str)
+def test_right_answers_are_proved_and_read_back(options: dict[str, object]) -> None:
+    result = plan(_TASK, **options)  # type: ignore[arg-type]
+    again = _reread(result)
+    assert again == result
+    assert again.to_dict() == result.to_dict()
+    assert as_written(again.cost or 0.0) == as_written(result.cost or 0.0)
+    for said in (result, again):
+        assert verify(_TASK, said).verdict == "proved"
+
+
+def test_what_is_exact_is_what_was_planned() -> None:
+    result = plan(_TASK, mode="individual")
+    assert isinstance(result.cost, Figure)
+    assert as_written(_reread(result).cost or 0.0) == _ODD + 7
+    assert as_written(pickle.loads(pickle.dumps(result)).cost) == _ODD + 7
+
+
+@pytest.mark.parametrize("name", ["cost", "saving", "human_cost", "lower_bound", "objective"])
+def test_figures_that_only_their_exact_texts_make_false_are_refuted(name: str) -> None:
+    result = plan(_TASK, discount=Fraction(2, 3), horizon=2)
+    nudged = Figure(as_written(getattr(result, name)) + Fraction(1, 10**30))
+    assert nudged == getattr(result, name)
+    assert verify(_TASK, replace(result, **{name: nudged})).verdict == "refuted"
+
+
+@pytest.mark.parametrize(
+    "exact",
+    [[], "1", {"cost": 1}, {"cost": "1"}, {"cost": "x"}, {"nothing": "1"}, {"plan": {"9": {"cost": "1"}}}],
+    ids=str,
+)
+def test_exact_texts_of_other_figures_are_an_error(exact: object) -> None:
+    data = plan(_TASK, mode="individual").to_dict()
+    with pytest.raises(InputError, match="exact"):
+        Result.from_dict({**data, "exact": exact})

@@ -1,0 +1,139 @@
+"""Costs, discounts and weights may be any rationals: whatever they are, false claims are not proved."""
+
+from dataclasses import replace
+from itertools import combinations_with_replacement, pairwise
+from random import Random
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity.model import Result, Task
+from serendipity.testing.builders import task as build
+from serendipity.testing.by_hand import result
+from verify.base.small_numbers import Order
+from verify.limits import limited
+
+METHODS = ("auto", "exhaustive", "program")
+
+
+def helped(price: str = "1", his: str = "5") -> Task:
+    """A robot's action for some price saves the human 4."""
+    actions = {"do h": f"-> g @ {his}", "quick h": "q -> g @ 1", "open r": f"-> q @ {price}"}
+    return build(agents="h r", human="h", goal="g", actions=actions)
+
+
+HELPED: list[tuple[Task, dict[str, Any]]] = [
+    (helped(), {"discount": "0.666666666667"}),
+    (helped("1.000000001"), {"discount": "0.5", "window_weight": 1000}),
+    (helped("1.000000001"), {"discount": "0", "window_weight": 1200}),
+    (helped("1.000000001"), {"discount": "0", "window_weight": 10**9}),
+    (helped("83/130", "9984/973"), {"discount": "997/1012", "window_weight": "67/70"}),
+    (helped("0.000000001", "1000000000000000"), {"discount": "1/3", "window_weight": "0"}),
+    (helped("1", "1000000000000000"), {"discount": "0.123456789012345", "window_weight": "1/7"}),
+]
+
+
+def false_denial(task: Task, right: Result, **options: Any) -> Result:
+    """The answer that nothing helps."""
+    lie = result(task, {1: "do h"}, human_plan=("do h",), **options)
+    return replace(lie, options=right.options)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("number", range(len(HELPED)))
+def test_help_is_not_denied(number: int, method: str) -> None:
+    task, options = HELPED[number]
+    options = {"horizon": 2, **options}
+    right = serendipity.plan(task, **options)
+    assert right.opportunity
+    honest = serendipity.verify(task, right, method=method).verdict
+    denied = serendipity.verify(task, false_denial(task, right, **options), method=method).verdict
+    if method == "program" and number in (4, 6):  # it may have too many digits for a solver
+        assert honest != "refuted" and denied != "proved"
+    else:
+        assert (honest, denied) == ("proved", "refuted")
+
+
+@pytest.mark.parametrize(
+    "sizes", [{"weight": 10**6, "coefficient": 10**3}, {"weight": 0}, {"coefficient": 0}]
+)
+@pytest.mark.parametrize("number", range(len(HELPED)))
+def test_where_words_are_too_small_nothing_false_is_proved(number: int, sizes: dict[str, int]) -> None:
+    task, options = HELPED[number]
+    right = serendipity.plan(task, horizon=2, **options)
+    lie = false_denial(task, right, horizon=2, **options)
+    with limited(**sizes, many_moves=0, many_actions=0):
+        for method in METHODS:
+            assert serendipity.verify(task, lie, method=method).verdict != "proved"
+            assert serendipity.verify(task, right, method=method).verdict != "refuted"
+
+
+def test_a_proof_is_written_and_checked_of_small_numbers(tmp_path: Any) -> None:
+    task, file = helped("1.000000001"), tmp_path / "proof.json"
+    right = serendipity.plan(task, discount="0.5", horizon=2)
+    assert serendipity.verify(task, right, proof=file).verdict == "proved"
+    assert serendipity.check_proof(file, task, right).verdict == "accepted"
+    lie = false_denial(task, right, discount="0.5", horizon=2)
+    assert serendipity.check_proof(file, task, lie).verdict == "rejected"
+
+
+DEAR = [("2000000", "0.000000001"), ("2000000000000000", "1"), ("1000000000000000", "1/999999999999989")]
+
+
+@pytest.mark.parametrize(("dear", "small"), DEAR)
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"mode": "composite", "horizon": "inf"},
+        {"mode": "composite", "horizon": 2},
+        {"mode": "communication", "horizon": 2},
+    ],
+)
+def test_what_is_dear_is_possible(dear: str, small: str, options: dict[str, Any]) -> None:
+    actions = {"j h r": f"-> g @ {dear}", "b r": f"g -> q @ {small}"}
+    task = build(agents="h r", human="h", goal="g", actions=actions)
+    right = serendipity.plan(task, **options)
+    reason = "no-plan" if options["horizon"] == "inf" else "no-plan-within-horizon"
+    none = {"plan": None, "cost": None, "objective": None, "lower_bound": None, "saving": None}
+    lie = replace(right, status="infeasible", reason=reason, agent_costs={}, realised={}, **none)
+    methods = METHODS[:2] if options["horizon"] == "inf" else METHODS
+    for method in methods:
+        assert serendipity.verify(task, right, method=method).verdict == "proved"
+        assert serendipity.verify(task, lie, method=method).verdict == "refuted"
+
+
+@pytest.mark.parametrize("method", ["auto", "exhaustive"])
+def test_a_limit_on_cost_is_none_on_communication(method: str) -> None:
+    """Help costs 2, and 4 with what is said; doing nothing costs 5."""
+    switches = {f"set{k} r": f"-> t{k} @ 0" for k in range(4)}
+    actions = {"do h": "-> g @ 5", "quick h": "q -> g @ 1", "open r": "t0 t1 t2 t3 -> q @ 1", **switches}
+    task = build(agents="h r", human="h", goal="g", actions=actions)
+    options = {"mode": "communication", "communication_weight": 2, "max_cost": 2, "horizon": 7}
+    right = serendipity.plan(task, **options)
+    assert (right.cost, right.objective, right.opportunity) == (2, 4, True)
+    with limited(few_joint_states=0, few_states=1, programs=False):
+        assert serendipity.verify(task, right, method=method).verdict != "refuted"
+        lie = false_denial(task, right, **options)
+        assert serendipity.verify(task, lie, method=method).verdict == "refuted"
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_small_numbers_keep_the_order_of_sums(seed: int) -> None:
+    dice = Random(seed)
+    unit, terms = 10 ** dice.randint(3, 15), dice.randint(1, 4)
+    near = [
+        unit * dice.randint(1, 9) // dice.choice([1, 3, 7]) + dice.choice([0, 0, 1, 40]) for _ in range(3)
+    ]
+    numbers = [*near, dice.choice([1, unit, 1000 * unit])]
+    order = Order.of(frozenset(numbers), 2 * terms)
+    some = [each for count in range(terms + 1) for each in combinations_with_replacement(numbers, count)]
+    sums = sorted({(sum(each), sum(map(order, each))) for each in some})
+    for (one, small), (other, large) in pairwise(sums):
+        assert (one < other) == (small < large)
+    for one, small in sums:
+        assert order.bound(small) == one
+        for limit in (one, one - 1, one + dice.randint(-unit, unit)):
+            assert [s <= order.limit(limit) for _, s in sums] == [each <= limit for each, _ in sums]
+            bound = order.limit(limit) + 1
+            assert all(each >= order.bound(bound) for each, s in sums if s >= bound)

@@ -1,0 +1,104 @@
+"""Sizes that decide which way a question goes: from when on another method is tried, or none is worth it.
+
+They decide how soon something is proved, never whether it is true: whatever they are, no answer may be
+another one, only ``undecided``.  Tests draw them at random, so that ways for large tasks are gone on small
+ones, where brute force can see what is right::
+
+    with limited(few_states=1, many_moves=0, programs=False):
+        serendipity.verify(task, result)
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, replace
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """The sizes; a thread or a process of its own begins with these.
+
+    Attributes:
+        programs: whether integer programs, and the bounds that prune them, take turns with other methods.
+        coefficient: of a solver's program at most; see ``verify.solvers.mip``.
+        weight: sums of costs in machine words stay below it; those of operators together, so that sums stay
+            below what stands for no way.
+        automaton_states: facts are left out of an automaton rather than pass this size.
+        states_a_value: the same, for each value of the variable with the most values.
+        automaton_moves: of an automaton that is large enough: once a fact does not fit, no other is tried.
+        many_actions: actions from which on small automata go before the large ones.
+        many_moves: moves from which on their bounds are worked out on arrays.
+        joint_paths: joint states of pruned networks that are kept at most.
+        alone_states: of the human alone, in a program.
+        own_states: of the human alone that are looked at.
+        many_own_states: the same, before they are packed.
+        projected_states: of what only the human changes.
+        compared_actions: that are compared with each other, all with all, by the exhaustive method.
+        misfits: ends of windows whose cheapest completion takes too many epochs, after which others are
+            not looked at.
+        few_joint_states: states without a horizon, before they are packed.
+        joint_states: states without a horizon where they can't be packed.
+        packed_facts: of a task whose states are packed.
+        packed_actions: the same.
+        few_states: packed states after which better bounds are worth their time.
+        cut_states: of a search with landmarks for each state.
+        packed_states: of any search.
+        stubborn_actions: of a search with stubborn sets.
+        states_at_once: packed states whose actions are looked for at once.
+        robot_states: of one robot beside the human's timetable, after an epoch.
+        left_behind: what robots may leave behind together.
+        left_pairs: the same, before what is equal is put together.
+        robots_plans: that are looked at where several goals are possible.
+        moments: states and minds of people who replan.
+        several_plans: the human's optimal plans for which one search beside all of them pays.
+    """
+
+    programs: bool = True
+    coefficient: int = 10**7
+    weight: int = 2**60
+    automaton_states: int = 2_000
+    states_a_value: int = 24
+    automaton_moves: int = 100_000
+    many_actions: int = 5_000
+    many_moves: int = 10_000
+    joint_paths: int = 100_000
+    alone_states: int = 50_000
+    own_states: int = 200_000
+    many_own_states: int = 1_000
+    projected_states: int = 20_000
+    compared_actions: int = 3_000
+    misfits: int = 500
+    few_joint_states: int = 5_000
+    joint_states: int = 500_000
+    packed_facts: int = 1_500
+    packed_actions: int = 30_000
+    few_states: int = 20_000
+    cut_states: int = 500_000
+    packed_states: int = 50_000_000
+    stubborn_actions: int = 10_000
+    states_at_once: int = 8_192
+    robot_states: int = 400_000
+    left_behind: int = 1_000_000
+    left_pairs: int = 30_000_000
+    robots_plans: int = 20_000
+    moments: int = 200_000
+    several_plans: int = 3
+
+
+_CURRENT: ContextVar[Limits] = ContextVar("limits", default=Limits())  # noqa: B039 - never changed
+
+
+def limits() -> Limits:
+    """The sizes that hold now."""
+    return _CURRENT.get()
+
+
+@contextmanager
+def limited(**sizes: Any) -> Iterator[None]:
+    """Other sizes for a while, by the names of :class:`Limits`."""
+    before = _CURRENT.set(replace(limits(), **sizes))
+    try:
+        yield
+    finally:
+        _CURRENT.reset(before)
