@@ -25,7 +25,7 @@ def call_of(call: PlanCall) -> Call:
 
 def written(call: Call) -> PlanCall:
     """A call as text: the options that are not the default."""
-    options = {"mode": call.options.mode}
+    options: dict[str, str] = {"mode": call.options.mode}
     for field in fields(Options):
         value = getattr(call.options, field.name)
         if value != getattr(_DEFAULT, field.name):

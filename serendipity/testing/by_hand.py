@@ -6,6 +6,8 @@ from fractions import Fraction
 from typing import Any
 
 from serendipity.model import Options, PlanStep, Result, Task, Window
+from serendipity.model.keywords import Horizon
+from serendipity.model.numbers import figure
 
 
 def result(
@@ -14,7 +16,7 @@ def result(
     *,
     human_plan: tuple[str, ...] | None,
     window: tuple[int, int] | None = None,
-    horizon: int | str | None = None,
+    horizon: Horizon | None = None,
     **options: Any,
 ) -> Result:
     """An ``optimal`` result with all its figures worked out from the plan.
@@ -40,7 +42,7 @@ def result(
             for agent in action.participants:
                 shares[task.agents[agent]] += cost / len(action.participants)
             agents = tuple(task.agents[i] for i in action.participants)
-            steps.append(PlanStep(epoch, agents, name, float(cost)))
+            steps.append(PlanStep(epoch, agents, name, figure(cost)))
     human_cost = None if human_plan is None else sum((by_name[n].cost for n in human_plan), Fraction(0))
     objective = total + talk + (0 if window is None else chosen.window_weight * (window[1] - window[0]))
     opportunity = human_cost is not None and total < human_cost
@@ -50,17 +52,17 @@ def result(
         human=task.agents[task.human],
         options=chosen,
         human_plan=human_plan,
-        human_cost=None if human_cost is None else float(human_cost),
+        human_cost=None if human_cost is None else figure(human_cost),
         opportunity=opportunity,
-        cost=float(total),
-        saving=None if human_cost is None else float(human_cost - total),
-        objective=float(objective),
-        lower_bound=float(objective),
+        cost=figure(total),
+        saving=None if human_cost is None else figure(human_cost - total),
+        objective=figure(objective),
+        lower_bound=figure(objective),
         horizon=len(human_plan or ()) if horizon is None else horizon,
         window=None if window is None else Window(*window),
         saving_alone=None if human_cost is None else 0.0,
         plan=tuple(steps),
-        agent_costs={agent: float(share) for agent, share in shares.items()},
+        agent_costs={agent: figure(share) for agent, share in shares.items()},
     )
 
 

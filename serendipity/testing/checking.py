@@ -11,11 +11,12 @@ from serendipity.testing.call import Call
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.judges import Claim, OutsideJudge, fault, said
-from serendipity.testing.judges.claims import cost_of
+from serendipity.testing.judges.claims import TIME_LIMIT, cost_of
 from serendipity.testing.judges.in_mode import as_result
 from serendipity.testing.laws import ASKED_IN, JOINT, LAWS, Answered
 from serendipity.testing.oracle import Optimum, best
 from serendipity.testing.shrinking import shrink
+from serendipity.testing.told_plans import both_plans
 
 MODES: Final = ("serendipity", "communication", "composite", "individual")
 OPTIONS: Final = (
@@ -47,6 +48,7 @@ class Scope:
         actions: the most ground actions that a task has.
         seed: of the first call.
         count: of calls in each check.
+        call_limit: seconds for each call: a planner that takes longer hangs.
     """
 
     modes: tuple[str, ...] = ("serendipity",)
@@ -54,8 +56,11 @@ class Scope:
     actions: int = 30
     seed: int = 0
     count: int = 100
+    call_limit: float = 60.0
 
     def __post_init__(self) -> None:
+        if not self.call_limit > 0:
+            raise UsageError(f"call_limit: expected more than 0 seconds, got {self.call_limit:g}")
         for name, given, known in (
             ("modes", self.modes, MODES),
             ("options", self.options, (*OPTIONS, HUMAN_PLAN)),
@@ -136,9 +141,9 @@ def checks(judge: OutsideJudge, scope: Scope) -> list[Check]:
 
 def run(judge: OutsideJudge, check: Check, scope: Scope) -> Outcome:
     """Ask the calls of a scope in turn until something is wrong; that is made as small as may be."""
-    examine = partial(_against_brute_force, judge)
+    examine = partial(_against_brute_force, judge, scope.call_limit)
     if check.name != BRUTE_FORCE:
-        examine = partial(_by_law, judge, check.name)
+        examine = partial(_by_law, judge, check.name, scope.call_limit)
     asked = refused = 0
     for call in scope.calls(None if check.mode == JOINT_MODE else check.mode):
         asked += 1
@@ -148,7 +153,7 @@ def run(judge: OutsideJudge, check: Check, scope: Scope) -> Outcome:
             refused += 1
             continue
         if found is not None:
-            smallest = shrink(found.call, partial(_shows, examine, _kind(found)))
+            smallest = shrink(found.call, partial(_shows, examine, found.kind))
             return Outcome(asked, refused, examine(smallest) or found, call.seed)
     return Outcome(asked, refused)
 
@@ -161,29 +166,23 @@ class _CrashError(Exception):
     """The planner raised something."""
 
 
-def _shows(examine: Callable[[PlanCall], Disagreement | None], kind: str, call: PlanCall) -> bool:
+def _shows(examine: Callable[[PlanCall], Disagreement | None], kind: tuple[str, ...], call: PlanCall) -> bool:
     """Whether a call shows a disagreement of the same kind."""
     try:
         found = examine(call)
     except _RefusedError:
         return False
-    return found is not None and _kind(found) == kind
+    return found is not None and found.kind == kind
 
 
 _CRASH: Final = "raised "
 
 
-def _kind(found: Disagreement) -> str:
-    """The law that is broken, the exception that was raised, or neither."""
-    *_, last = found.said.values()
-    return last.partition(":")[0] if last.startswith(_CRASH) else str(found.law)
-
-
-def _against_brute_force(judge: OutsideJudge, call: PlanCall) -> Disagreement | None:
+def _against_brute_force(judge: OutsideJudge, call_limit: float, call: PlanCall) -> Disagreement | None:
     asked = _settled(call)
     crash = ""
     try:
-        claim = _claim(judge, call)
+        claim = _claim(judge, call, call_limit)
     except _CrashError as error:
         crash = str(error)
     try:
@@ -196,13 +195,14 @@ def _against_brute_force(judge: OutsideJudge, call: PlanCall) -> Disagreement | 
     wrong = fault(call, claim, proved)
     if wrong is None:
         return None
-    return Disagreement(call, known | {judge.name: f"{said(call, claim)} (refuted: {wrong})"})
+    words = known | {judge.name: f"{said(call, claim)} (refuted: {wrong})"}
+    return Disagreement(call, words, plans=both_plans(call, claim, asked.options, asked.human_plan_names))
 
 
-def _by_law(judge: OutsideJudge, law: str, call: PlanCall) -> Disagreement | None:
+def _by_law(judge: OutsideJudge, law: str, call_limit: float, call: PlanCall) -> Disagreement | None:
     def ask(other: Call) -> Answered:
         plain = written(other)
-        claim = _claim(judge, plain)
+        claim = _claim(judge, plain, call_limit)
         if claim.plan is None:
             return Optimum("infeasible")
         if claim.epochs is None:
@@ -224,11 +224,13 @@ def _settled(call: PlanCall) -> Call:
         raise _RefusedError from None
 
 
-def _claim(judge: OutsideJudge, call: PlanCall) -> Claim:
+def _claim(judge: OutsideJudge, call: PlanCall, call_limit: float) -> Claim:
     try:
-        claim = judge.answer(call, Deadline())
+        claim = judge.answer(call, Deadline(call_limit))
     except Exception as error:  # whatever it is, it is found
         raise _CrashError(f"{_CRASH}{type(error).__name__}: {error}") from error
+    if claim.words == TIME_LIMIT:
+        raise _CrashError(f"{_CRASH}TimeoutError: no answer within {call_limit:g} s")
     if claim.status == "unknown":
         raise _RefusedError
     return claim

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import Final, Protocol
+from typing import Any, Final, Protocol
 
 from serendipity.model import INFINITE, Options, Window
 from serendipity.testing.call import Call
@@ -176,7 +176,7 @@ def _plain(call: Call) -> bool:
     return call.human_plan is None or (worth is not None and call.task.cost_of(call.human_plan) == worth[0])
 
 
-def _but(call: Call, **options: object) -> Call:
+def _but(call: Call, **options: Any) -> Call:
     return replace(call, options=call.options.but(**options))
 
 

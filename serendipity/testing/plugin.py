@@ -47,6 +47,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--serendipity-seed", type=int, default=0, metavar="S", help="of the first random call")
     group.addoption("--serendipity-count", type=int, default=100, metavar="N", help="random calls of a check")
     group.addoption(
+        "--serendipity-call-limit",
+        type=float,
+        default=60.0,
+        metavar="SECONDS",
+        help="for each call: a planner that takes longer is ended, and wrong",
+    )
+    group.addoption(
         "--serendipity-cases",
         type=Path,
         default=Path("serendipity-cases"),
@@ -87,6 +94,7 @@ def _scope(config: pytest.Config) -> "Scope":
     from serendipity.testing.checking import Scope
 
     given: dict[str, Any] = {name: config.getoption(f"--serendipity-{name}") for name in _NUMBERS}
+    given["call_limit"] = config.getoption("--serendipity-call-limit")
     for name in _LISTS:
         words = config.getoption(f"--serendipity-{name}").replace("-", "_").split(",")
         given[name] = tuple(word.strip() for word in words if word.strip())

@@ -30,6 +30,7 @@ def check_planner(
     seed: int = _USUAL.seed,
     count: int = _USUAL.count,
     cases: str | Path | None = None,
+    call_limit: float = _USUAL.call_limit,
 ) -> None:
     """Ask a planner random calls; hold its answers against brute force and against the laws.
 
@@ -42,6 +43,7 @@ def check_planner(
         seed: of the first call.
         count: of calls in each check.
         cases: a folder for the smallest case, in PDDL; None writes none.
+        call_limit: seconds for each call: a planner that takes longer is ended, and wrong.
 
     Raises:
         PlannerError: the first check that it fails, with the smallest case.
@@ -49,7 +51,7 @@ def check_planner(
         OSError: the case can't be written.
     """
     judge = by_function(planner)
-    scope = Scope(tuple(modes), tuple(options), actions, seed, count)
+    scope = Scope(tuple(modes), tuple(options), actions, seed, count, call_limit)
     for check in checks(judge, scope):
         outcome = run(judge, check, scope)
         if outcome.found is not None:
@@ -82,7 +84,7 @@ def report(
     lines += ["", f"  asked: {asked}"]
     if call.human_plan is not None:
         lines.append(f"  human plan: {'; '.join(call.human_plan)}")
-    lines += [f"  {who}: {words}" for who, words in found.said.items()]
+    lines += [f"  {who}: {words}" for who, words in (*found.said.items(), *found.plans.items())]
     lines.append("")
     if folder is not None:
         place = folder / _file_name(f"{judge.name}-{check}")

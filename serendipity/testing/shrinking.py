@@ -1,34 +1,100 @@
-"""Greedy shrinking: leave out whatever the disagreement does not need."""
+"""Shrinking: leave out whatever the disagreement does not need, first by halves, then one by one."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from time import monotonic
+from typing import Final, TypeVar
 
 from serendipity.model import Condition, GroundAction, Task
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.generator.tasks import unambiguous
 
+T = TypeVar("T")
 
-def shrink(call: PlanCall, disagrees: Callable[[PlanCall], bool], *, most: int = 2000) -> PlanCall:
-    """The smallest call reached by leaving out one thing at a time while judges still differ.
+TIME_LIMIT: Final = 60.0
+"""Seconds after which the smallest call so far is good enough."""
+
+
+def shrink(
+    call: PlanCall,
+    disagrees: Callable[[PlanCall], bool],
+    *,
+    most: int = 2000,
+    time_limit: float = TIME_LIMIT,
+    on_try: Callable[[int], None] | None = None,
+) -> PlanCall:
+    """The smallest call reached by leaving out things while judges still differ.
 
     Args:
         call: a call on which ``disagrees`` is true.
-        disagrees: whether the judges differ.
+        disagrees: whether the judges differ, in the same way.
         most: calls that are tried at most.
+        time_limit: seconds after which no more are tried.
+        on_try: called with the number of calls that were tried.
     """
-    tried = 0
-    progress = True
-    while progress and tried < most:
-        progress = False
-        for smaller in _smaller(call):
-            tried += 1
-            if tried > most:
-                break
-            if disagrees(smaller):
-                call, progress = smaller, True
-                break
+    tries = _Tries(disagrees, most, time_limit, on_try)
+    call = _without_actions(call, tries)
+    call = _without_facts(call, tries)
+    while (smaller := next(filter(tries.shows, _smaller(call)), None)) is not None:
+        call = smaller
     return call
+
+
+class _Tries:
+    """Asks whether calls show it, too, as long as there is time."""
+
+    def __init__(
+        self,
+        disagrees: Callable[[PlanCall], bool],
+        most: int,
+        time_limit: float,
+        on_try: Callable[[int], None] | None,
+    ) -> None:
+        self._disagrees = disagrees
+        self._most = most
+        self._until = monotonic() + time_limit
+        self._on_try = on_try
+        self._tried = 0
+
+    def shows(self, call: PlanCall) -> bool:
+        """Whether a call shows it; none does where no time is left."""
+        if self._tried >= self._most or monotonic() > self._until:
+            return False
+        self._tried += 1
+        if self._on_try is not None:
+            self._on_try(self._tried)
+        return self._disagrees(call)
+
+
+def _without_actions(call: PlanCall, tries: _Tries) -> PlanCall:
+    def fewer(kept: Sequence[GroundAction]) -> PlanCall:
+        return replace(call, task=replace(call.task, actions=tuple(kept)))
+
+    return fewer(_by_halves(call.task.actions, fewer, tries))
+
+
+def _without_facts(call: PlanCall, tries: _Tries) -> PlanCall:
+    def fewer(kept: Sequence[int]) -> PlanCall:
+        return replace(call, task=replace(call.task, init=frozenset(kept)))
+
+    return fewer(_by_halves(sorted(call.task.init), fewer, tries))
+
+
+def _by_halves(parts: Sequence[T], fewer: Callable[[Sequence[T]], PlanCall], tries: _Tries) -> list[T]:
+    """What has to stay: pieces are left out, half of all at first, then half as many, and so on."""
+    kept, size = list(parts), len(parts) // 2
+    while size:
+        i = 0
+        while i < len(kept):
+            smaller = [*kept[:i], *kept[i + size :]]
+            call = fewer(smaller)
+            if unambiguous(call.task) and tries.shows(call):
+                kept = smaller
+            else:
+                i += size
+        size //= 2
+    return kept
 
 
 def _smaller(call: PlanCall) -> Iterator[PlanCall]:

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import tomllib
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,7 @@ def test_the_plugin_alone_loads_next_to_nothing() -> None:
     ours = {
         name for name in loaded_after("import serendipity.testing.plugin") if name.startswith("serendipity.")
     }
-    assert ours == {"serendipity.testing", "serendipity.testing.plugin"}
+    assert ours == {"serendipity._version", "serendipity.testing", "serendipity.testing.plugin"}
 
 
 def test_without_hypothesis_there_is_one_line_that_names_the_extra() -> None:
@@ -54,6 +55,7 @@ except ImportError as error:
 @pytest.mark.parametrize("name", serendipity.testing.__all__)
 def test_every_public_name_loads(name: str) -> None:
     assert getattr(serendipity.testing, name) is not None
+    assert find_spec(f"serendipity.testing.{name}") is None, "a module of that name would take its place"
     assert name in dir(serendipity.testing)
 
 

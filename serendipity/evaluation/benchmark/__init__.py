@@ -6,7 +6,7 @@ who wants a plot.
 """
 
 from serendipity.evaluation.benchmark.contenders import CONTENDERS, Contender
-from serendipity.evaluation.benchmark.measure import MODES, Timing, measure
+from serendipity.evaluation.benchmark.measure import MODES, Timing, broken, measure
 from serendipity.evaluation.benchmark.report import RATIOS_HEADER, TIMES_HEADER, machine, ratios, times
 from serendipity.evaluation.benchmark.scaling import AXES, Axis, Sample, planned, scale
 from serendipity.evaluation.benchmark.scaling_report import (
@@ -29,6 +29,7 @@ __all__ = [
     "Contender",
     "Sample",
     "Timing",
+    "broken",
     "exponents",
     "machine",
     "measure",

@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 def answered(folder: Path, mode: str, discount: str, time_limit: float) -> dict[str, Any]:
     """Read, pack and plan twice; what was measured."""
-    options = Options(discount=discount, time_limit=time_limit, **MODES[mode])  # type: ignore[arg-type]
+    options = Options(discount=discount, time_limit=time_limit, **MODES[mode])
 
     def call() -> Answer:
         *_, outcome = solve(prepared, options, deadline=Deadline(time_limit))

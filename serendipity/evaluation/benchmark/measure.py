@@ -9,7 +9,7 @@ from typing import Any, Final, TypeVar
 from search import PreparedTask, prepare
 from serendipity.evaluation.benchmark.answer import Answer
 from serendipity.evaluation.benchmark.contenders import CONTENDERS, Contender
-from serendipity.model.errors import DisagreementError, UsageError
+from serendipity.model.errors import DisagreementError, UsageError, told
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.task.task import Task
 
@@ -41,6 +41,7 @@ class Timing:
         cost: None where there is none, or the limit came first.
         process_seconds: median for contenders that are processes, from files to answer.
         memory: peak memory of such a process, in MiB.
+        reason: of an ``error``, which stands for all calls of a task.
     """
 
     task: str
@@ -55,6 +56,7 @@ class Timing:
     cost: float | None
     process_seconds: float | None
     memory: float | None
+    reason: str | None = None
 
     @property
     def solved(self) -> bool:
@@ -95,10 +97,7 @@ def measure(
         for task in tasks:
             prepared = prepare(task)
             for mode, fixed in kinds.items():
-                asked = [
-                    Options(discount=text, time_limit=time_limit, **fixed)  # type: ignore[arg-type]
-                    for text in discounts
-                ]
+                asked = [Options(discount=text, time_limit=time_limit, **fixed) for text in discounts]
                 answers = {
                     name: _answers(contender, prepared, asked, repeat)
                     for name, contender in chosen.items()
@@ -112,6 +111,11 @@ def measure(
                     yield from found
     finally:
         gc.unfreeze()
+
+
+def broken(task: str, error: Exception) -> Timing:
+    """What stands for all calls of a task that can't be read."""
+    return Timing(task, "", "", "", 0.0, 0.0, 0.0, 0, "error", None, None, None, told(error))
 
 
 def _known(name: str, known: Mapping[str, T], what: str) -> T:

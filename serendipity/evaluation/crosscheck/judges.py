@@ -15,6 +15,7 @@ from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.judges import OutsideJudge, fault
 from serendipity.testing.judges import said as said_by
+from serendipity.testing.told_plans import claimed_plan, told_plan
 from verify.calls.solve import solve
 
 
@@ -110,12 +111,15 @@ def compare(
         if answer is not None:
             answers[name] = answer
     proved = next((a for a in answers.values() if a.status in ("optimal", "infeasible")), None)
+    plans: dict[str, str] = {}
     for stranger in outside:
-        words, agrees = _asked_outside(call, stranger, proved, limits)
+        words, agrees, its_plan = _asked_outside(call, stranger, proved, limits)
         said[stranger.name] = words
         sound = sound and agrees
+        plans |= its_plan
     if not sound or len(known) > 1:
-        return Disagreement(call, said)
+        ours = told_plan(proved) if plans and proved is not None else {}
+        return Disagreement(call, said, plans=plans | ours)
     if "search" in answers and time_limit is None and memory_limit is None:
         for law, fault in _broken(call, answers["search"], laws):
             return Disagreement(call, {"search": said["search"], law: fault}, law)
@@ -130,7 +134,7 @@ def shows_it_too(
     time_limit: float | None = None,
     memory_limit: float | None = None,
 ) -> Callable[[PlanCall], bool]:
-    """A test of other calls: whether judges differ on them as well, or the same law is broken.
+    """A test of other calls: whether the same judges are at fault in the same way, or the same law is broken.
 
     Args:
         found: the disagreement.
@@ -139,16 +143,18 @@ def shows_it_too(
         time_limit: seconds for each answer and certificate, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
     """
-    if found.law is None:
-        differ = partial(compare, outside=outside, time_limit=time_limit, memory_limit=memory_limit)
-        return lambda call: differ(call, judges, {}) is not None
-    law, search = {found.law: LAWS[found.law]}, {"search": judges["search"]}
+    search = {"search": judges["search"]} if found.law is not None else {}
 
-    def broken(call: PlanCall) -> bool:
-        again = compare(call, search, law)
-        return again is not None and again.law == found.law
+    def shows(call: PlanCall) -> bool:
+        if found.law is not None:
+            again = compare(call, search, {found.law: LAWS[found.law]})
+        else:
+            again = compare(
+                call, judges, {}, outside=outside, time_limit=time_limit, memory_limit=memory_limit
+            )
+        return again is not None and again.kind == found.kind
 
-    return broken
+    return shows
 
 
 def _asked(
@@ -174,15 +180,17 @@ def _asked(
 
 def _asked_outside(
     call: PlanCall, judge: OutsideJudge, proved: Result | None, limits: Callable[[], Deadline]
-) -> tuple[str, bool]:
-    """What a judge from outside says, and whether it can be so."""
+) -> tuple[str, bool, dict[str, str]]:
+    """What a judge from outside says, whether it can be so, and its plan if that can't."""
     try:
         claim = judge.answer(call, limits())
         wrong = fault(call, claim, proved)
     except Exception as error:  # whatever it is, it is found
-        return _crash(error), False
+        return _crash(error), False, {}
     words = said_by(call, claim)
-    return (words, True) if wrong is None else (f"{words} (refuted: {wrong})", False)
+    if wrong is None:
+        return words, True, {}
+    return f"{words} (refuted: {wrong})", False, claimed_plan(call, claim, judge.name)
 
 
 def _broken(call: PlanCall, answer: Result, laws: Mapping[str, Law]) -> Iterator[tuple[str, str]]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import ceil, floor, log10
 from typing import Final
 
-from serendipity.writing.printable import markup
+from serendipity.model.printable import markup
 
 _WIDTH, _HEIGHT = 700, 360
 _LEFT, _RIGHT, _TOP, _BOTTOM = 64, 210, 40, 52

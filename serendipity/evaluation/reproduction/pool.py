@@ -1,10 +1,17 @@
 """Where assignments are worked on beside processes of this machine: a Dask cluster."""
 
+import logging
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from concurrent.futures import CancelledError
+from contextlib import contextmanager, suppress
+from typing import Any, Final
 
-from serendipity.evaluation.reproduction.work import Assignment, TaskRows
-from serendipity.model import UsageError
+from serendipity.evaluation.reproduction.work import Assignment, TaskRows, killed
+from serendipity.model import SerendipityError, UsageError
+
+log = logging.getLogger("serendipity.reproduce")
+
+_AGAIN: Final = "run the same command to go on"
 
 Work = Callable[[Assignment], TaskRows]
 
@@ -22,21 +29,54 @@ def on_dask(work: Work, assignments: Sequence[Assignment], address: str, jobs: i
 
     Raises:
         UsageError: Dask is not installed, or there is no scheduler at the address.
+        SerendipityError: the scheduler is gone.
     """
-    client = _client(address, jobs)
-    from distributed import as_completed as completed
+    with _client(address, jobs) as client:
+        from distributed import KilledWorker
+        from distributed import as_completed as completed
 
+        try:
+            futures = dict(zip(client.map(work, assignments, pure=False), assignments, strict=True))
+            for future in completed(futures):
+                try:
+                    yield future.result()
+                except KilledWorker:
+                    yield killed(futures[future])
+        except (OSError, CancelledError):  # of which Dask's own are kinds
+            raise SerendipityError(f"--dask: no scheduler any more at '{address}': {_AGAIN}") from None
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """What Dask logs of workers and schedulers that are gone, tracebacks and all, is for those who debug."""
+    if log.isEnabledFor(logging.DEBUG):
+        yield
+        return
+    names = [name for name in logging.Logger.manager.loggerDict if name.partition(".")[0] == "distributed"]
+    levels = {logger: logger.level for logger in map(logging.getLogger, names)}
+    for logger in levels:
+        logger.setLevel(logging.CRITICAL)
     try:
-        futures = client.map(work, assignments, pure=False)
-        for future in completed(futures):
-            yield future.result()
+        yield
     finally:
-        client.close()
-        if address == "local":
-            client.cluster.close()
+        for logger, level in levels.items():
+            logger.setLevel(level)
 
 
-def _client(address: str, jobs: int) -> Any:
+@contextmanager
+def _client(address: str, jobs: int) -> Iterator[Any]:
+    client = _connected(address, jobs)
+    with _hushed():
+        try:
+            yield client
+        finally:
+            with suppress(OSError, TimeoutError):  # of a cluster that is gone
+                client.close()
+                if address == "local":
+                    client.cluster.close()
+
+
+def _connected(address: str, jobs: int) -> Any:
     try:
         from distributed import Client, LocalCluster
     except ImportError:

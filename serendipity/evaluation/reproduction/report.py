@@ -8,7 +8,7 @@ from typing import Final
 from serendipity.evaluation.reproduction.charts import Labels, Points, bars, lines
 from serendipity.evaluation.reproduction.run import Reproduction
 from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Times
-from serendipity.writing.printable import markup
+from serendipity.model.printable import markup
 
 _STYLE: Final = """
 :root { color-scheme: light dark; }

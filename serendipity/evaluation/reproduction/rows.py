@@ -7,18 +7,6 @@ from typing import Any, Final
 from serendipity.model import Window
 from serendipity.model.numbers import as_written, rounded
 
-COLUMNS: Final = (
-    "test",
-    "mode",
-    "discount",
-    "cost",
-    "human_cost",
-    "window_start",
-    "window_end",
-    "seconds",
-)
-"""The columns of the CSV, in order."""
-
 KINDS: Final = {
     "test": str,
     "mode": str,
@@ -32,8 +20,13 @@ KINDS: Final = {
     "opportunity": bool,
     "best_tie": float,
     "worst_tie": float,
+    "reason": str,
 }
-"""The columns of a table of rows, and their types: those of the CSV, then what else is known."""
+"""The columns of a table of rows, and their types; the first eight are those of the paper's tables."""
+
+COLUMNS: Final = tuple(KINDS)
+SHORT: Final = COLUMNS.index("best_tie")
+"""How many of them are printed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +37,7 @@ class Row:
         test: the task's number or name.
         mode: as in ``Options``.
         discount: exact.
-        status: as in ``Result``.
+        status: as in ``Result``, or ``error``: the task, or this call, is broken.
         cost: of the answer, or None.
         human_cost: of the human's plan, or None.
         opportunity: whether a robot helps.
@@ -53,6 +46,7 @@ class Row:
         best_tie: least cost over the human's optimal plans; ``cost`` where that is no question,
             None where a limit came before it was known.
         worst_tie: greatest cost over them.
+        reason: of an ``error``.
     """
 
     test: str
@@ -66,6 +60,7 @@ class Row:
     seconds: float
     best_tie: Fraction | None
     worst_tie: Fraction | None
+    reason: str | None = None
 
     @property
     def proved(self) -> bool:
@@ -84,10 +79,15 @@ class Row:
             start,
             end,
             f"{self.seconds:.6f}",
+            self.status,
+            str(self.opportunity),
+            _text(self.best_tie),
+            _text(self.worst_tie),
+            self.reason or "",
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON object: ``COLUMNS``, then what else is known."""
+        """The JSON object, in the order of ``COLUMNS``."""
         return {
             "test": self.test,
             "mode": self.mode,
@@ -101,6 +101,7 @@ class Row:
             "opportunity": self.opportunity,
             "best_tie": rounded(self.best_tie),
             "worst_tie": rounded(self.worst_tie),
+            "reason": self.reason,
         }
 
     @classmethod
@@ -121,6 +122,7 @@ class Row:
             seconds=data["seconds"],
             best_tie=exact_cost(data["best_tie"]),
             worst_tie=exact_cost(data["worst_tie"]),
+            reason=data.get("reason"),
         )
 
 

@@ -9,19 +9,29 @@ from pathlib import Path
 from time import time
 from typing import Final
 
+from search.kernel.library import library
 from serendipity.evaluation.reproduction.journal import Journal
 from serendipity.evaluation.reproduction.pool import on_dask
 from serendipity.evaluation.reproduction.rows import KINDS, Row
 from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
-from serendipity.evaluation.reproduction.work import Assignment, Call, Limits, TaskRows, solve, unknown
+from serendipity.evaluation.reproduction.work import (
+    Assignment,
+    Call,
+    Limits,
+    TaskRows,
+    killed,
+    solve,
+    unknown,
+)
 from serendipity.model import Deadline, Options, UsageError
 from serendipity.model.arguments import DEADLINE, FUNCTION, LIST, PATH, TEXT, WHOLE, expect, expect_or_none
+from serendipity.model.keywords import Mode
 from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.task import several
 
-MODES: Final = ("individual", "serendipity", "communication", "composite")
+MODES: Final[tuple[Mode, ...]] = ("individual", "serendipity", "communication", "composite")
 DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
 """The discounts of the paper's Table I."""
 
@@ -41,7 +51,7 @@ class Progress:
     opportunities: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Reproduction(Tabular):
     """The rows of a run, in the order task, mode, discount."""
 
@@ -49,25 +59,33 @@ class Reproduction(Tabular):
     discounts: tuple[Fraction, ...]
     rows: tuple[Row, ...]
 
+    def __repr__(self) -> str:
+        return f"Reproduction({len(self.rows)} rows, {self.unproved} of them unproved)"
+
     def table(self) -> Table:
-        """The rows: what the CSV has, and behind it what else is known."""
+        """The rows, with the columns of the CSV."""
         return Table(KINDS, tuple(tuple(row.to_dict().values()) for row in self.rows))
 
     @property
     def unproved(self) -> int:
         """The number of rows for which a limit came before the proof."""
-        return sum(not row.proved for row in self.rows)
+        return sum(not row.proved and row.status != "error" for row in self.rows)
+
+    @property
+    def errors(self) -> dict[str, str]:
+        """By task whatever is broken in it: the first reason."""
+        return {row.test: row.reason or "" for row in reversed(self.rows) if row.status == "error"}
 
     @property
     def complete(self) -> bool:
         """Whether every row is proved."""
-        return not self.unproved
+        return all(row.proved for row in self.rows)
 
 
 def reproduce(
     folder: str | PathLike[str],
     *,
-    modes: Iterable[str] = MODES,
+    modes: Iterable[Mode] = MODES,
     discounts: Iterable[Number] = DISCOUNTS,
     jobs: int = 1,
     journal: str | PathLike[str] | None = None,
@@ -77,7 +95,7 @@ def reproduce(
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
 ) -> Reproduction:
-    """Solve every task of a folder in every mode at every discount.
+    """Solve every task of a folder in every mode at every discount; a broken task is rows of its own.
 
     Args:
         folder: its subfolders are tasks, each with a folder per agent and ``superagent/``.
@@ -96,7 +114,8 @@ def reproduce(
 
     Raises:
         UsageError: an argument is wrong.
-        InputError: the folder, the journal or a task can't be read.
+        InputError: the folder or the journal can't be read.
+        SerendipityError: the Dask cluster is gone.
     """
     expect(PATH, folder=folder)
     expect(LIST, modes=modes, discounts=discounts)
@@ -146,7 +165,7 @@ def _calls(modes: Iterable[str], discounts: Iterable[Number]) -> tuple[Call, ...
     for mode in wanted:
         if mode not in MODES:
             raise UsageError(f"modes: expected some of {', '.join(MODES)}, got '{mode}'")
-    exact = dict.fromkeys(Options(discount=level).discount for level in levels)  # type: ignore[arg-type]
+    exact = dict.fromkeys(Options(discount=level).discount for level in levels)
     return tuple(Call(mode, discount) for mode in wanted for discount in exact)
 
 
@@ -183,9 +202,10 @@ def _limits(time_limit: float | None, memory_limit: float | None, whole: Deadlin
 def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:
     if not assignments:
         return
+    library()  # says once if there is none, and not once for each process
     if dask is not None:
         yield from on_dask(solve, assignments, dask, jobs)
     elif jobs == 1:
         yield from map(solve, assignments)
     else:
-        yield from in_processes(solve, assignments, jobs, advice=": run the same command to go on")
+        yield from in_processes(solve, assignments, jobs, killed)

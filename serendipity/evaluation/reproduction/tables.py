@@ -118,9 +118,10 @@ def table_2(run: Reproduction) -> tuple[Times, ...]:
     printed = _papers_own(run)
     times = []
     for mode in run.modes:
-        seconds = [row.seconds for row in run.rows if row.mode == mode]
+        told = [row.seconds for row in run.rows if row.mode == mode and row.status != "error"]
+        seconds = told or [0.0]
         paper = TABLE_2.get(mode) if printed else None
-        times.append(Times(mode, len(seconds), fmean(seconds), median(seconds), max(seconds), paper))
+        times.append(Times(mode, len(told), fmean(seconds), median(seconds), max(seconds), paper))
     return tuple(times)
 
 

@@ -1,19 +1,26 @@
 """The unit of work: one task, read once, through some modes and discounts."""
 
-from dataclasses import dataclass
+import logging
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter, time
-from typing import Final
+from typing import Any, Final
 
 from serendipity.evaluation.reproduction.rows import Row, exact_cost
 from serendipity.facade.loading import load
 from serendipity.facade.planning import plan
 from serendipity.model import Deadline, Result, Task
-from serendipity.model.errors import LIMITS
+from serendipity.model.errors import LIMITS, told
+from serendipity.model.keywords import Ties
+
+log = logging.getLogger("serendipity.reproduce")
 
 _TIED: Final = ("serendipity",)
 """Modes whose cost depends on which of the human's optimal plans the human follows."""
+
+
+_BEST_AND_WORST: Final[tuple[Ties, ...]] = ("optimistic", "robust")
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +29,10 @@ class Call:
 
     mode: str
     discount: Fraction
+
+    def keywords(self) -> dict[str, Any]:
+        """As the facade takes them."""
+        return {"mode": self.mode, "discount": self.discount}
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,18 +76,39 @@ class TaskRows:
 
 
 def solve(assignment: Assignment) -> TaskRows:
-    """Read the task and make the calls; what a limit leaves no time or memory for is ``unknown``.
+    """Read the task and make the calls.
 
-    Raises:
-        InputError: a file of the task is wrong.
+    What a limit leaves no time or memory for is ``unknown``, what is broken an ``error``.
     """
     try:
         task = load(assignment.path, deadline=assignment.limits.from_now())
     except LIMITS:
         rows = tuple(unknown(assignment.test, call) for call in assignment.calls)
+    except Exception as error:  # one broken task does not end a suite
+        return failed(assignment, _logged(error))
     else:
         rows = tuple(_row(assignment, task, call) for call in assignment.calls)
     return TaskRows(assignment.test, assignment.fingerprint, rows)
+
+
+def failed(assignment: Assignment, reason: str) -> TaskRows:
+    """The rows of a task that could not be worked on."""
+    rows = tuple(_failed(assignment, call, reason) for call in assignment.calls)
+    return TaskRows(assignment.test, assignment.fingerprint, rows)
+
+
+def killed(assignment: Assignment) -> TaskRows:
+    """The rows of a task whose processes were killed."""
+    return failed(assignment, "its process was killed, and again when it was tried once more")
+
+
+def _failed(assignment: Assignment, call: Call, reason: str) -> Row:
+    return replace(unknown(assignment.test, call), status="error", reason=reason)
+
+
+def _logged(error: Exception) -> str:
+    log.debug("the error came from here", exc_info=True)
+    return told(error)
 
 
 def unknown(test: str, call: Call) -> Row:
@@ -98,9 +130,14 @@ def unknown(test: str, call: Call) -> Row:
 
 def _row(assignment: Assignment, task: Task, call: Call) -> Row:
     start, limits = perf_counter(), assignment.limits.from_now()
-    result = plan(task, mode=call.mode, discount=call.discount, deadline=limits)
-    seconds = perf_counter() - start
-    best, worst = _ties(task, call, result, limits)
+    try:
+        result = plan(task, deadline=limits, **call.keywords())
+        seconds = perf_counter() - start
+        best, worst = _ties(task, call, result, limits)
+    except LIMITS:
+        return unknown(assignment.test, call)
+    except Exception as error:  # see above
+        return _failed(assignment, call, _logged(error))
     return Row(
         test=assignment.test,
         mode=call.mode,
@@ -122,10 +159,7 @@ def _ties(
     """Least and greatest cost over the human's optimal plans."""
     if call.mode not in _TIED or result.cost is None:
         return exact_cost(result.cost), exact_cost(result.cost)
-    best, worst = (
-        plan(task, mode=call.mode, discount=call.discount, ties=ties, deadline=limits)
-        for ties in ("optimistic", "robust")
-    )
+    best, worst = (plan(task, ties=ties, deadline=limits, **call.keywords()) for ties in _BEST_AND_WORST)
     if best.status != "optimal" or worst.status != "optimal":
         return None, None
     return exact_cost(best.cost), exact_cost(worst.cost)

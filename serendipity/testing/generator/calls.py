@@ -7,6 +7,7 @@ from typing import Any
 from serendipity.model import Task
 from serendipity.testing.generator.families import FAMILIES
 from serendipity.testing.generator.human_plans import plan_after_detour, random_human_plan
+from serendipity.testing.generator.numbers import odd_options, oddly_priced
 from serendipity.testing.generator.tasks import random_task
 from verify.base.optimal_plans import OptimalPlans
 
@@ -21,6 +22,9 @@ _CHOICES: dict[str, tuple[str, ...]] = {
     "max_cost": ("", "", "", "", "human", "1", "2", "3"),
     "ties": ("", "", "", "optimistic", "robust", "expected"),
 }
+_ODD = 0.2
+"""The share of calls with numbers that are hard to add up."""
+
 _FLAGS = ("keep_prefix", "no_block")
 """Options that are true or false."""
 
@@ -58,11 +62,18 @@ class PlanCall:
 
 
 def random_call(seed: int) -> PlanCall:
-    """A small random task, half the time of a family, with random options; equal seeds give equal calls."""
+    """A small random task, half the time of a family, with random options; equal seeds give equal calls.
+
+    One in five has numbers that are hard to add up; which, and what numbers, has dice of its own.
+    """
+    numbers = Random(f"numbers {seed}")
+    odd = numbers.random() < _ODD
     family = Random(f"family {seed}").choice(("",) * len(FAMILIES) + tuple(FAMILIES))
     dice = Random(f"crosscheck {seed}")
     task = random_task(dice, family)
     options = random_options(dice)
+    if odd:
+        task, options = oddly_priced(numbers, task), odd_options(numbers, options)
     plan = None
     if dice.random() < 0.25:
         plan = (plan_after_detour if family else random_human_plan)(dice, task)

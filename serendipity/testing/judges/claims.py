@@ -15,6 +15,9 @@ from serendipity.model.numbers import exact, total
 from serendipity.model.task.actions import apply
 from serendipity.testing.generator.calls import PlanCall
 
+TIME_LIMIT: Final = "time limit"
+"""The words of a claim to which a limit came first."""
+
 _KEPT: Final = ("discount",)
 """Options of a random call that the joint question has, too."""
 

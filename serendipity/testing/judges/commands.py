@@ -13,7 +13,7 @@ from serendipity.model import Deadline, SerendipityError, UsageError
 from serendipity.model.numbers import exact
 from serendipity.pddl.write import composite_files, composite_names
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import Claim
+from serendipity.testing.judges.claims import TIME_LIMIT, Claim
 
 _PLACES: Final = ("domain", "problem", "plan")
 _STEP: Final = re.compile(r"^\s*(?:\d+(?:\.\d+)?\s*:\s*)?\(\s*([^()]*?)\s*\)", re.MULTILINE)
@@ -74,7 +74,7 @@ class Command:
                     stdin=subprocess.DEVNULL,
                 )
             except subprocess.TimeoutExpired:
-                return Claim("unknown", words="time limit")
+                return Claim("unknown", words=TIME_LIMIT)
             written = _written(folder)
         names = composite_names(call.task)
         claim = _read(done.stdout if written is None else written, names, empty=written is not None)

@@ -9,16 +9,21 @@ One that has a window to tell gives an :class:`Answer`.  What it can't answer it
 """
 
 import inspect
-from collections.abc import Callable, Sequence
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from types import FrameType
 from typing import Any, Final
 
 from serendipity.model import Deadline, Task, UsageError
 from serendipity.model.numbers import exact
 from serendipity.testing.asking import call_of, settled
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import Claim, OutsideJudge, action_of, plan_of
+from serendipity.testing.judges.claims import TIME_LIMIT, Claim, OutsideJudge, action_of, plan_of
 
+_ALARM: Final = hasattr(signal, "setitimer")
 _JOINT: Final = 2
 _EVERY_MODE: Final = 3
 _GIVEN: Final = "human_plan"
@@ -52,17 +57,46 @@ def by_function(function: Callable[..., Any], name: str = "") -> OutsideJudge:
     called = name or getattr(function, "__name__", type(function).__name__)
     takes = _takes(function, called)
 
-    def answer(call: PlanCall, _: Deadline) -> Claim:
+    def answer(call: PlanCall, deadline: Deadline) -> Claim:
         try:
             if takes == _JOINT:
-                said = function(call.task, exact(call.options.get("discount", "0"), "discount"))
+                share = exact(call.options.get("discount", "0"), "discount")
+                with _ended_after(deadline.left()):
+                    said = function(call.task, share)
                 return _joint(call.task, said)
             asked = settled(call_of(call))
-            return _in_epochs(call.task, function(call.task, asked.options, asked.human_plan_names))
+            with _ended_after(deadline.left()):
+                said = function(call.task, asked.options, asked.human_plan_names)
+            return _in_epochs(call.task, said)
         except NotImplementedError as error:
             return Claim("unknown", words=f"not implemented{f': {error}' if str(error) else ''}")
+        except _HangsError:
+            return Claim("unknown", words=TIME_LIMIT)
 
     return OutsideJudge(called, answer, every_mode=takes == _EVERY_MODE)
+
+
+class _HangsError(BaseException):
+    """The time of a function is over; no exception that it would catch."""
+
+
+@contextmanager
+def _ended_after(seconds: float | None) -> Iterator[None]:
+    """End a function that takes too long, where signals can: in the main thread, on Unix."""
+    if seconds is None or threading.current_thread() is not threading.main_thread() or not _ALARM:
+        yield
+        return
+
+    def end(_number: int, _frame: FrameType | None) -> None:
+        raise _HangsError
+
+    before = signal.signal(signal.SIGALRM, end)
+    signal.setitimer(signal.ITIMER_REAL, max(seconds, 1e-6))
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def _takes(function: Callable[..., Any], name: str) -> int:

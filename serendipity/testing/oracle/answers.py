@@ -7,6 +7,7 @@ from itertools import islice
 from math import lcm
 
 from serendipity.model import HumanPlan, Options, Task, UsageError, Window
+from serendipity.model.keywords import Horizon
 from serendipity.testing.oracle.alone import Alone, human_plans
 from serendipity.testing.oracle.epochs import State, action_sets, after, holds
 from serendipity.testing.oracle.labels import NOTHING, Label, Layer, Moves, advance, front, plus
@@ -328,7 +329,7 @@ class Solver:
     def _cost(self, units: int) -> Fraction:
         return Fraction(units, self.unit)
 
-    def _horizon(self) -> int | str | None:
+    def _horizon(self) -> Horizon | None:
         options, plan = self.options, self.human_plan
         if options.mode == "individual" or (plan is None and options.windowed):
             return None

@@ -8,12 +8,13 @@ from hypothesis import strategies as st
 
 from serendipity.facade.planning import plan as plan_of
 from serendipity.model import HumanPlan, Options, Result, Task
+from serendipity.model.keywords import Horizon, Mode
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import Alone, human_plans, optimal_human_plan
 from serendipity.testing.oracle.epochs import after
 from serendipity.testing.strategies.tasks import tasks
 
-MODES: Final = ("serendipity", "individual", "communication", "composite")
+MODES: Final[tuple[Mode, ...]] = ("serendipity", "individual", "communication", "composite")
 _DISCOUNTS: Final = ("0", "0.25", "0.5", "0.6", "0.9", "1")
 _WEIGHTS: Final = ("1000", "1000", "0", "0", "0.25", "0.75", "1", "2")
 _LONGEST_PLAN: Final = 8
@@ -25,7 +26,7 @@ _TIES: Final = ("fixed", "fixed", "optimistic", "robust", "expected")
 def calls(
     draw: st.DrawFn,
     *,
-    modes: tuple[str, ...] = MODES,
+    modes: tuple[Mode, ...] = MODES,
     ties: bool = True,
     of: st.SearchStrategy[Task] | None = None,
 ) -> Call:
@@ -53,7 +54,7 @@ def calls(
 
 
 @st.composite
-def options(draw: st.DrawFn, task: Task, *, modes: tuple[str, ...] = MODES) -> Options:
+def options(draw: st.DrawFn, task: Task, *, modes: tuple[Mode, ...] = MODES) -> Options:
     """Options that are legal for a task, its human plan being predicted.
 
     Args:
@@ -86,28 +87,28 @@ def results(draw: st.DrawFn, *, of: st.SearchStrategy[Call] | None = None) -> tu
 
 
 @st.composite
-def _options(draw: st.DrawFn, mode: str, length: int | None, *, open_goal: bool) -> Options:
+def _options(draw: st.DrawFn, mode: Mode, length: int | None, *, open_goal: bool) -> Options:
     keep_prefix = mode == "communication" and length is not None and draw(st.integers(0, 2)) == 0
     numbers = [str(n / 2) for n in range(17)]
     limits = [None] * 6 + ["human", draw(st.sampled_from(numbers))]
     weight = draw(st.sampled_from(["0", "0", "0.25", "1", "2"])) if mode == "communication" else "0"
     return Options(
         mode=mode,
-        discount=draw(st.sampled_from(_DISCOUNTS)),  # type: ignore[arg-type]
+        discount=draw(st.sampled_from(_DISCOUNTS)),
         horizon=draw(_horizons(mode, length, open_goal=open_goal)),
-        window_weight=draw(st.sampled_from(_WEIGHTS)),  # type: ignore[arg-type]
+        window_weight=draw(st.sampled_from(_WEIGHTS)),
         max_window=draw(st.sampled_from([None, None, None, 1, 2, 3])),
         suffix=draw(st.sampled_from(["replan", "replan", "subplan"])),
         preservation=draw(st.sampled_from(["kernel", "kernel", "kernel", "state"])),
         interference=draw(st.sampled_from(["paper", "paper", "strict"])),
         max_cost=draw(st.sampled_from(limits)),
-        communication_weight=weight,  # type: ignore[arg-type]
+        communication_weight=weight,
         keep_prefix=keep_prefix,
     )
 
 
 @st.composite
-def _horizons(draw: st.DrawFn, mode: str, length: int | None, *, open_goal: bool) -> int | str | None:
+def _horizons(draw: st.DrawFn, mode: str, length: int | None, *, open_goal: bool) -> Horizon | None:
     """Never shorter than the human's plan; given where a call without it is an error."""
     if mode == "individual":
         return None

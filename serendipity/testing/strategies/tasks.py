@@ -12,6 +12,7 @@ from serendipity.model import Condition, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+from serendipity.testing.generator.numbers import oddly_priced
 from serendipity.testing.oracle import Alone
 
 COSTS: Final = ("1", "1", "1", "2", "3", "4", "0", "0.5", "0.1", "2.5")
@@ -156,6 +157,13 @@ def family_tasks(
     family = draw(st.sampled_from(families))
     size, agents = draw(st.sampled_from(SMALL[family] if sizes is None else sizes))
     return FAMILIES[family](Random(draw(st.integers(0, 10**9))), size, AGENTS[:agents])
+
+
+@st.composite
+def oddly_priced_tasks(draw: st.DrawFn) -> Task:
+    """Tasks with costs that are hard to add up: long denominators, huge ones, both in one task."""
+    task = draw(st.one_of(strips_tasks(), corridor_tasks(), errand_tasks()))
+    return oddly_priced(Random(draw(st.integers(0, 10**9))), task)
 
 
 def tasks() -> st.SearchStrategy[Task]:

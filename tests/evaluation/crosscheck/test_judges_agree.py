@@ -188,7 +188,7 @@ def test_command_without_a_seed_draws_one_and_says_it(
 
 def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["crosscheck", "--judges", "search,oracle"]) == 2
-    known = "search, automata, paper, cbc, program, exhaustive"
+    known = "search, automata, paper, cbc, program, exhaustive, false-certificates"
     assert f"expected some of {known}, got 'oracle'" in capsys.readouterr().err
 
 

@@ -95,7 +95,7 @@ def variants_are_actions(patch: Patch) -> None:
 
 FOUND: dict[Callable[[Patch], None], tuple[str, int]] = {
     half_an_answer: ("limits", 514),
-    help_that_is_none: ("limits", 452),
+    help_that_is_none: ("limits", 112),
     an_infinite_figure: ("limits", 540),
     feasible_without_a_plan: ("on the way", 26),
     interference_of_an_earlier_call: ("again", 84),

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.evaluation.reproduction import Progress, reproduce, run
+from serendipity.evaluation.reproduction import Progress, Row, reproduce, run
 from serendipity.model import InputError
 from serendipity.model.resources.processes import in_processes
 
@@ -69,7 +69,7 @@ def test_a_line_that_was_cut_off_is_done_again(suite: Path, tmp_path: Path, solv
     journal.write_bytes(whole[:-10])
     again = reproduce(suite, **CALLS, journal=journal)
     assert solved[6:] == ["6"]
-    assert [row.cells()[:-1] for row in again.rows] == [row.cells()[:-1] for row in first.rows]
+    assert list(map(timeless, again.rows)) == list(map(timeless, first.rows))
     assert reproduce(suite, **CALLS, journal=journal) == again
 
 
@@ -126,8 +126,8 @@ def test_kill_in_the_middle(suite: Path, tmp_path: Path) -> None:
         ended(int(child))
     subprocess.run([*command, "-o", str(answer)], check=True)
     uninterrupted = reproduce(suite, **CALLS)
-    found = [line.rpartition(",")[0] for line in answer.read_text().splitlines()[1:]]
-    assert found == [",".join(row.cells()[:-1]) for row in uninterrupted.rows]
+    found = [line.split(",") for line in answer.read_text().splitlines()[1:]]
+    assert [[*cells[:7], *cells[8:]] for cells in found] == list(map(timeless, uninterrupted.rows))
     assert not journal.exists()
 
 
@@ -137,6 +137,12 @@ def test_workers_end_where_nobody_asks_for_more() -> None:
     next(finished)
     finished.close()
     assert time.monotonic() - started < 60
+
+
+def timeless(row: Row) -> list[str]:
+    """The cells, without the seconds."""
+    cells = row.cells()
+    return [*cells[:7], *cells[8:]]
 
 
 def ended(pid: int) -> None:

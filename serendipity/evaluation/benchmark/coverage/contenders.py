@@ -57,7 +57,7 @@ class Outcome:
         read_seconds: of reading, grounding, and looking for variables, by the clock.
         process_seconds: processor time of all that it did.
         memory: its peak in MiB, where that is known.
-        reason: why it failed.
+        reason: why it failed, or what is broken.
     """
 
     status: str

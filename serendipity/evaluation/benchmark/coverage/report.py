@@ -84,6 +84,11 @@ def failures(rows: Iterable[Row]) -> list[str]:
     )
 
 
+def errors(rows: Iterable[Row]) -> dict[str, str]:
+    """By task what is broken in it."""
+    return {f"{row.domain} {row.task}": row.outcome.reason for row in rows if row.outcome.status == "error"}
+
+
 def _counts(times: Sequence[float]) -> Iterable[str]:
     return (str(sum(time <= moment for time in times)) for moment in MOMENTS)
 

@@ -12,8 +12,8 @@ from serendipity.evaluation.benchmark.coverage.contenders import (
     Outcome,
     can_alone,
 )
-from serendipity.evaluation.benchmark.coverage.suite import Problem, roles
-from serendipity.model.errors import UsageError
+from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles, roles
+from serendipity.model.errors import UsageError, told
 from serendipity.model.numbers import Number, exact
 
 T = TypeVar("T")
@@ -75,16 +75,22 @@ def measure(
         robots: how many there are at most.
         time_limit: seconds for each call, and as many for reading it.
 
+    A problem that can't be read is one row for each contender, with status ``error``.
+
     Raises:
         UsageError: a mode, a contender or the discount is unknown.
-        InputError: a file of a problem is wrong.
     """
     asked = [name for name in modes if _known(name, MODES, "modes")]
     chosen = {name: _known(name, CONTENDERS, "contenders") for name in contenders}
     share = exact(discount, "discount")
     short = min(_SHORT, time_limit)
     for problem in problems:
-        who = roles(problem, robots, lambda problem, who: can_alone(problem, who, short))
+        try:
+            who = roles(problem, robots, lambda problem, who: can_alone(problem, who, short))
+        except Exception as error:  # one broken task does not end a suite
+            broken = Call(problem, Roles("", ()), asked[0], share, time_limit)
+            yield from (_row(broken, name, Outcome("error", reason=told(error))) for name in chosen)
+            continue
         calls = [
             Call(problem, who, mode, share, time_limit) for mode in asked if who.alone or mode in CLASSICAL
         ]

@@ -1,0 +1,211 @@
+"""Whether what a result claims is so, by brute force, which knows neither search nor verifier."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import islice
+from math import isclose
+from typing import Final
+
+from serendipity.model import Condition, HumanPlan, Options, Result, Task, UsageError, surroundings
+from serendipity.model.answers.recognition import Recognition
+from serendipity.model.numbers import agrees, as_written
+from serendipity.testing.oracle import Alone, Optimum, best, human_plans, optimal_human_plan
+from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
+from serendipity.testing.oracle.goals import best_expected, robots_sets
+from serendipity.testing.oracle.reactions import best_reaction
+
+_FIGURES: Final = ("cost", "objective", "opportunity", "saving", "saving_alone", "human_cost")
+_MOST_POLICIES: Final = 400
+_MOST_FACTS: Final = 9
+_MOST_PLANS: Final = 300
+_MOST_TIES: Final = 12
+"""What brute force is patient enough for: policies and facts of a game, robots' plans, the human's plans."""
+
+_ROUNDING: Final = Fraction(1, 10**8)
+"""Of means over goals."""
+
+_OVER: Final[Mapping[str, Callable[[list[Fraction]], Fraction]]] = {
+    "fixed": min,
+    "optimistic": min,
+    "robust": max,
+    "expected": lambda amounts: sum(amounts, Fraction(0)) / len(amounts),
+}
+"""What ties make of the answers beside each of the human's optimal plans."""
+
+
+class UnknownTruthError(Exception):
+    """Brute force does not say, or would take too long."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Belief:
+    """A goal that the human may have, their plan for it, and how probable that is."""
+
+    goal: Condition
+    plan: HumanPlan
+    weight: Fraction
+
+
+class Truth:
+    """What is so of calls about one task.
+
+    Args:
+        task: the task.
+        recognition: of the goals that the human may have, where there are several.
+    """
+
+    def __init__(self, task: Task, recognition: Recognition | None = None) -> None:
+        self.task = task
+        self.beliefs = [] if recognition is None else _beliefs(task, recognition)
+        self._known: dict[object, list[Optimum]] = {}
+        self._canonical = self._names(optimal_human_plan(task))
+
+    def fault(self, result: Result) -> str | None:
+        """What of a result is not so; None if nothing was found.
+
+        Whether its plan works is not looked at: only what it is said to be worth, and what is said of others.
+
+        Raises:
+            UnknownTruthError: brute force can't say.
+        """
+        answers = self._answers(result)
+        if any(answer.cost is None for answer in answers):
+            return None if result.status in ("infeasible", "unknown") else "nothing is feasible"
+        costs = [answer.cost or Fraction(0) for answer in answers]
+        cost = _OVER[result.options.ties](costs)
+        if result.status == "infeasible":
+            return f"cost {cost} is feasible"
+        if result.status == "optimal" and len(answers) == 1:
+            return next(self._wrong_figures(result, answers[0]), None)
+        if result.status == "optimal" and not agrees(result.cost, cost):
+            return f"cost is {cost}, not {result.cost}"
+        mean = result.ties is not None and result.options.ties == "expected"
+        if (
+            result.status == "feasible"
+            and mean
+            and not agrees(result.cost, cost)
+            and as_written(result.cost or 0.0) < cost
+        ):
+            return f"the mean is {cost}, not {result.cost}"
+        least = _OVER[result.options.ties]([_least(result, answer) for answer in answers])
+        least += _ROUNDING * max(Fraction(1), least) if self.beliefs else 0
+        bound = result.lower_bound
+        if (
+            result.status != "optimal"
+            and bound is not None
+            and not agrees(bound, least)
+            and as_written(bound) > least
+        ):
+            return f"lower_bound {bound} is above {least}"
+        return None
+
+    def _wrong_figures(self, result: Result, right: Optimum) -> Iterator[str]:
+        about_pi_h = result.human_plan is not None or self.beliefs
+        for name in _FIGURES if about_pi_h else _FIGURES[:2]:
+            true, said = getattr(right, name), getattr(result, name)
+            if true is not None and not self._same(said, true):
+                yield f"{name} is {true}, not {said}"
+
+    def _same(self, said: float | None, true: Fraction | bool) -> bool:
+        """Whether a figure is right; means over goals are as exact as the probabilities they rest on."""
+        if isinstance(true, bool):
+            return said is true
+        if self.beliefs and said is not None:
+            return isclose(said, true, rel_tol=_ROUNDING, abs_tol=_ROUNDING)
+        return agrees(said, true)
+
+    def _answers(self, result: Result) -> list[Optimum]:
+        """The answer; beside each of the human's optimal plans where it is over ties."""
+        options = result.options
+        given = None if result.ties is not None or result.human_plan == self._canonical else result.human_plan
+        if (options, given) not in self._known:
+            plan = None if given is None else self.task.plan_from_names(given)
+            try:
+                self._known[options, given] = self._solved(options, plan)
+            except UsageError as error:
+                raise UnknownTruthError from error
+        return self._known[options, given]
+
+    def _solved(self, options: Options, plan: HumanPlan | None) -> list[Optimum]:
+        if self.beliefs:
+            return [self._expected(options)]
+        if options.mode == "assistance":
+            return [self._assisted(options)]
+        if options.human_model != "omniscient":
+            return [self._replanned(options, plan)]
+        plans = [plan]
+        if options.ties != "fixed" and options.mode in ("serendipity", "communication") and plan is None:
+            plans = list(islice(human_plans(self.task), _MOST_TIES)) or plans
+            if len(plans) == _MOST_TIES:
+                raise UnknownTruthError
+        return [best(self.task, options.but(ties="fixed"), plan) for plan in plans]
+
+    def _replanned(self, options: Options, plan: HumanPlan | None) -> Optimum:
+        plan = optimal_human_plan(self.task) if plan is None else plan
+        unasked = options.ties != "fixed" or options.max_cost not in (None, "human")
+        if not plan or self.task.robot_goal or unasked:
+            raise UnknownTruthError
+        cost = best_reaction(self.task, options, plan, surroundings(self.task).visible).cost
+        alone = self.task.cost_of(plan)
+        worth = Alone(self.task).worth(self.task.init)
+        if worth is None or worth[0] < alone:
+            raise UnknownTruthError  # what they gain by themselves is theirs
+        least = alone if cost is None else min(cost, alone)
+        return Optimum("optimal", least, least, opportunity=least < alone, saving=alone - least)
+
+    def _assisted(self, options: Options) -> Optimum:
+        if len(self.task.agents) > 2 or len(self.task.facts) > _MOST_FACTS:
+            raise UnknownTruthError
+        tree = explore(self.task, fixed=options.ties == "fixed", no_block=bool(options.no_block))
+        if options.ties == "expected":
+            found = mean_over_all_policies(tree, _MOST_POLICIES)
+            if isinstance(found, str):
+                raise UnknownTruthError
+        else:
+            found = by_rounds(tree, max if options.ties == "robust" else min)
+        if found is None:
+            return Optimum("infeasible")
+        worth, total = Alone(self.task).worth(self.task.init), found[0] + found[1]
+        saving = None if worth is None else worth[0] - found[0]
+        return Optimum("optimal", total, total, opportunity=bool(saving), saving=saving)
+
+    def _expected(self, options: Options) -> Optimum:
+        own = replace(self.task, actions=tuple(self.task.actions[i] for i in self.task.human_actions))
+        horizon = int(options.horizon or max(len(belief.plan) for belief in self.beliefs))
+        if len(robots_sets(self.task, strict=options.strict)) ** horizon > _MOST_PLANS:
+            raise UnknownTruthError
+        objective, cost = best_expected(self.task, options, self.beliefs, horizon)
+        renumbered = {i: k for k, i in enumerate(self.task.human_actions)}
+        idle_beliefs = [replace(b, plan=tuple(renumbered[i] for i in b.plan)) for b in self.beliefs]
+        _, idle = best_expected(own, options, idle_beliefs, horizon)
+        if cost < idle:
+            return Optimum("optimal", cost, objective, opportunity=True)
+        return Optimum("optimal", idle, idle)
+
+    def _names(self, plan: HumanPlan | None) -> tuple[str, ...] | None:
+        return None if plan is None else tuple(self.task.actions[i].name for i in plan)
+
+
+def _beliefs(task: Task, recognition: Recognition) -> list[_Belief]:
+    facts = {name: f for f, name in enumerate(task.facts)}
+    found = []
+    for goal in recognition.goals:
+        if goal.plan is not None and goal.weight:
+            wanted = tuple(facts[literal] for literal in goal.goal if literal in facts)
+            unwanted = tuple(facts[literal[1:]] for literal in goal.goal if literal not in facts)
+            condition = Condition(wanted, unwanted)
+            plan = replace(task, goal=condition).plan_from_names(goal.plan)
+            found.append(_Belief(condition, plan, goal.weight))
+    return found
+
+
+def _least(result: Result, right: Optimum) -> Fraction:
+    """What no plan's objective is below, net of an epoch of the window where none is claimed."""
+    weight = result.options.window_weight
+    least = (right.cost if right.objective is None else right.objective) or Fraction(0)
+    if right.window is not None and not result.opportunity:
+        return least - weight
+    if right.window is None and result.opportunity and result.options.windowed:
+        return least + weight * (result.horizon if isinstance(result.horizon, int) else 0)
+    return least
