@@ -1,12 +1,15 @@
 """Help while it happens: a person, robots and the world go on epoch by epoch."""
 
-from serendipity.execution.crews import ADAPTERS, Crew, Maker
-from serendipity.execution.decided import VERDICTS, Decided, Passed, Reported, event_lines
-from serendipity.execution.execution import Execution
-from serendipity.execution.faults import Faults
-from serendipity.execution.log import LogLine, as_text, log_lines, read_logs, replay
-from serendipity.execution.outlook import Outlook, Robots
-from serendipity.execution.persons import (
+from serendipity._siblings import require_siblings
+
+require_siblings("search", "verify")
+
+from serendipity.execution.decided import VERDICTS, Decided, Passed, Reported  # noqa: E402  # checked before
+from serendipity.execution.execution import Execution  # noqa: E402
+from serendipity.execution.faults import Faults  # noqa: E402
+from serendipity.execution.log import LogLine, as_text, log_lines, read_logs, replay  # noqa: E402
+from serendipity.execution.outlook import Outlook, Robots  # noqa: E402
+from serendipity.execution.persons import (  # noqa: E402
     Moment,
     Noisy,
     Omniscient,
@@ -15,27 +18,20 @@ from serendipity.execution.persons import (
     Replanner,
     moment_of,
 )
-from serendipity.execution.policies import POLICIES, Policy, policy_from
-from serendipity.execution.runs import TIES, Run, Runs, execute
+from serendipity.execution.runs import Run, Runs, execute  # noqa: E402
 
 __all__ = [
-    "ADAPTERS",
-    "POLICIES",
-    "TIES",
     "VERDICTS",
-    "Crew",
     "Decided",
     "Execution",
     "Faults",
     "LogLine",
-    "Maker",
     "Moment",
     "Noisy",
     "Omniscient",
     "Outlook",
     "Passed",
     "Person",
-    "Policy",
     "Recorded",
     "Replanner",
     "Reported",
@@ -43,11 +39,9 @@ __all__ = [
     "Run",
     "Runs",
     "as_text",
-    "event_lines",
     "execute",
     "log_lines",
     "moment_of",
-    "policy_from",
     "read_logs",
     "replay",
 ]

@@ -1,13 +1,16 @@
 """What robots are advised to do from a moment on, whoever has worked it out."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Protocol
 
 from serendipity.execution.guard import Following
+from serendipity.model.numbers import figure
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.plans import PlanStep, Window
+from serendipity.model.task.execution import participants
+from serendipity.model.task.plans import PlanStep, Step, Window
+from serendipity.model.task.task import Task
 
 Allows = Callable[[Sequence[int]], bool]
 """Whether actions, those of the person left aside, may be what happens in the epoch that is to come."""
@@ -31,6 +34,10 @@ class Advice:
     pays: bool
     proved: bool
 
+    def by_themselves(self, task: Task) -> bool:
+        """Whether robots have no part in it."""
+        return all(step.agents == (task.agents[task.human],) for step in self.plan)
+
 
 @dataclass(frozen=True, slots=True)
 class Question:
@@ -39,14 +46,34 @@ class Question:
     Attributes:
         state: ids of the facts that are true.
         following: what the person may be following.
-        barred: ids of actions that nobody may do.
+        out: ids of actions that nobody can do any more.
+        barred: these, and those that wait for what robots have begun to be finished.
+        running: ids of what they have begun, and go on with in any case.
         allows: what may happen in the epoch that is to come.
     """
 
     state: frozenset[int]
     following: Following
+    out: frozenset[int]
     barred: frozenset[int]
+    running: frozenset[int]
     allows: Allows
+
+
+def without(task: Task, removed: frozenset[int]) -> Task:
+    """A task without some of its actions."""
+    if not removed:
+        return task
+    kept = tuple(action for i, action in enumerate(task.actions) if i not in removed)
+    return replace(task, actions=kept, known_variables=task.variables)
+
+
+def written(task: Task, step: Step, discount: Fraction) -> PlanStep:
+    """A step as plans write it."""
+    action = task.actions[step.action]
+    return PlanStep(
+        step.epoch, participants(task, action), action.name, figure(task.team_cost(action, discount))
+    )
 
 
 class Adviser(Protocol):

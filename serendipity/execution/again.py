@@ -45,7 +45,9 @@ class Again:
             return Execution(self._task, adapter=adapter, **self._arguments)
         if self._ready is None:
             options = Execution(self._task, **{**self._arguments, "deadline": None}).options
-            self._ready = Brain(self._task, options, None, 1, told=self._arguments["told"])
+            self._ready = Brain(
+                self._task, options, None, 1, told=self._arguments["told"], surely=adapter is None
+            )
             Execution(self._task, **{**self._arguments, "robots": self._ready})
         given = {**self._arguments, "setup": 0, "robots": self._ready.again()}
         return Execution(self._task, adapter=adapter, **given)

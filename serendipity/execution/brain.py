@@ -2,17 +2,20 @@
 
 from collections.abc import Iterable, Sequence
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
 from serendipity.execution.advice import Allows, Question
+from serendipity.execution.amends import Untouched
 from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import Decided
+from serendipity.execution.imagined import Imagined
 from serendipity.execution.outlook import Outlook
 from serendipity.execution.promises import Promises
 from serendipity.execution.prospects import Prospect, best_for_all
-from serendipity.execution.words import Words
+from serendipity.execution.thread import Thread
+from serendipity.execution.why import Why
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options
@@ -27,6 +30,9 @@ if TYPE_CHECKING:
 _TIME_TO_TELL: Final = 0.5
 """The share of the time that has to be left for finding out why nothing is done."""
 
+_TELLING: Final = 1.0
+"""The most seconds that this may take."""
+
 _TIME_TO_WEIGH: Final = 0.4
 """The share of the time that is kept for what comes after planning."""
 
@@ -40,15 +46,25 @@ class _Asked:
 
     Attributes:
         state: ids of the facts that are true.
-        barred: ids of actions that nobody may do.
+        out: ids of actions that nobody can do any more.
+        barred: these, and those that wait for what is running.
+        running: ids of what robots go on with in any case.
         allows: what may happen in the epoch.
         weights: how probable each goal is.
     """
 
     state: frozenset[int]
+    out: frozenset[int]
     barred: frozenset[int]
+    running: frozenset[int]
     allows: Allows
     weights: dict[int, Fraction]
+
+    def of(self, imagined: Imagined, allows: Allows | None = None) -> Question:
+        """What is asked about one goal."""
+        return Question(
+            self.state, imagined.following, self.out, self.barred, self.running, allows or self.allows
+        )
 
 
 class Brain:
@@ -60,18 +76,29 @@ class Brain:
         goals: goals that the person may have; None: they are known to have the task's.
         beta: of the posterior.
         told: the person keeps to the robots' plan.
+        surely: whether robots manage whatever is possible.
     """
 
     def __init__(
-        self, task: Task, options: Options, goals: "GoalsGiven | None", beta: Number, *, told: bool
+        self,
+        task: Task,
+        options: Options,
+        goals: "GoalsGiven | None",
+        beta: Number,
+        *,
+        told: bool,
+        surely: bool = True,
     ) -> None:
-        self._options = options
-        self._out: frozenset[int] = frozenset()
+        self._task = task
+        self._told = told
+        self._gone: dict[int, frozenset[int]] = {}
+        self._failing: frozenset[int] = frozenset()
         self._beliefs = None if goals is None else Beliefs.about(task, goals, beta)
         conditions = [task.goal] if self._beliefs is None else [c.goal for c in self._beliefs.candidates]
         tasks = [task if goal == task.goal else task.with_goal(goal) for goal in conditions]
-        self._promises = Promises(tasks, options, told=told)
-        self._words = Words(task, self._beliefs)
+        self._promises = Promises(tasks, options, told=told, surely=surely)
+        self._thread = Thread(task)
+        self._untouched = Untouched(task)
         self._human = task.agents[task.human]
         self._agents = {name: i for i, name in enumerate(task.agents)}
 
@@ -85,29 +112,38 @@ class Brain:
         assert self._beliefs is None, "what is known of several goals is not told twice"
         other = copy(self)
         other._promises = self._promises.again()
+        other._thread = Thread(self._task)
+        other._untouched = Untouched(self._task)
+        other._gone = dict(self._gone)
         return other
 
     # -- what robots learn
 
     def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
         """See :class:`serendipity.execution.Robots`."""
+        self._thread.saw(executed)
+        self._untouched.saw(own, executed)
         self._promises.acted(own, executed, tried)
         if self._beliefs is not None:
             self._beliefs.saw(own, executed)
 
     def surprised(self) -> None:
         """The world is other than what actions have made it."""
+        self._thread.broken("changed")
+        self._untouched.forget()
         self._promises.surprised()
         if self._beliefs is not None:
             self._beliefs.disturbed()
 
     def drop(self, robots: Iterable[int]) -> None:
         """Robots are out of order: nothing that they take part in is possible any more."""
-        self._out |= self._promises.hands.of(tuple(robots))
+        gone = tuple(robots)
+        self._thread.broken("out-of-order", ", ".join(self._task.agents[i] for i in gone))
+        self._gone |= {robot: self._promises.hands.of([robot]) for robot in gone}
 
     def unable(self, actions: Iterable[int]) -> None:
         """See :class:`serendipity.execution.Robots`."""
-        self._out |= frozenset(actions)
+        self._failing |= frozenset(actions)
 
     # -- what they decide
 
@@ -117,28 +153,76 @@ class Brain:
         Raises:
             LimitReachedError: the deadline came first; robots had better do nothing.
         """
-        world = outlook.world
-        weights = self._weights(world.state, deadline)
-        goals = self._promises.look(world.state, weights, deadline)
-        if not goals:
-            return self._idle(outlook, "aside", self._words.hopeless())
+        return self._thread.told(self._decided(outlook, deadline), outlook.running)
+
+    def _decided(self, outlook: Outlook, deadline: Deadline) -> Decided:
+        state, hands = outlook.world.state, self._promises.hands
+        self._untouched.look(state)
+        weights = self._weights(state, deadline)
+        able = self._promises.look(state, weights, deadline)
+        goals = able or list(weights)[:1]
+        gone = frozenset[int]().union(*self._gone.values())
+        out = gone | self._failing
+        if hands.all <= gone or (able and hands.all <= out):
+            return self._idle(outlook, self._disabled(state, able))
         running = self._going_on(outlook, goals)
-        busy = [self._agents[name] for step in outlook.running for name in step.agents]
-        barred = self._out | self._promises.hands.of(busy)
-        if self._promises.hands.all <= barred:
-            return self._idle(outlook, "aside", self._words.helpless(), running)
-        allows = self._promises.allows(goals, [world.of(step) for step in running])
-        asked = _Asked(world.state, barred, allows, {goal: weights[goal] for goal in goals})
+        barred = out | hands.of([self._agents[name] for step in outlook.running for name in step.agents])
+        if hands.all <= barred and running and not self._told:
+            return self._idle(outlook, Why("out-of-order"), running)
+        begun = [outlook.world.of(step) for step in running]
+        allows = self._promises.allows(goals, begun)
+        asked = _Asked(state, out, barred, frozenset(begun), allows, {g: weights[g] for g in goals})
         prospects = self._planned(asked, deadline.sooner(_TIME_TO_WEIGH))
+        if not able and prospects[0].advice is None and not running and self._failing - gone:
+            prospects = self._planned(replace(asked, out=gone, barred=gone), deadline)
+        return self._chosen(outlook, asked, prospects, running, deadline)
+
+    def _chosen(
+        self,
+        outlook: Outlook,
+        asked: "_Asked",
+        prospects: Sequence[Prospect],
+        running: Sequence[PlanStep],
+        deadline: Deadline,
+    ) -> Decided:
+        """The decision, once it is known what is best for each goal."""
         certain = len(prospects) == 1
         if certain and prospects[0].advice is None:
-            return self._idle(outlook, "aside", self._words.helpless(), running)
+            return self._idle(outlook, self._lost(asked, prospects[0], deadline), running)
         prospect = prospects[0] if certain else best_for_all(prospects, deadline)
-        if prospect is None:
-            torn = self._torn(asked, prospects, deadline)
-            return self._idle(outlook, *(self._words.unsure() if torn else self._words.nothing()), running)
-        own, offers = self._now(outlook, prospect)
-        return self._decided(outlook, prospect, [*running, *own], offers)
+        if prospect is not None:
+            decided = self._following(outlook, prospect, running)
+            if decided.verdict != "aside":
+                return decided
+        elif running:
+            return self._idle(outlook, Why("no-help"), running)
+        elif self._torn(asked, prospects, deadline):
+            return self._idle(outlook, Why("unsure", goals=self._likely()))
+        else:
+            done = next((prospect for prospect in prospects if prospect.pays and not prospect.open), None)
+            decided = self._following(outlook, done, ()) if done else self._idle(outlook, Why("no-help"))
+        return self._made_up(outlook, asked, prospects, deadline) or replace(
+            decided, because=self._why_not(asked, decided, prospects, deadline)
+        )
+
+    def _made_up(
+        self, outlook: Outlook, asked: "_Asked", prospects: Sequence[Prospect], deadline: Deadline
+    ) -> Decided | None:
+        """Robots make up for what they have done, if somebody pays more for it and there is a way."""
+        for prospect in prospects:
+            amends = prospect.imagined.amends
+            if owed := self._owed(asked.state, prospect):
+                try:
+                    advice = amends.advise(asked.of(prospect.imagined), deadline.part(_TIME_TO_TELL))
+                except LIMITS:
+                    continue
+                if advice is not None:
+                    return self._following(outlook, replace(prospect, advice=advice), (), float(owed))
+        return None
+
+    def _owed(self, state: frozenset[int], prospect: Prospect) -> Fraction:
+        """How much dearer the person's way is by what robots have done."""
+        return prospect.imagined.amends.owed(self._untouched.state, state)
 
     def _weights(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:
         """The goals that the person may have, with their probabilities, the most probable first."""
@@ -166,10 +250,9 @@ class Brain:
         prospects = []
         for number, (goal, weight) in enumerate(asked.weights.items()):
             imagined = self._promises.to(goal)
-            question = Question(asked.state, imagined.following, asked.barred, asked.allows)
             try:
                 share = deadline.part(1 / (len(asked.weights) - number))
-                advice = imagined.adviser.advise(question, share)
+                advice = imagined.adviser.advise(asked.of(imagined), share)
             except LIMITS:
                 if len(asked.weights) == 1:
                     raise
@@ -180,10 +263,9 @@ class Brain:
 
     def _torn(self, asked: "_Asked", prospects: Sequence[Prospect], deadline: Deadline) -> bool:
         """Whether help would pay if it were known which goal it is; taken for no if time does not tell."""
-        if len(prospects) < 2 or any(prospect.pays for prospect in prospects):
+        if len(prospects) < 2 or any(prospect.open for prospect in prospects):
             return len(prospects) > 1
-        left = deadline.left()
-        if left is not None and left < _TIME_TO_TELL * (left + deadline.elapsed()):
+        if not _leisurely(deadline):
             return False
         try:
             return any(self._pays_alone(asked, prospect, deadline) for prospect in prospects)
@@ -193,43 +275,121 @@ class Brain:
     def _pays_alone(self, asked: "_Asked", prospect: Prospect, deadline: Deadline) -> bool:
         """Whether help would pay if a goal were the only one."""
         imagined, allows = prospect.imagined, self._promises.allows([prospect.goal])
-        question = Question(asked.state, imagined.following, asked.barred, allows)
-        advice = imagined.adviser.advise(question, deadline)
+        advice = imagined.adviser.advise(asked.of(imagined, allows), deadline)
         return advice is not None and advice.pays
 
-    def _now(self, outlook: Outlook, prospect: Prospect) -> tuple[list[PlanStep], tuple[PlanStep, ...]]:
-        """What robots do by themselves in the first epoch of a plan, and what they offer."""
-        human = self._human
-        now = [PlanStep(outlook.epoch, s.agents, s.action, s.cost) for s in prospect.plan if s.epoch == 1]
-        offers = tuple(step for step in now if human in step.agents and len(step.agents) > 1)
-        return [step for step in now if human not in step.agents], offers
+    def _why_not(
+        self, asked: "_Asked", decided: Decided, prospects: Sequence[Prospect], deadline: Deadline
+    ) -> Why:
+        """Why nothing is done, whatever the goal is, and what the person pays more by what was done."""
+        owed = float(max(self._owed(asked.state, prospect) for prospect in prospects))
+        why = decided.because
+        if why is None or why.kind != "done":
+            why = self._no_help(asked, prospects, deadline)
+        return replace(why, owed=owed)
 
-    def _decided(
-        self,
-        outlook: Outlook,
-        prospect: Prospect,
-        ready: Sequence[PlanStep],
-        offers: tuple[PlanStep, ...],
+    def _no_help(self, asked: "_Asked", prospects: Sequence[Prospect], deadline: Deadline) -> Why:
+        """In which sense no help pays."""
+        if not all(prospect.advice is not None and prospect.advice.proved for prospect in prospects):
+            return Why("unfound")
+        if self._told:
+            return Why("no-help")
+        if not _leisurely(deadline):
+            return Why("no-safe-help")
+        share = deadline.part(_TIME_TO_TELL).within(_TELLING)
+        try:
+            whys = [p.imagined.unbound.why(asked.of(p.imagined), share) for p in prospects]
+        except LIMITS:
+            return Why("no-safe-help")
+        return next((why for why in whys if why.kind != "no-help"), whys[0])
+
+    def _lost(self, asked: "_Asked", prospect: Prospect, deadline: Deadline) -> Why:
+        """Why there is no plan at all."""
+        unbound, question = prospect.imagined.unbound, asked.of(prospect.imagined)
+        try:
+            share = deadline.part(_TIME_TO_TELL).within(_TELLING)
+            if not question.following.hopeless:
+                return unbound.why_not_even_alone(question, share)
+            return Why("out-of-reach") if self._told else unbound.why_out_of_reach(question, share)
+        except LIMITS:
+            return Why("unfound")
+
+    def _disabled(self, state: frozenset[int], goals: Sequence[int]) -> Why:
+        """Nobody is left who could do anything."""
+        if not goals:
+            return Why("out-of-reach")
+        known = [Prospect(goal, self._promises.to(goal), None, Fraction(0)) for goal in goals]
+        owed = float(max(self._owed(state, prospect) for prospect in known))
+        gone = tuple(self._task.agents[i] for i in sorted(self._gone))
+        if len(gone) < len(self._task.robots):
+            return Why("all-failed", owed=owed)
+        return Why("out-of-order", robots=gone, owed=owed)
+
+    def _following(
+        self, outlook: Outlook, prospect: Prospect, running: Sequence[PlanStep], owed: float = 0.0
     ) -> Decided:
-        his = (step for step in prospect.plan if step.epoch == 1 and self._human in step.agents)
-        verdict, reason = self._words.decided(outlook.epoch, prospect, [*ready, *offers])
+        """A decision that follows a plan, even if that is to do nothing."""
+        now = [PlanStep(outlook.epoch, s.agents, s.action, s.cost) for s in prospect.plan if s.epoch == 1]
+        his = next((step for step in now if self._human in step.agents), None)
+        begun = {(step.agents, step.action) for step in running}
+        own = [s for s in now if self._human not in s.agents and (s.agents, s.action) not in begun]
+        offers = tuple(step for step in now if self._human in step.agents and len(step.agents) > 1)
+        verdict, why = self._meant(outlook.epoch, prospect, running, [*own, *offers])
+        if owed:
+            why = replace(why, kind="owed" if why.kind == "pays" else why.kind, owed=owed)
         return Decided(
             outlook.epoch,
             verdict,
-            reason,
-            actions=tuple(ready),
+            "",
+            actions=(*running, *own),
             offers=offers,
-            expected=next(his, None),
+            expected=None if his is None else replace(his, epoch=1),
             plan=prospect.plan,
             window=None if prospect.advice is None else prospect.advice.window,
             cost=sum(step.cost for step in prospect.plan),
-            alone=float(prospect.alone),
+            alone=None if prospect.alone is None else float(prospect.alone),
             proved=prospect.advice is not None and prospect.advice.proved,
             goals=self.goals,
+            because=why,
         )
 
-    def _idle(self, outlook: Outlook, verdict: str, reason: str, running: Sequence[PlanStep] = ()) -> Decided:
+    def _meant(
+        self, epoch: int, prospect: Prospect, running: Sequence[PlanStep], new: Sequence[PlanStep]
+    ) -> tuple[str, Why]:
+        """Verdict and reason of a decision that follows a plan; if nothing is done, others know why."""
+        if running and not new and (self._task.robot_goal or not prospect.pays):
+            return "helps", Why("goes-on", action=running[0].action)
+        if not prospect.pays:
+            return ("works", Why("own-goals")) if new else ("aside", Why("no-help"))
+        cost = sum(step.cost for step in prospect.plan)
+        alone = None if prospect.alone is None else float(prospect.alone)
+        if running or new:
+            guess = self._likely(prospect.goal)
+            return "helps", Why("only-way" if alone is None else "pays", cost, alone, goals=guess)
+        later = min((s.epoch for s in prospect.plan if s.agents != (self._human,)), default=None)
+        if later is None:
+            return "aside", Why("done", cost, alone) if self._thread.helped else Why("no-help")
+        if self._beliefs is not None and len(self._beliefs.possible()) > 1:
+            return "unsure", Why("unsure", epoch=epoch + later - 1, goals=self._likely())
+        return "waits", Why("later", cost, alone, epoch=epoch + later - 1)
+
+    def _idle(self, outlook: Outlook, why: Why, running: Sequence[PlanStep] = ()) -> Decided:
         """No plan: at most something that was begun is finished."""
+        verdict = "unsure" if why.kind == "unsure" else "aside"
         if running:
-            verdict, reason = "helps", self._words.finishes(running[0])
-        return Decided(outlook.epoch, verdict, reason, actions=tuple(running), goals=self.goals)
+            verdict, why = "helps", Why("goes-on", action=running[0].action)
+        return Decided(outlook.epoch, verdict, "", actions=tuple(running), goals=self.goals, because=why)
+
+    def _likely(self, goal: int | None = None) -> tuple[tuple[str, float], ...]:
+        """The most probable goals with their probabilities, or one of them; nothing where it is known."""
+        if self._beliefs is None:
+            return ()
+        if goal is not None:
+            return ((self._beliefs.candidates[goal].name, float(self._beliefs.weights[goal])),)
+        return tuple(sorted(self._beliefs.named().items(), key=lambda pair: -pair[1])[:3])
+
+
+def _leisurely(deadline: Deadline) -> bool:
+    """Whether there is time for finding out why nothing is done."""
+    left = deadline.left()
+    return left is None or left >= _TIME_TO_TELL * (left + deadline.elapsed())

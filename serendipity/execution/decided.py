@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
+from serendipity.execution.why import Why
 from serendipity.execution.world import WHY, Unfinished
 from serendipity.model.table import Cell
 from serendipity.model.task.plans import PlanStep, Window
@@ -15,6 +16,7 @@ VERDICTS: Final = {
     "waits": "there is a plan that pays, and robots have nothing to do in this epoch",
     "unsure": "what would pay depends on a goal that is not known yet",
     "aside": "robots stay out of the way",
+    "stopped": "robots have given up help that they had begun",
     "late": "no decision within the deadline: robots do nothing",
 }
 """What a decision amounts to."""
@@ -53,6 +55,7 @@ class Decided:
         proved: whether the plan, or doing nothing, is known to be the best; not where time was up first.
         goals: the posterior of each candidate goal; empty where there is only one.
         seconds: that the decision took.
+        because: the reason as a value; None where whoever has decided gives none.
     """
 
     epoch: int
@@ -68,6 +71,7 @@ class Decided:
     proved: bool = False
     goals: Mapping[str, float] = field(default_factory=dict)
     seconds: float = 0.0
+    because: Why | None = None
 
     def at(self, seconds: float) -> "Decided":
         """The same with the time that it took."""
@@ -88,6 +92,7 @@ class Decided:
             "proved": self.proved,
             "goals": dict(self.goals),
             "seconds": self.seconds,
+            "because": None if self.because is None else self.because.to_dict(),
         }
 
 

@@ -3,14 +3,16 @@
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 from serendipity.execution.brain import Brain
 from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
 from serendipity.execution.outlook import Outlook, Robots
+from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
 from serendipity.model.arguments import BY_NAME, TASK, TEXT, expect, expect_or_none
 from serendipity.model.errors import LIMITS, UsageError
+from serendipity.model.keywords import HumanModel, Interference
 from serendipity.model.numbers import Number
 from serendipity.model.options import Options, limit_of
 from serendipity.model.resources.collection import no_collection
@@ -55,8 +57,8 @@ class Execution(Tabular):
         deadline: seconds for each decision, or None; robots do nothing in an epoch that has none in time.
         setup: where there is a deadline, seconds before the first epoch for tables and a first plan.
         interference: which actions may share an epoch.
-        told: the person knows the robots' plan and keeps to it, so that only its part of theirs has to
-            stay possible.
+        told: the person knows the robots' plan and keeps to it: they are taken to be omniscient, and robots
+            finish what they have begun, or give back what they took.
         mode: ``serendipity``, or ``communication`` with somebody who is told: then robots' plan may also ask
             them to leave their own before they are met.
         adapter: carries out what robots do; None: whatever is possible is done within the epoch.
@@ -77,14 +79,14 @@ class Execution(Tabular):
         task: Task,
         *,
         discount: Number = 0,
-        human_model: str = "observant",
+        human_model: HumanModel = "observant",
         goals: "GoalsGiven | None" = None,
         beta: Number = 1,
         deadline: float | None = None,
         setup: float = SETUP,
-        interference: str = "paper",
+        interference: Interference = "paper",
         told: bool = False,
-        mode: str = "serendipity",
+        mode: Literal["serendipity", "communication"] = "serendipity",
         adapter: Adapter | None = None,
         robots: Robots | None = None,
     ) -> None:
@@ -94,12 +96,14 @@ class Execution(Tabular):
             raise UsageError(f"mode: expected {expected}, got '{mode}'")
         given: dict[str, Any] = {"mode": mode, "discount": discount, "human_model": human_model}
         options = Options(**given, interference=interference)
+        if told:
+            options = options.but(human_model="omniscient")
         self.task = task
         self.options = options
         self.events: list[dict[str, Any]] = []
         self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
         self._world = World(task, options.discount, strict=options.strict)
-        self._brain: Robots = robots or Brain(task, options, goals, beta, told=told)
+        self._brain: Robots = robots or Brain(task, options, goals, beta, told=told, surely=adapter is None)
         self._adapter = adapter
         self._failures: Counter[Order] = Counter()
         self._reports: tuple[Reported, ...] = ()
@@ -109,6 +113,11 @@ class Execution(Tabular):
         self._paid = self._team = Fraction(0)
         if self._deadline is not None:
             self._prepare(limit_of("setup", setup, "seconds"))
+
+    def __repr__(self) -> str:
+        return (
+            f"Execution({self.task.name!r:.60}, epoch {self.epoch}, {'done' if self.done else 'under way'})"
+        )
 
     # -- where things stand
 
@@ -169,6 +178,16 @@ class Execution(Tabular):
         if self._decided is None:
             self._decided = self._decide()
         return self._decided
+
+    def recall(self, decided: Decided) -> None:
+        """Put another decision in the place of the one that was made, as a record of that epoch has it.
+
+        Raises:
+            UsageError: it is of another epoch.
+        """
+        if self.decided.epoch != decided.epoch:
+            raise UsageError(f"recall: expected a decision of epoch {self.epoch}, got one of {decided.epoch}")
+        self._decided = decided
 
     def step(self, action: str | None = None) -> Passed:
         """Move on by one epoch.
@@ -272,8 +291,9 @@ class Execution(Tabular):
         return self._deadline is not None and seconds > self._deadline
 
     def _late(self, seconds: float) -> Decided:
-        words = f"too late: no decision within {self._deadline:g} s, robots do nothing"
-        return Decided(self.epoch, "late", words, goals=self._brain.goals, seconds=seconds)
+        why = Why("late")
+        words = why.text(self.human, "late")
+        return Decided(self.epoch, "late", words, goals=self._brain.goals, seconds=seconds, because=why)
 
     def _offer(self, decided: Decided, action: str) -> PlanStep | None:
         name = canonical_name(action)

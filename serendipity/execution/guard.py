@@ -11,6 +11,8 @@ replans when that is cheaper, or has to, never pays more than they would have al
 from collections.abc import Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
 from typing import NamedTuple
 
 from search.human.individual_planner import canonical
@@ -91,11 +93,16 @@ class Following:
             self.plans.append(human.intentions.of(canonical(human.alone, self._belief)))
 
     def promise(self) -> HumanPlan:
-        """The plan that they go on with if nothing better turns up: the oldest one as cheap as any."""
+        """The plan that they go on with if nothing better turns up: the oldest as cheap as any, or none."""
         return self._oldest().actions
 
+    @property
+    def alone(self) -> Fraction | None:
+        """What that costs; None where they have no plan."""
+        return None if self.hopeless else self._task.cost_of(self.promise())
+
     def _oldest(self) -> Intention:
-        return min(self.plans, key=lambda plan: plan.cost)
+        return min(self.plans, key=lambda plan: plan.cost, default=self._human.intentions.of(()))
 
     def acted(self, own: int | None, executed: Iterable[int], tried: int | None = None) -> None:
         """Say what the person did: plans that begin otherwise are not theirs.
@@ -124,22 +131,26 @@ class Following:
                 false.update(self._task.actions[i].neg)
         return Needed(frozenset(true), frozenset(false))
 
-    def spoilt(self, robots: Sequence[int], offers: Sequence[int]) -> bool:
+    def spoilt(self, robots: Sequence[int], offers: Sequence[int], *, surely: bool = True) -> bool:
         """Whether what robots do in an epoch could spoil the plan of the person, whichever it is.
 
         Args:
             robots: ids of what robots do by themselves.
             offers: ids of joint actions that the person may take part in.
+            surely: whether all of it takes place; else some of it may fail, or take longer.
 
         Raises:
             LimitReachedError: the deadline came first.
         """
         packed, concern = self._human.packed, self._human.concern
         others = [_Other(i, *packed.effect(i)) for i in robots]
-        if not any(packed.all_ones & ~other.keep & concern for other in others):
-            return False
-        return any(self._loses(op, others) for op in packed.own) or any(
-            self._worse(i, others) for i in offers
+        touching = [other for other in others if packed.all_ones & ~other.keep & concern]
+        sizes = (len(touching),) if surely else range(1, len(touching) + 1)
+        return any(
+            any(self._loses(op, some) for op in packed.own) or any(self._worse(i, some) for i in offers)
+            for size in sizes
+            if size
+            for some in combinations(touching, size)
         )
 
     def _loses(self, op: Operator, others: Sequence["_Other"]) -> bool:

@@ -8,6 +8,7 @@ from typing import Any, Final, NamedTuple
 from serendipity.execution.decided import Decided
 from serendipity.execution.execution import Execution
 from serendipity.execution.outlook import Outlook
+from serendipity.execution.why import Why
 from serendipity.model.answers.step_reader import StepReader
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.resources.deadline import Deadline
@@ -18,7 +19,7 @@ from serendipity.robot import Epoch, Report
 
 SCHEMA: Final = "serendipity.execution/1"
 
-_LATER: Final = {"proved": False}
+_LATER: Final[dict[str, Any]] = {"proved": False, "because": None}
 """Fields of a decision that logs of the first versions do not have, and what they stand for."""
 
 
@@ -130,6 +131,38 @@ def replay(task: Task, lines: Sequence[LogLine], file: object = None) -> Executi
     return run
 
 
+def decision_of(value: dict[str, Any], epoch: int, file: object = None) -> Decided:
+    """A decision that a log holds.
+
+    Args:
+        value: what stands there.
+        epoch: that it is for.
+        file: named in errors.
+
+    Raises:
+        InputError: a step is malformed.
+        KeyError: a field is missing.
+    """
+    read = StepReader(file)
+    expected = None if value["expected"] is None else [value["expected"]]
+    return Decided(
+        epoch,
+        value["verdict"],
+        value["reason"],
+        actions=read.plan(value["actions"]) or (),
+        offers=read.plan(value["offers"]) or (),
+        expected=(read.plan(expected) or (None,))[0],
+        plan=read.plan(value["plan"]),
+        window=read.window(value["window"]),
+        cost=value["cost"],
+        alone=value["alone"],
+        proved=value.get("proved", _LATER["proved"]),
+        goals=value["goals"],
+        seconds=value["seconds"],
+        because=None if value.get("because") is None else Why.from_dict(value["because"]),
+    )
+
+
 def _play(run: Execution, value: dict[str, Any]) -> None:
     if "change" in value:
         run.change(dict(value["change"]))
@@ -162,23 +195,7 @@ class _Script:
 
     def decide(self, outlook: Outlook, _deadline: Deadline) -> Decided:
         """The decision of the line."""
-        value, read = self.line.value["decision"], StepReader(self._file)
-        expected = None if value["expected"] is None else [value["expected"]]
-        return Decided(
-            outlook.epoch,
-            value["verdict"],
-            value["reason"],
-            actions=read.plan(value["actions"]) or (),
-            offers=read.plan(value["offers"]) or (),
-            expected=(read.plan(expected) or (None,))[0],
-            plan=read.plan(value["plan"]),
-            window=read.window(value["window"]),
-            cost=value["cost"],
-            alone=value["alone"],
-            proved=value.get("proved", _LATER["proved"]),
-            goals=value["goals"],
-            seconds=value["seconds"],
-        )
+        return decision_of(self.line.value["decision"], outlook.epoch, self._file)
 
     def execute(self, _epoch: Epoch) -> list[Report]:
         """What the line says that robots reported."""

@@ -19,16 +19,18 @@ class Promises:
         tasks: the task with each of the goals that the person may have.
         options: in force.
         told: the person keeps to the robots' plan: then there is nothing to promise.
+        surely: whether robots manage whatever is possible.
 
     Attributes:
         hands: what robots can do.
     """
 
-    def __init__(self, tasks: Sequence[Task], options: Options, *, told: bool) -> None:
+    def __init__(self, tasks: Sequence[Task], options: Options, *, told: bool, surely: bool) -> None:
         self.hands = Hands(tasks[0])
         self._tasks = tasks
         self._options = options
         self._told = told
+        self._surely = surely
         self._imagined: list[Imagined | None] = [None] * len(tasks)
         self._useful: frozenset[int] | None = None
 
@@ -102,7 +104,9 @@ class Promises:
             if found is None:
                 offers = [i for i in others if human in actions[i].participants]
                 robots = [*beside, *(i for i in others if human not in actions[i].participants)]
-                found = known[others] = not any(one.spoilt(robots, offers) for one in following)
+                found = known[others] = not any(
+                    one.spoilt(robots, offers, surely=self._surely) for one in following
+                )
             return found
 
         return (lambda _: True) if self._told else allowed

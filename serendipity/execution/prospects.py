@@ -38,9 +38,14 @@ class Prospect:
         return self.advice is not None and self.advice.pays
 
     @property
-    def alone(self) -> Fraction:
-        """What the person pays without help."""
-        return self.imagined.task.cost_of(self.imagined.following.promise())
+    def open(self) -> bool:
+        """Whether robots have a part in such a plan that is still to come."""
+        return self.advice is not None and self.pays and not self.advice.by_themselves(self.imagined.task)
+
+    @property
+    def alone(self) -> Fraction | None:
+        """What the person pays without help; None where they have no plan."""
+        return self.imagined.following.alone
 
 
 def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect | None:
@@ -58,7 +63,7 @@ def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect 
         LimitReachedError: the deadline came first.
     """
     best = None
-    least = sum((p.weight * p.alone for p in prospects), Fraction(0))
+    least = sum((p.weight * (p.alone or 0) for p in prospects), Fraction(0))
     for prospect in prospects:
         if prospect.pays:
             cost = _mean(prospect, prospects, least, deadline)

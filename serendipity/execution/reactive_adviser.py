@@ -4,15 +4,18 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Final
 
 from search.simulation.companion import Companion
-from serendipity.execution.advice import Advice, Question
+from serendipity.execution.advice import Advice, Question, written
 from serendipity.execution.guard import Hands
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
-from serendipity.model.task.execution import participants
-from serendipity.model.task.plans import PlanStep, Step
+from serendipity.model.task.plans import Step
 from serendipity.model.task.task import Task
+
+_RESCUE: Final = 10.0
+"""The most seconds for a way out where the person has no plan alone: nothing says how far it may be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,10 +87,19 @@ class ReactiveAdviser:
         skipped = any(epoch.skipped for epoch in played.epochs)
         if skipped or not played.goals_hold or played.cost > kept.cost:
             return None
+        alone = question.following.alone
+        if (
+            alone is not None
+            and played.cost >= alone
+            and self._hands.all.intersection(step.action for step in played.steps)
+        ):
+            return None  # the way out of where there was no plan alone, and now there is one as cheap
         return self._told(question, played.steps, played.cost, pays=kept.pays, proved=True)
 
     def _anew(self, question: Question, deadline: Deadline) -> Advice | None:
         known = () if self._kept is None else self._kept.steps
+        if question.following.hopeless:
+            deadline = deadline.within(_RESCUE)
         course = self._companion.course(
             question.following.start,
             self._rounds(question.barred | self._pointless),
@@ -122,9 +134,5 @@ class ReactiveAdviser:
             pays,
             proved,
         )
-        return Advice(tuple(map(self._written, steps)), None, cost, pays, proved)
-
-    def _written(self, step: Step) -> PlanStep:
-        action = self._task.actions[step.action]
-        cost = self._task.team_cost(action, self._discount)
-        return PlanStep(step.epoch, participants(self._task, action), action.name, float(cost))
+        plan = tuple(written(self._task, step, self._discount) for step in steps)
+        return Advice(plan, None, cost, pays, proved)

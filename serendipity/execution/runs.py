@@ -5,9 +5,10 @@ from contextlib import closing, nullcontext
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from random import Random
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, Unpack
 
 from search import PreparedTask
+from search.kernel.library import library
 from search.prediction import canonical_human_plan
 from serendipity.execution.again import Again
 from serendipity.execution.crews import Crew, Maker
@@ -19,14 +20,15 @@ from serendipity.execution.persons import Person, moment_of
 from serendipity.execution.policies import Policy, policy_from, recorded_actions
 from serendipity.model.arguments import FUNCTION, TASK, WHOLE, Kind, expect, expect_or_none
 from serendipity.model.errors import PlanError, UsageError
-from serendipity.model.numbers import plain
-from serendipity.model.options import CHOICES
+from serendipity.model.keywords import CHOICES, HumanModel, Interference, listing
+from serendipity.model.numbers import Number, plain
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.table import Table, Tabular, table_of
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.telling import Grid, Line, Told, json_of
 from serendipity.recognition.candidates import candidate_goals
 from serendipity.robot import Durations
 
@@ -57,6 +59,7 @@ class Run:
         helped: the number of epochs in which robots did something, or something with the person.
         spoilt: the number of epochs in which what robots did made the plan that the person had in
             mind impossible.
+        stopped: the number of epochs in which help that had begun was given up, or had been.
         late: the number of epochs without a decision within the deadline.
         open: the number of epochs whose decision is the best that was found in time, and not proved to
             be the best.
@@ -77,6 +80,7 @@ class Run:
     cost: float
     helped: int
     spoilt: int
+    stopped: int
     late: int
     open: int
     slowest: float
@@ -89,8 +93,8 @@ class Run:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-@dataclass(frozen=True, slots=True)
-class Runs(Tabular):
+@dataclass(frozen=True, slots=True, repr=False)
+class Runs(Tabular, Told):
     """Several executions of one task.
 
     Attributes:
@@ -108,22 +112,27 @@ class Runs(Tabular):
         return table_of(Run, self.rows)
 
     def summary(self) -> dict[str, Any]:
-        """Figures over all runs: shares are of runs, ``kept`` is of epochs, costs are means."""
+        """Figures over all runs: shares are of runs, ``kept`` is of epochs, costs are means.
+
+        What people pay is counted where they get there; who never does has saved nothing.
+        """
         count, epochs = len(self.rows), sum(row.epochs for row in self.rows)
-        pairs = [(row.human_cost, row.alone) for row in self.rows if row.alone is not None]
+        arrived = [row for row in self.rows if row.reached]
+        pairs = [(row.human_cost, row.alone) for row in arrived if row.alone is not None]
         compared = {
-            "less": sum(paid < alone for paid, alone in pairs),
-            "same": sum(paid == alone for paid, alone in pairs),
-            "more": sum(paid > alone for paid, alone in pairs),
+            "less": [paid < alone for paid, alone in pairs],
+            "same": [paid == alone for paid, alone in pairs],
+            "more": [paid > alone for paid, alone in pairs],
         }
         return {
             "runs": count,
-            "reached": sum(row.reached for row in self.rows) / count,
-            **{name: number / len(pairs) if pairs else None for name, number in compared.items()},
-            "alone": sum(alone for _, alone in pairs) / len(pairs) if pairs else None,
-            "human_cost": sum(row.human_cost for row in self.rows) / count,
-            "cost": sum(row.cost for row in self.rows) / count,
+            "reached": len(arrived) / count,
+            **{name: _mean(found) for name, found in compared.items()},
+            "alone": _mean([alone for _, alone in pairs]),
+            "human_cost": _mean([row.human_cost for row in arrived]),
+            "cost": _mean([row.cost for row in arrived]),
             "helped": sum(row.helped > 0 for row in self.rows) / count,
+            "stopped": sum(row.stopped > 0 for row in self.rows) / count,
             "spoilt": sum(row.spoilt for row in self.rows),
             "kept": 1 - sum(row.late for row in self.rows) / epochs if epochs else 1.0,
         }
@@ -133,6 +142,10 @@ class Runs(Tabular):
         found = self.summary()
         runs = "run" if found["runs"] == 1 else "runs"
         yield f"{found['runs']} {runs}, person: {self.human}; goal reached in {found['reached']:.2%}"
+        arrived = sum(row.reached for row in self.rows)
+        if arrived < found["runs"]:
+            left_out = "; what was paid is counted in the others only" if arrived else ", so nothing is saved"
+            yield f"not reached in {found['runs'] - arrived} of {found['runs']} {runs}{left_out}"
         if found["alone"] is not None:
             shares = ", ".join(f"{name} in {found[name]:.2%}" for name in ("less", "same", "more"))
             yield f"the person pays {shares} of the runs than alone"
@@ -141,6 +154,25 @@ class Runs(Tabular):
                 f"the team {plain(found['cost'])}"
             )
         yield f"a decision within the deadline in {found['kept']:.2%} of the epochs"
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``execute`` prints: the story of a single run, the rows, the figures over all of them."""
+        if len(self.rows) == 1:
+            yield from (*map(Line, self.story()), Line())
+        columns = [field.name for field in fields(Run)]
+        yield Grid(columns, [[_cell(getattr(row, name)) for name in columns] for row in self.rows])
+        yield from (Line(), *map(Line, self.summary_lines()))
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        found = self.summary()
+        yield f"{found['runs']} of a person who is {self.human}"
+        yield f"goal reached in {found['reached']:.2%}"
+        yield f"mean cost {plain(found['human_cost'])}, alone {plain(found['alone'])}"
 
     def story(self) -> Iterator[str]:
         """The runs in words, epoch by epoch."""
@@ -156,6 +188,19 @@ class Runs(Tabular):
             "rows": [row.to_dict() for row in self.rows],
             "summary": self.summary(),
         }
+
+
+def _mean(figures: Sequence[float]) -> float | None:
+    """The mean, if there is anything."""
+    return sum(figures) / len(figures) if figures else None
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,23 +224,35 @@ _Finished = tuple[Run, tuple[dict[str, Any], ...]]
 """The row of a run and the lines of its log."""
 
 
+class ExecutionOptions(TypedDict, total=False):
+    """What :func:`execute` hands on to each :class:`Execution`, which says what it means."""
+
+    discount: Number
+    deadline: float | None
+    setup: float
+    beta: Number
+    mode: Literal["serendipity", "communication"]
+    interference: Interference
+
+
+@listing
 def execute(
     task: Task,
     human: str | Sequence[str] = "observant",
     *,
     runs: int = 1,
     seed: int = 0,
-    ties: str = "fixed",
+    ties: Literal["fixed", "drawn"] = "fixed",
     faults: Faults | str | None = None,
     adapter: str | Maker | None = None,
     durations: Durations | str | None = None,
     epoch_seconds: float | None = None,
-    human_model: str | None = None,
+    human_model: HumanModel | None = None,
     goals: "GoalsGiven | None" = None,
     epochs: int | None = None,
     jobs: int = 1,
     on_progress: Callable[[int, int], None] | None = None,
-    **options: Any,
+    **options: Unpack[ExecutionOptions],
 ) -> Runs:
     """Let a simulated person, robots and the world go on epoch by epoch, again and again.
 
@@ -243,7 +300,7 @@ def execute(
         raise UsageError(f"human_model: expected one of {known}, got '{model}'")
     crew = _crew(adapter, faults, durations, epoch_seconds)
     plan = canonical_human_plan(PreparedTask(task), Deadline())
-    arguments = {"human_model": model, "goals": goals, "told": policy.told, **options}
+    arguments: dict[str, Any] = {"human_model": model, "goals": goals, "told": policy.told, **options}
     settings = _Settings(
         task=task,
         again=Again(task, policy, arguments),
@@ -288,6 +345,7 @@ def _all_run(
     assignments: Sequence[_Assignment], jobs: int, on_progress: Callable[[int, int], None] | None
 ) -> list[_Finished]:
     """The rows and logs of all runs, in their order."""
+    library()  # says once if there is none, and not once for each process
     done: list[_Finished] = []
     for finished in map(_run, assignments) if jobs == 1 else in_processes(_run, assignments, jobs):
         done.append(finished)
@@ -332,6 +390,7 @@ def _run(assignment: _Assignment) -> _Finished:
         cost=float(run.cost),
         helped=sum(any(len(s.agents) > 1 or s.agents[0] != run.human for s in p.steps) for p in run.passed),
         spoilt=spoilt,
+        stopped=sum(passed.decided.verdict == "stopped" for passed in run.passed),
         late=sum(passed.decided.verdict == "late" for passed in run.passed),
         open=sum(_is_open(passed.decided) for passed in run.passed),
         slowest=max((passed.decided.seconds for passed in run.passed), default=0.0),

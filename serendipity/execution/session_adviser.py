@@ -6,24 +6,33 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.execution.advice import Advice, Question
+from serendipity.execution.advice import Advice, Question, without
 from serendipity.execution.guard import Hands
+from serendipity.execution.pledge import Pledge
 from serendipity.facade.session import Session
 from serendipity.model.answers.result import Result
+from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written
-from serendipity.model.options import Options
+from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import apply
+from serendipity.model.task.actions import Condition
 from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import PlanStep, Window
+from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task
 
 _MOST: Final = 3
 """Sessions at once: what is to be left alone changes seldom, and goes back and forth."""
 
+_Asked = tuple[frozenset[int], bool]
+"""What a session is for: actions that are left out, and whether the person can't do it alone."""
+
 
 class SessionAdviser:
     """Plans for one goal of the person's.
+
+    What was advised is finished: it is given up only for what costs less, or where it can't be.  Where
+    the person has no plan alone, everybody's cheapest plan is asked for, whatever came before: that is how
+    help is finished that was interrupted, and how what was taken is given back.
 
     Args:
         task: the task with that goal.
@@ -36,14 +45,15 @@ class SessionAdviser:
         self._task = task
         self._hands = hands
         self._told = told
-        self._options: dict[str, Any] = {
+        common = {"discount": options.discount, "interference": options.interference}
+        self._alone: dict[str, Any] = {
+            **common,
             "mode": options.mode,
-            "discount": options.discount,
             "human_model": options.human_model,
-            "interference": options.interference,
         }
-        self._sessions: OrderedDict[frozenset[int], Session] = OrderedDict()
-        self._kept: dict[frozenset[int], tuple[frozenset[int], Result]] = {}
+        self._joint: dict[str, Any] = {**common, "mode": "composite", "horizon": INFINITE}
+        self._sessions: OrderedDict[_Asked, Session] = OrderedDict()
+        self._pledges: dict[frozenset[int], Pledge] = {}
 
     def advise(self, question: Question, deadline: Deadline) -> Advice | None:
         """See :class:`serendipity.execution.advice.Adviser`; what plans need is never touched."""
@@ -51,71 +61,89 @@ class SessionAdviser:
         if not self._told:
             removed |= self._hands.off(question.following.needed())
         while True:
-            result = self._best(question, removed, deadline)
-            if result is None or result.plan is None:
+            advice = self._best(question, removed, deadline)
+            if advice is None:
                 return None
-            now = [self._ids(step, question.state) for step in result.plan if step.epoch == 1]
+            now = [self._ids(step, question.state) for step in advice.plan if step.epoch == 1]
             robots = [i for i in now if self._task.actions[i].participants != (self._task.human,)]
             if question.allows(robots):
-                cost = sum((as_written(step.cost) for step in result.plan), Fraction(0))
-                proved = result.status == "optimal"
-                return Advice(result.plan, result.window, cost, result.opportunity, proved)
+                return advice
             removed |= {robots[0]}
 
     def again(self) -> "SessionAdviser":
         """See :class:`serendipity.execution.advice.Adviser`."""
         other = copy(self)
-        other._kept = dict(self._kept)
+        other._pledges = dict(self._pledges)
         return other
 
-    def _best(self, question: Question, removed: frozenset[int], deadline: Deadline) -> Result | None:
-        promise = question.following.promise()
-        if not promise:
-            return None
-        kept = self._kept.get(removed)
-        if kept is None or kept[0] != question.state:
-            session = self._session(removed)
-            changed = session.task.init ^ question.state
-            session.change({self._task.facts[fact]: fact in question.state for fact in sorted(changed)})
-            session.follow([self._task.actions[i].name for i in promise])
-            result = session.plan(deadline=deadline)
-        else:
-            result = kept[1]
-        self._keep(question.state, removed, result)
-        return result
-
-    def _keep(self, state: frozenset[int], removed: frozenset[int], result: Result) -> None:
-        """What is left of a plan that is proved to be the best stays so while all goes as planned."""
-        if result.status != "optimal" or result.plan is None:
-            self._kept.pop(removed, None)
-            return
-        now, rest = [], []
-        for step in result.plan:
-            if step.epoch > 1:
-                rest.append(PlanStep(step.epoch - 1, step.agents, step.action, step.cost))
+    def _best(self, question: Question, removed: frozenset[int], deadline: Deadline) -> Advice | None:
+        """What is cheapest of what was advised before and what is found now."""
+        key = frozenset() if self._told else removed
+        pledge = self._pledges.get(key)
+        rest = None if pledge is None else pledge.rest(self._task, question, mend=self._told)
+        alone = question.following.alone
+        own_goals = bool(self._task.robot_goal)  # then what is left may be for these alone
+        if rest is not None and alone is not None and rest.cost >= alone and not own_goals:
+            rest = rest if rest.by_themselves(self._task) else None
+        best = rest
+        if rest is None or not (rest.proved or alone is None) or own_goals:
+            try:
+                found = self._asked(question, removed, pledge, deadline)
+            except LIMITS:
+                if rest is None:
+                    raise
             else:
-                now.append(self._task.actions[self._ids(step, state)])
-        window = result.window
-        if window is not None:
-            window = None if window.start == 1 else Window(window.start - 1, window.end - 1)
-        self._kept[removed] = apply(state, *now), replace(result, plan=tuple(rest), window=window)
+                if rest is None or (found is not None and found.cost < rest.cost):
+                    best = found
+                elif found is not None and found.cost == rest.cost:
+                    best = found if own_goals else replace(rest, proved=found.proved)
+        if best is None:
+            self._pledges.pop(key, None)
+        else:
+            self._pledges[key] = Pledge.of(self._task, question.state, best)
+        return best
+
+    def _asked(
+        self, question: Question, removed: frozenset[int], pledge: Pledge | None, deadline: Deadline
+    ) -> Advice | None:
+        hopeless = question.following.hopeless
+        promise = question.following.promise()
+        if not promise and not hopeless:
+            return None
+        session = self._session(removed, hopeless=hopeless)
+        as_planned = pledge is not None and pledge.state == question.state
+        known = pledge is not None and all(step.action in session.task.named for step in pledge.now)
+        if pledge is not None and as_planned and known and pledge.before == session.task.init:
+            session.execute([step.action for step in pledge.now])
+        changed = session.task.init ^ question.state
+        session.change({self._task.facts[fact]: fact in question.state for fact in sorted(changed)})
+        session.follow(None if hopeless else [self._task.actions[i].name for i in promise])
+        return self._answered(session.plan(deadline=deadline), hopeless=hopeless)
+
+    def _answered(self, result: Result, *, hopeless: bool) -> Advice | None:
+        if result.plan is None:
+            if result.status == "unknown":
+                raise LimitReachedError("time-limit")
+            return None
+        cost = sum((as_written(step.cost) for step in result.plan), Fraction(0))
+        return Advice(
+            result.plan, result.window, cost, hopeless or result.opportunity, result.status == "optimal"
+        )
 
     def _ids(self, step: PlanStep, state: frozenset[int]) -> int:
         """The action of a step of the first epoch, in the variant that is applicable."""
         ids = actions_named(self._task, step.action, step.agents)
         return next(i for i in ids if self._task.actions[i].applicable(state))
 
-    def _session(self, removed: frozenset[int]) -> Session:
-        session = self._sessions.get(removed)
+    def _session(self, removed: frozenset[int], *, hopeless: bool) -> Session:
+        key = (removed, hopeless)
+        session = self._sessions.get(key)
         if session is None:
-            session = self._sessions[removed] = Session(self._without(removed), **self._options)
+            task, options = without(self._task, removed), self._alone
+            if hopeless:  # robots' own goals can wait
+                task, options = task.with_goal(task.goal, Condition()), self._joint
+            session = self._sessions[key] = Session(task, **options)
             if len(self._sessions) > _MOST:
-                self._kept.pop(self._sessions.popitem(last=False)[0], None)
-        self._sessions.move_to_end(removed)
+                self._sessions.popitem(last=False)
+        self._sessions.move_to_end(key)
         return session
-
-    def _without(self, removed: frozenset[int]) -> Task:
-        if not removed:
-            return self._task
-        kept = tuple(action for i, action in enumerate(self._task.actions) if i not in removed)
-        return replace(self._task, actions=kept, known_variables=self._task.variables)

@@ -6,8 +6,10 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model.errors import UsageError
+from serendipity.model.numbers import figure
 from serendipity.model.task.actions import apply, conflicting
 from serendipity.model.task.execution import actions_named, participants
+from serendipity.model.task.names import no_fact
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task, canonical_name
 from serendipity.robot import Outcome
@@ -82,7 +84,7 @@ class World:
         """An action as plans write it."""
         ground = self.task.actions[action]
         cost = self.task.team_cost(ground, self._discount)
-        return PlanStep(epoch, participants(self.task, ground), ground.name, float(cost))
+        return PlanStep(epoch, participants(self.task, ground), ground.name, figure(cost))
 
     def applicable(self, action: int) -> bool:
         """Whether an action is possible now."""
@@ -163,5 +165,5 @@ class World:
             self._facts = {fact: i for i, fact in enumerate(self.task.facts)}
         found = self._facts.get(canonical_name(name))
         if found is None:
-            raise UsageError(f"there is no fact '{name}' in the task")
+            raise UsageError(no_fact(canonical_name(name), self.task.facts))
         return found

@@ -25,7 +25,9 @@ def test_epoch_by_epoch(task: Task, discount: str, human_model: str) -> None:
         keeping.following.look(world.state)
         if keeping.following.hopeless or not keeping.following.promise():
             break
-        question = Question(world.state, keeping.following, frozenset(), lambda _: True)
+        question = Question(
+            world.state, keeping.following, frozenset(), frozenset(), frozenset(), lambda _: True
+        )
         kept = keeping.adviser.advise(question, Deadline())
         other = Imagined(task, options, hands, task.init, Deadline(), told=True)
         fresh = other.adviser.advise(question, Deadline())

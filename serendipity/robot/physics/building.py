@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import Final
 
+from serendipity.pictures.map.layout import Box, Layout
 from serendipity.robot.physics.engine import Colour, Engine
-from serendipity.show.map.layout import Box, Layout
 
 CELL: Final = 0.8
 """Least side of a room, in metres."""

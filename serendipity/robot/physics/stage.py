@@ -7,6 +7,9 @@ from serendipity.model.errors import UsageError
 from serendipity.model.task.actions import GroundAction, apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import Task
+from serendipity.pictures.map.layout import lay_out
+from serendipity.pictures.map.places import Whereabouts, find_places
+from serendipity.pictures.scene.finder import Finder
 from serendipity.robot.adapter import Epoch, Order, Report
 from serendipity.robot.physics.building import CELL, Building, Point
 from serendipity.robot.physics.deeds import Bodies, Deed, StuckError, in_turn, shelf, spot_of, together
@@ -14,9 +17,6 @@ from serendipity.robot.physics.engine import RATE, Colour, Engine
 from serendipity.robot.physics.figure import Figure
 from serendipity.robot.physics.film import Film
 from serendipity.robot.physics.kit import Kit
-from serendipity.show.map.layout import lay_out
-from serendipity.show.map.places import Whereabouts, find_places
-from serendipity.show.scene.finder import Finder
 
 EPOCH: Final = 5.0
 """Seconds of an epoch."""
@@ -40,7 +40,7 @@ class Stage:
         film: records what happens.
 
     Raises:
-        UsageError: pybullet is not installed, the task has no map, there is no such doorway.
+        UsageError: pybullet is missing, there is no such doorway, or the task has no map, towers or lifts.
     """
 
     def __init__(
@@ -56,6 +56,10 @@ class Stage:
         agents = self._finder.agents(task.init)
         if not agents:
             raise UsageError("adapter: pybullet is for tasks with a map, on which agents are somewhere")
+        if places.towers or places.levels:
+            raise UsageError(
+                "adapter: pybullet is for buildings on one floor, where things don't stand on each other"
+            )
         self._task = task
         self._epoch = EPOCH if epoch is None else epoch
         self._engine = engine = Engine()
