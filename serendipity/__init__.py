@@ -9,64 +9,111 @@ Everything public is importable from here and loads when it is first used::
     certificate = serendipity.verify(task, result)
 """
 
+from serendipity._version import __version__
+
 TYPE_CHECKING = False  # of `typing`, which the command line need not load before it listens to Ctrl-C
 
 if TYPE_CHECKING:
     from typing import Any
 
-    from serendipity.evaluation.reproduction import reproduce
-    from serendipity.execution import Execution, execute
+    from serendipity.evaluation.reproduction import Progress, Reproduction, Row, reproduce
+    from serendipity.execution import Execution, Run, Runs, execute
     from serendipity.explanation import Explanation, explain
     from serendipity.facade.certify import check, verify
-    from serendipity.facade.interruptibility import interruptions
+    from serendipity.facade.interruptibility import Interruption, InterruptionReport, Removal, interruptions
     from serendipity.facade.loading import load, load_agents, load_pddl
     from serendipity.facade.planning import plan, plan_anytime
     from serendipity.facade.proofs import check_proof
     from serendipity.facade.session import Session
+    from serendipity.facade.showing import Drawing, show
     from serendipity.facade.simulation import simulate
     from serendipity.lint import Finding, TaskReport, check_task
     from serendipity.model import (
         Certificate,
+        Claim,
+        Condition,
         Deadline,
+        Decision,
+        GapEntry,
+        GoalAnswer,
+        GroundAction,
+        HumanModel,
         InputError,
         LimitReachedError,
+        Mode,
         Options,
         PlanError,
+        PlanOptions,
         PlanStep,
+        Policy,
         ProofCheck,
+        RefutedProgram,
         Result,
         SerendipityError,
+        StateDelta,
+        Status,
+        Table,
         Task,
+        TiedAnswer,
         Trace,
+        TraceEpoch,
+        TraceSkip,
         UsageError,
+        Verdict,
         Window,
     )
-    from serendipity.recognition import Recognition, recognise
+    from serendipity.recognition import GoalPosterior, Recognition, recognise
     from serendipity.scenarios.examples import example
     from serendipity.scenarios.generate import generate_usar
 
-__version__ = "0.1.0"
-
 __all__ = [
     "Certificate",
+    "Claim",
+    "Condition",
     "Deadline",
+    "Decision",
+    "Drawing",
     "Execution",
     "Explanation",
     "Finding",
+    "GapEntry",
+    "GoalAnswer",
+    "GoalPosterior",
+    "GroundAction",
+    "HumanModel",
     "InputError",
+    "Interruption",
+    "InterruptionReport",
     "LimitReachedError",
+    "Mode",
     "Options",
     "PlanError",
+    "PlanOptions",
     "PlanStep",
+    "Policy",
+    "Progress",
     "ProofCheck",
     "Recognition",
+    "RefutedProgram",
+    "Removal",
+    "Reproduction",
     "Result",
+    "Row",
+    "Run",
+    "Runs",
     "SerendipityError",
     "Session",
+    "StateDelta",
+    "Status",
+    "Table",
     "Task",
     "TaskReport",
+    "TiedAnswer",
     "Trace",
+    "TraceEpoch",
+    "TraceSkip",
     "UsageError",
+    "Verdict",
     "Window",
     "__version__",
     "check",
@@ -84,36 +131,48 @@ __all__ = [
     "plan_anytime",
     "recognise",
     "reproduce",
+    "show",
     "simulate",
     "verify",
 ]
 
 _HOMES = {
+    "Progress": "serendipity.evaluation.reproduction",
+    "Reproduction": "serendipity.evaluation.reproduction",
+    "Row": "serendipity.evaluation.reproduction",
+    "reproduce": "serendipity.evaluation.reproduction",
+    "Execution": "serendipity.execution",
+    "Run": "serendipity.execution",
+    "Runs": "serendipity.execution",
+    "execute": "serendipity.execution",
+    "Explanation": "serendipity.explanation",
+    "explain": "serendipity.explanation",
+    "check": "serendipity.facade.certify",
+    "verify": "serendipity.facade.certify",
+    "Interruption": "serendipity.facade.interruptibility",
+    "InterruptionReport": "serendipity.facade.interruptibility",
+    "Removal": "serendipity.facade.interruptibility",
+    "interruptions": "serendipity.facade.interruptibility",
     "load": "serendipity.facade.loading",
     "load_agents": "serendipity.facade.loading",
     "load_pddl": "serendipity.facade.loading",
-    "example": "serendipity.scenarios.examples",
-    "generate_usar": "serendipity.scenarios.generate",
     "plan": "serendipity.facade.planning",
     "plan_anytime": "serendipity.facade.planning",
-    "Session": "serendipity.facade.session",
-    "simulate": "serendipity.facade.simulation",
-    "check": "serendipity.facade.certify",
     "check_proof": "serendipity.facade.proofs",
-    "check_task": "serendipity.lint",
+    "Session": "serendipity.facade.session",
+    "Drawing": "serendipity.facade.showing",
+    "show": "serendipity.facade.showing",
+    "simulate": "serendipity.facade.simulation",
     "Finding": "serendipity.lint",
     "TaskReport": "serendipity.lint",
-    "verify": "serendipity.facade.certify",
-    "reproduce": "serendipity.evaluation.reproduction",
-    "interruptions": "serendipity.facade.interruptibility",
-    "explain": "serendipity.explanation",
-    "Explanation": "serendipity.explanation",
-    "Execution": "serendipity.execution",
-    "execute": "serendipity.execution",
-    "recognise": "serendipity.recognition",
+    "check_task": "serendipity.lint",
+    "GoalPosterior": "serendipity.recognition",
     "Recognition": "serendipity.recognition",
+    "recognise": "serendipity.recognition",
+    "example": "serendipity.scenarios.examples",
+    "generate_usar": "serendipity.scenarios.generate",
 }
-"""Where the public functions live; the public classes live in ``serendipity.model``."""
+"""Where what is public lives that is not of ``serendipity.model``."""
 
 _NEED_SIBLINGS = (
     "serendipity.facade.planning",
@@ -126,6 +185,7 @@ _NEED_SIBLINGS = (
     "serendipity.recognition",
     "serendipity.evaluation.reproduction",
     "serendipity.facade.session",
+    "serendipity.facade.showing",
     "serendipity.facade.simulation",
 )
 

@@ -1,11 +1,12 @@
 """One planning call: what is asked, checked in one place before anything is planned."""
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from typing import Any, Final
 
-from search import PreparedTask
+from search import PreparedTask, WarmStart
+from serendipity.facade.memory import Question
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import UsageError
 from serendipity.model.options import Options
@@ -29,6 +30,7 @@ class Call:
         visible: what a human of ``human_model="local"`` sees; None for the default.
         limits: of the whole call.
         deadline: of the search: the same without the time that is kept for the end.
+        question: what it asks, where somebody remembers answers; or None.
     """
 
     prepared: PreparedTask
@@ -37,11 +39,22 @@ class Call:
     visible: Visible | None
     limits: Deadline
     deadline: Deadline
+    question: Question | None = None
 
     @property
     def task(self) -> Task:
         """The task."""
         return self.prepared.task
+
+    @property
+    def known(self) -> Answer | None:
+        """The answer, where it is known and proved."""
+        return None if self.question is None else self.question.proved
+
+    @property
+    def warm(self) -> WarmStart | None:
+        """What is known before."""
+        return None if self.question is None else self.question.warm
 
 
 Given = Callable[[], HumanPlan] | None
@@ -51,7 +64,7 @@ Solver = Callable[[Call], Iterator[Answer]]
 """Answers to a call, each better than the one before or better proved; the last one is the best known."""
 
 
-def options_from(given: dict[str, Any]) -> Options:
+def options_from(given: Mapping[str, Any]) -> Options:
     """Options from keyword arguments.
 
     Raises:

@@ -2,7 +2,9 @@
 
 from pathlib import Path
 from time import perf_counter
+from typing import Literal
 
+from serendipity.facade.logs import recorded
 from serendipity.model import Certificate, Deadline, Result, Task
 from serendipity.model.arguments import PATH, RESULT, TASK, expect, expect_or_none
 from serendipity.model.resources.collection import no_collection
@@ -11,6 +13,11 @@ from verify.certificate.by_rules import check_by_rules
 from verify.rules.header import require_same_task
 
 
+def _verdict(certificate: Certificate) -> str:
+    return certificate.verdict
+
+
+@recorded("check", _verdict)
 def check(
     task: Task, result: Result, *, time_limit: float | None = None, deadline: Deadline | None = None
 ) -> Certificate:
@@ -43,13 +50,14 @@ def check(
     return Certificate(claims, perf_counter() - start)
 
 
+@recorded("verify", _verdict)
 def verify(
     task: Task,
     result: Result,
     *,
-    solver: str = "highs",
-    encoding: str = "automata",
-    method: str = "auto",
+    solver: Literal["highs", "cbc"] = "highs",
+    encoding: Literal["automata", "paper"] = "automata",
+    method: Literal["auto", "program", "exhaustive"] = "auto",
     proof: str | Path | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,

@@ -1,9 +1,9 @@
 """Which interruptions would help the human: every window, with the best possible in it (semantics 3.2)."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any, Final, Unpack
 
 from search.interruptions import Interruptions, WindowOutcome
 from search.interruptions import interruptions as search_windows
@@ -11,13 +11,15 @@ from serendipity.facade.call import options_from
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
-from serendipity.model.arguments import FUNCTION, expect_or_none
-from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.numbers import rounded
+from serendipity.model.arguments import FUNCTION, TASK, expect, expect_or_none
+from serendipity.model.errors import LIMITS, limit_reason, limit_words
+from serendipity.model.keywords import InterruptionOptions, listing
+from serendipity.model.numbers import plain, rounded
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.table import Cell, Table, Tabular
 from serendipity.model.task.execution import actions_of
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.interruptions/1"
 
@@ -35,7 +37,7 @@ _COLUMNS: Final = {
     "informative": bool,
 }
 
-_OPTIONS: Final = ("discount", "horizon", "suffix", "preservation", "interference")
+_OPTIONS: Final = tuple(InterruptionOptions.__annotations__)
 """What of ``Options`` makes a difference here."""
 
 
@@ -111,8 +113,8 @@ class Interruption:
         return (*window, *map(rounded, costs), *taken, instead, self.informative)
 
 
-@dataclass(frozen=True, slots=True)
-class InterruptionReport(Tabular):
+@dataclass(frozen=True, slots=True, repr=False)
+class InterruptionReport(Tabular, Told):
     """The report of semantics 3.2.
 
     Attributes:
@@ -164,7 +166,58 @@ class InterruptionReport(Tabular):
             "options": {name: options[name] for name in _OPTIONS},
         }
 
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
 
+    def told(self, *, every: bool = False) -> Iterator[Line | Grid]:
+        """What ``interruptions`` prints; with ``every``, what ``--all`` does."""
+        if self.human_plan is None:
+            yield Line(f"{self.human} can't reach the goal alone: there is no plan to interrupt")
+            return
+        verdicts = {True: "can be", False: "can't be", None: "may or may not be"}
+        yield Line(
+            f"{self.human}'s plan ({len(self.human_plan)} actions, cost {plain(self.human_cost)}) "
+            f"{verdicts[self.interruptible]} interrupted to {self.human}'s advantage"
+        )
+        if self.limit is not None:
+            yield Line(f"{limit_words(self.limit)}: only these windows were examined", "yellow")
+        shown = [entry for entry in self.windows if every or entry.informative]
+        if len(shown) < len(self.windows):
+            less = f"{len(shown)} of {len(self.windows)} windows save more than every window within them"
+            yield Line(f"{less}; --all shows the others, too")
+        if not shown:
+            return
+        yield Line()
+        who = self.human
+        header = ("window", f"{who} pays", "team pays", f"{who} saves", "team saves", "removed", "instead")
+        rows = []
+        for entry in shown:
+            gone = entry.removal
+            removed = f"{gone.first}..{gone.last}" if gone is not None and gone.removed else ""
+            window = f"[{entry.window.start}, {entry.window.end})"
+            costs = (entry.human_cost, entry.team_cost, entry.human_saving, entry.team_saving)
+            instead = "" if gone is None else "; ".join(gone.replacement)
+            rows.append((window, *map(plain, costs), removed, instead))
+        helpful = (i for i, entry in enumerate(shown) if entry.human_saving and entry.human_saving > 0)
+        yield Grid(header, rows, frozenset(helpful), numbered=True)
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield self.human
+        yield f"{len(self.windows)} windows"
+        yield f"interruptible {self.interruptible}"
+
+    def _repr_html_(self) -> str:
+        return f"{self._repr_svg_()}{Told._repr_html_(self)}"
+
+    def _repr_svg_(self) -> str:
+        from serendipity.pictures import draw_windows
+
+        return str(draw_windows(self, ".svg"))
+
+
+@listing
 def interruptions(
     task: Task,
     *,
@@ -173,7 +226,7 @@ def interruptions(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
-    **options: Any,
+    **options: Unpack[InterruptionOptions],
 ) -> InterruptionReport:
     """For each window the best for the human and the best for the team.
 
@@ -194,14 +247,15 @@ def interruptions(
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         LimitReachedError: a limit came before it was known what the human is going to do.
     """
-    prepared, limits = HELD.of(task), limits_from(time_limit, memory_limit, deadline)
+    expect(TASK, task=task)
+    limits = limits_from(time_limit, memory_limit, deadline)
     expect_or_none(FUNCTION, on_progress=on_progress)
     for name in options:
         if name not in _OPTIONS:
             raise UsageError(f"interruptions: expected options among {', '.join(_OPTIONS)}, got '{name}'")
     chosen = options_from(options)
     given = None if human_plan is None else task.plan_from_names(human_plan)
-    with no_collection():  # beside a large task a collection takes longer than a short deadline
+    with HELD.taken(task) as prepared, no_collection():  # beside a large task a collection takes long
         found = search_windows(prepared, chosen, human_plan=given, deadline=limits, on_progress=on_progress)
         return _alone_impossible(task, chosen) if found is None else _reported(task, chosen, found)
 

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Final
 
 from search import PreparedTask, prepare
+from serendipity.facade.logs import recorded
 from serendipity.facade.prepared import HELD
 from serendipity.model.arguments import BY_NAME, FUNCTION, PAIR, PATH, TEXT, expect, expect_or_none
 from serendipity.model.resources.deadline import Deadline
@@ -24,6 +25,11 @@ _LARGE: Final = 1_000
 """Ground actions: that many take some 5 ms to prepare, the shortest time limit that is kept."""
 
 
+def _size(task: Task) -> str:
+    return f"{task.name}, {len(task.actions):,} ground actions"
+
+
+@recorded("load", _size)
 def load(
     path: PathArgument,
     human: str | None = None,
@@ -50,6 +56,7 @@ def load(
     return _ready(read_folder(path, human, deadline=limits, on_progress=on_progress), limits, on_progress)
 
 
+@recorded("load", _size)
 def load_agents(
     agents: Mapping[str, Pair],
     team: Pair | None = None,
@@ -75,6 +82,7 @@ def load_agents(
     return _ready(task, limits, on_progress)
 
 
+@recorded("load", _size)
 def load_pddl(
     domain: PathArgument,
     problem: PathArgument,

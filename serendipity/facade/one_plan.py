@@ -47,12 +47,17 @@ def with_verdicts(call: Call, answer: Answer, *, last: bool = True) -> Answer:
 
 
 def _omniscient(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
-    return solve(call.prepared, call.options, human_plan=human_plan, deadline=call.deadline)
+    return solve(call.prepared, call.options, human_plan=human_plan, deadline=call.deadline, warm=call.warm)
 
 
 def _replanning(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
     return solve_for_human(
-        call.prepared, call.options, human_plan=human_plan, visible=call.visible, deadline=call.deadline
+        call.prepared,
+        call.options,
+        human_plan=human_plan,
+        visible=call.visible,
+        deadline=call.deadline,
+        warm=call.warm,
     )
 
 

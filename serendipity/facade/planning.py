@@ -1,12 +1,15 @@
 """Planning calls: options in, results out, incumbents on the way."""
 
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 from search import PreparedTask
 from serendipity.facade.call import Call, Given, checked_call, options_from
+from serendipity.facade.logs import record, recorded
+from serendipity.facade.memory import Memory
 from serendipity.facade.one_plan import with_verdicts
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import to_result
@@ -15,7 +18,9 @@ from serendipity.model.answers.answer import Answer
 from serendipity.model.answers.result import Result
 from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.errors import UsageError
+from serendipity.model.keywords import PlanOptions, listing
 from serendipity.model.numbers import Number
+from serendipity.model.options import Options
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task, several
@@ -25,6 +30,7 @@ if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven, ObservedGiven
 
 
+@listing
 def plan(
     task: Task,
     *,
@@ -36,7 +42,7 @@ def plan(
     observed: "ObservedGiven" = (),
     beta: Number = 1,
     on_improvement: Callable[[Result], None] | None = None,
-    **options: Any,
+    **options: Unpack[PlanOptions],
 ) -> Result:
     """The best plan in which robots help the human, with a proof that none is better.
 
@@ -63,20 +69,27 @@ def plan(
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         InputError: ``goals`` or ``observed`` are wrong; it says where.
     """
-    return planned(
-        HELD.of(task),
-        _given(task, human_plan),
-        visible=visible,
-        cancelled=cancelled,
-        deadline=deadline,
-        goals=goals,
-        observed=observed,
-        beta=beta,
-        on_improvement=on_improvement,
-        **options,
-    )
+    with HELD.taken(task) as prepared:
+        return planned(
+            prepared,
+            _given(task, human_plan),
+            visible=visible,
+            cancelled=cancelled,
+            deadline=deadline,
+            goals=goals,
+            observed=observed,
+            beta=beta,
+            on_improvement=on_improvement,
+            **options,
+        )
 
 
+def _said(answer: Result) -> str:
+    cost = "" if answer.cost is None else f", cost {answer.cost:g}"
+    return f"{answer.mode}: {answer.status}{cost}"
+
+
+@recorded("plan", _said)
 def planned(
     prepared: PreparedTask,
     given: Given,
@@ -88,9 +101,10 @@ def planned(
     observed: "ObservedGiven" = (),
     beta: Number = 1,
     on_improvement: Callable[[Result], None] | None = None,
-    **options: Any,
+    memory: Memory | None = None,
+    **options: Unpack[PlanOptions],
 ) -> Result:
-    """:func:`plan` for those who hold a prepared task."""
+    """:func:`plan` for those who hold a prepared task, and may remember answers."""
     expect_or_none(FUNCTION, visible=visible, on_improvement=on_improvement)
     if goals is not None and given is not None:
         raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
@@ -100,18 +114,25 @@ def planned(
     solver = SOLVERS[chosen.mode](chosen)
     if goals is not None:
         # Loaded only here, before time counts: calls with a known goal do not need it.
-        from serendipity.facade.unknown_goals import settled
+        from serendipity.facade.unknown_goals import asked_about, settled
     with no_collection():  # beside a large task a collection takes longer than a short deadline
         call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
-        if goals is not None:
-            call, solver = settled(call, goals, observed, beta)
-        answers = solver(call)
+        if memory is not None:
+            about = None if goals is None else asked_about(call.task, goals, observed, beta)
+            call = _remembered(call, memory, chosen, about)
+        if call.known is not None:
+            answers: Iterator[Answer] = iter((call.known,))
+        else:
+            if goals is not None:
+                call, solver = settled(call, goals, observed, beta)
+            answers = solver(call)
         if on_improvement is None:
             *_, last = answers
             return _result(call, last)
     return _told(_results(call, answers), on_improvement)
 
 
+@listing
 def plan_anytime(
     task: Task,
     *,
@@ -119,7 +140,7 @@ def plan_anytime(
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
     deadline: Deadline | None = None,
-    **options: Any,
+    **options: Unpack[PlanOptions],
 ) -> Iterator[Result]:
     """Answers as they get better, or as more is known of them; the last is what :func:`plan` returns.
 
@@ -131,9 +152,10 @@ def plan_anytime(
     Args and errors are those of :func:`plan`.
     """
     given = _given(task, human_plan)
-    yield from planned_anytime(
-        HELD.of(task), given, visible=visible, cancelled=cancelled, deadline=deadline, **options
-    )
+    with HELD.taken(task) as prepared:
+        yield from planned_anytime(
+            prepared, given, visible=visible, cancelled=cancelled, deadline=deadline, **options
+        )
 
 
 def planned_anytime(
@@ -143,16 +165,31 @@ def planned_anytime(
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
     deadline: Deadline | None = None,
-    **options: Any,
+    memory: Memory | None = None,
+    **options: Unpack[PlanOptions],
 ) -> Iterator[Result]:
-    """:func:`plan_anytime` for those who hold a prepared task."""
+    """:func:`plan_anytime` for those who hold a prepared task, and may remember answers."""
     expect_or_none(FUNCTION, visible=visible)
     chosen = options_from(options)
     solver = SOLVERS[chosen.mode](chosen)
     with no_collection():
         call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
-        answers = solver(call)
-    yield from _results(call, answers)
+        if memory is not None:
+            call = _remembered(call, memory, chosen)
+        answers = solver(call) if call.known is None else iter((call.known,))
+    said = "left"
+    try:
+        for result in _results(call, answers):
+            said = _said(result)
+            yield result
+    finally:
+        record("INFO", f"plan_anytime: {said}", call.limits.elapsed())
+
+
+def _remembered(call: Call, memory: Memory, options: Options, about: Hashable = None) -> Call:
+    """The call as a question of which something may be known."""
+    plan = None if call.given is None else tuple(call.task.actions[i].name for i in call.given)
+    return replace(call, question=memory.question(options, call.visible, about, plan))
 
 
 def _results(call: Call, answers: Iterator[Answer]) -> Iterator[Result]:
@@ -164,6 +201,7 @@ def _results(call: Call, answers: Iterator[Answer]) -> Iterator[Result]:
                 break
             answer = following
             result = _result(call, answer, last=False)
+        record("DEBUG", f"on the way: {_said(result)}", call.limits.elapsed())
         yield result
     if result is not None and not result.realised:
         with no_collection():
@@ -188,5 +226,10 @@ def _given(task: Task, names: Iterable[str] | None) -> Given:
 
 
 def _result(call: Call, answer: Answer, *, last: bool = True) -> Result:
+    question = call.question
+    if question is not None:
+        answer = question.better(answer, call.options)
     answer = with_verdicts(call, answer, last=last)
+    if question is not None:
+        question.answered(call.task, answer, call.options)
     return to_result(call.task, call.options, answer, call.deadline.elapsed())

@@ -1,12 +1,14 @@
 """From exact answers to results: names and floats appear here, and nowhere before."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from fractions import Fraction
 
+from search.kernel.library import state_at_hand
 from serendipity.model.answers.answer import Answer, Improvement, ServedGoal
 from serendipity.model.answers.result import Result
 from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
-from serendipity.model.numbers import rounded
+from serendipity.model.numbers import figure, rounded
 from serendipity.model.options import Options
 from serendipity.model.task.execution import actions_of, participants, shares
 from serendipity.model.task.plans import PlanStep, Step
@@ -49,9 +51,12 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
         statistics={
             "elapsed_seconds": elapsed,
             **{name: count for name, count in counted.items() if count is not None},
+            "kernel": state_at_hand(),
         },
         policy=answer.policy,
-        ties=None if answer.ties is None else tuple(_tied(task, tied) for tied in answer.ties),
+        ties=None
+        if answer.ties is None
+        else tuple(_tied(task, discount, tied, answer.status) for tied in answer.ties),
         optimal_plans=answer.optimal_plans,
         goals=None if answer.goals is None else tuple(_goal(task, discount, goal) for goal in answer.goals),
         recognition=answer.recognition,
@@ -69,7 +74,7 @@ def named_steps(task: Task, discount: Fraction, steps: Iterable[Step]) -> tuple[
         kind = (*action.cost.as_integer_ratio(), task.human in action.participants)
         price = prices.get(kind)
         if price is None:
-            price = prices[kind] = float(task.team_cost(action, discount))
+            price = prices[kind] = figure(task.team_cost(action, discount))
         named.append(PlanStep(step.epoch, participants(task, action), action.name, price))
     return tuple(named)
 
@@ -91,7 +96,7 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, fl
     """What each agent contributes: the mean with several goals, both totals of a policy."""
     if answer.bounds is not None:
         totals = zip((task.human, *task.robots), answer.bounds.upper or (), strict=False)
-        return {task.agents[agent]: float(cost) for agent, cost in totals}
+        return {task.agents[agent]: figure(cost) for agent, cost in totals}
     if answer.steps is None:
         return {}
     costs = shares(task, actions_of(task, answer.steps), discount)
@@ -100,16 +105,20 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, fl
         for goal in answer.goals:
             for agent, cost in shares(task, actions_of(task, goal.steps or ()), discount).items():
                 costs[agent] += goal.probability * cost
-    return {task.agents[agent]: float(cost) for agent, cost in costs.items()}
+    return {task.agents[agent]: figure(cost) for agent, cost in costs.items()}
 
 
 def _gap_entry(known: Improvement) -> GapEntry:
     return GapEntry(known.seconds, rounded(known.objective), rounded(known.lower_bound))
 
 
-def _tied(task: Task, answer: Answer) -> TiedAnswer:
-    plan = _names(task, answer.human_plan) or ()
-    return TiedAnswer(plan, rounded(answer.cost), answer.opportunity, dict(answer.realised or {}))
+def _tied(task: Task, discount: Fraction, answer: Answer, status: str) -> TiedAnswer:
+    """One of the answers over ties; with its plan where not all is proved, as evidence."""
+    names = _names(task, answer.human_plan) or ()
+    found = TiedAnswer(names, rounded(answer.cost), answer.opportunity, dict(answer.realised or {}))
+    if status != "feasible":
+        return found
+    return replace(found, plan=_plan(task, discount, answer.steps), window=answer.window)
 
 
 def _goal(task: Task, discount: Fraction, goal: ServedGoal) -> GoalAnswer:

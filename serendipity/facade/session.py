@@ -1,18 +1,46 @@
 """Planning again and again in a control loop: what doesn't change between calls is kept."""
 
 import threading
-from collections.abc import Iterable, Iterator, Mapping
+import weakref
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from serendipity.facade.call import Given
+from serendipity.facade.memory import Memory
 from serendipity.facade.planning import planned, planned_anytime
 from serendipity.facade.prepared import HELD
+from serendipity.facade.results import named_steps
 from serendipity.model.answers.result import Result
 from serendipity.model.arguments import BY_NAME, expect
 from serendipity.model.errors import PlanError, UsageError
+from serendipity.model.keywords import PlanOptions, listing
+from serendipity.model.numbers import Number
+from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
+from serendipity.model.task.names import no_fact
+from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import HumanPlan, Task, canonical_name, several
+from serendipity.model.task.visibility import Visible
+
+if TYPE_CHECKING:
+    from serendipity.recognition import GoalsGiven, ObservedGiven
+
+
+class AnytimeOptions(PlanOptions, total=False):
+    """What each of a session's calls of ``plan_anytime`` may say."""
+
+    visible: Visible | None
+    deadline: Deadline | None
+
+
+class SessionOptions(AnytimeOptions, total=False):
+    """What each of a session's calls of ``plan`` may say: the arguments of :func:`serendipity.plan`."""
+
+    goals: "GoalsGiven | None"
+    observed: "ObservedGiven"
+    beta: Number
+    on_improvement: Callable[[Result], None] | None
 
 
 class Session:
@@ -27,14 +55,26 @@ class Session:
         **options: defaults of every call, as for :func:`serendipity.plan`.
     """
 
-    def __init__(self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Any) -> None:
-        self._prepared = HELD.of(task)
+    @listing
+    def __init__(
+        self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Unpack[SessionOptions]
+    ) -> None:
+        self._prepared = HELD.take(task)
+        weakref.finalize(self, HELD.hold, self._prepared).atexit = False
         self._options = options
         self._given = None if human_plan is None else several(human_plan, "human plan")
         """Names of a plan that nothing has been made of yet: it may be one only after the next change."""
         self._human_plan: HumanPlan | None = None
         """The plan; at most one of the two is known."""
+        self._predicted = False
+        """Whether it is not the caller who has said so."""
+        self._is_outdated = False
+        """Whether it is known not to be what a human would do who looks up."""
         self._cancelled = threading.Event()
+        self._memory = Memory()
+
+    def __repr__(self) -> str:
+        return f"Session({self.task!r:.90})"
 
     @property
     def task(self) -> Task:
@@ -48,25 +88,54 @@ class Session:
             return self._given
         return tuple(self.task.actions[i].name for i in self._human_plan)
 
-    def plan(self, **options: Any) -> Result:
+    @property
+    def rest(self) -> tuple[PlanStep, ...] | None:
+        """What is left of the last answer's plan, its epochs counted from now; None once the world deviates.
+
+        It can be finished, whatever the question from the present state would be answered with.
+        """
+        rest = self._memory.rest
+        return None if rest is None else named_steps(self.task, rest.discount, rest.steps)
+
+    @listing
+    def plan(self, **options: Unpack[SessionOptions]) -> Result:
         """The best answer from the present state (see :func:`serendipity.plan`)."""
         self._cancelled.clear()
-        chosen = {**self._options, **options}
-        answer = planned(self._prepared, self._known_plan(), cancelled=self._cancelled, **chosen)
+        chosen: dict[str, Any] = {**self._options, **options}
+        known = self._known_plan(chosen)
+        answer = planned(self._prepared, known, cancelled=self._cancelled, memory=self._memory, **chosen)
         self._learn(answer)
         return answer
 
-    def plan_anytime(self, **options: Any) -> Iterator[Result]:
+    @listing
+    def plan_anytime(self, **options: Unpack[AnytimeOptions]) -> Iterator[Result]:
         """Answers as they get better; :meth:`cancel` ends them with the incumbent."""
         self._cancelled.clear()
-        chosen = {**self._options, **options}
-        given = self._known_plan()
-        for answer in planned_anytime(self._prepared, given, cancelled=self._cancelled, **chosen):
+        chosen: dict[str, Any] = {**self._options, **options}
+        known, memory = self._known_plan(chosen), self._memory
+        for answer in planned_anytime(
+            self._prepared, known, cancelled=self._cancelled, memory=memory, **chosen
+        ):
             self._learn(answer)
             yield answer
 
-    def _known_plan(self) -> Given:
-        return None if self._human_plan is None and self._given is None else self._replayed
+    def _remembered(self) -> dict[str, Any]:
+        """What another session that stands where this one does has to be reminded of, as plain values."""
+        return {"predicted": self._predicted, "answers": self._memory.written(self.task)}
+
+    def _remind(self, remembered: Mapping[str, Any]) -> None:
+        self._predicted = remembered["predicted"]
+        self._memory.read(self.task, remembered["answers"])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a session is not pickled: pickle session.task, and begin another there")
+
+    def _known_plan(self, asked: Mapping[str, Any]) -> Given:
+        if self._is_outdated:
+            self._human_plan, self._given, self._is_outdated = None, None, False
+        others = asked.get("mode") == "assistance" or asked.get("goals") is not None
+        unknown = self.human_plan is None or (self._predicted and others)  # which predict the human otherwise
+        return None if unknown else self._replayed
 
     def _replayed(self) -> HumanPlan:
         """What the human is going to do.
@@ -80,8 +149,12 @@ class Session:
         return self._human_plan
 
     def _learn(self, answer: Result) -> None:
+        if answer.ties is not None or answer.goals is not None:
+            return  # they are about several plans
+        # Robots may have made another plan cheaper, and nothing helps beside this one.
+        self._is_outdated = self._predicted and bool(answer.saving_alone) and not answer.opportunity
         if self.human_plan is None:
-            self._given = answer.human_plan
+            self._given, self._predicted = answer.human_plan, True
 
     def cancel(self) -> None:
         """End the running call, from any thread; it returns the incumbent."""
@@ -91,7 +164,9 @@ class Session:
         """Move on by one epoch in which these actions were executed (none: everybody waited).
 
         The human's plan goes on behind their action.  It is predicted anew after a joint
-        action, after one that was not next, and where its rest does not work any more.
+        action, after one that was not next, and where its rest does not work any more.  One that was
+        predicted gives way to what is left of the answer's plan for them, once robots have done their
+        part in it and that is cheaper.
 
         Raises:
             UsageError: an action is unknown or not applicable, or two of them conflict.
@@ -101,8 +176,9 @@ class Session:
             for other in chosen[:i]:
                 if conflicting(action, other, strict=False):
                     raise UsageError(f"'{other.name}' and '{action.name}' can't share an epoch")
-        self._prepared = self._prepared.at(apply(self.task.init, *chosen))
+        self._move(apply(self.task.init, *chosen), epochs=1)
         self._follow([action for action in chosen if self.task.human in action.participants])
+        self._take_up_rest()
 
     def change(self, facts: Mapping[str, bool]) -> None:
         """Set facts to true or false, as they were seen.
@@ -115,7 +191,9 @@ class Session:
         for name, true in facts.items():
             fact = self._fact(name)
             state.add(fact) if true else state.discard(fact)
-        self._prepared = self._prepared.at(frozenset(state))
+        if state == self.task.init:
+            return
+        self._move(frozenset(state), epochs=0)
         self._keep_plan_if_it_works()
 
     def follow(self, names: Iterable[str] | None) -> None:
@@ -123,7 +201,8 @@ class Session:
 
         The next call replays it, and raises :class:`serendipity.PlanError` where it can't be executed.
         """
-        self._human_plan, self._given = None, None if names is None else several(names, "human plan")
+        self._human_plan, self._predicted, self._is_outdated = None, False, False
+        self._given = None if names is None else several(names, "human plan")
 
     def set_goal(self, goal: Iterable[str]) -> None:
         """Give the human another goal: literals, ``!`` in front of those to be false.
@@ -136,6 +215,12 @@ class Session:
         negative = sorted(self._fact(name[1:]) for name in literals if name.startswith("!"))
         self._prepared = self._prepared.with_goal(Condition(tuple(positive), tuple(negative)))
         self._human_plan = self._given = None
+        self._memory.forget()
+
+    def _move(self, state: frozenset[int], *, epochs: int) -> None:
+        before = self.task
+        self._prepared = self._prepared.at(state)
+        self._memory.moved(before, state, epochs=epochs)
 
     def _follow(self, his: list[GroundAction]) -> None:
         known = self.human_plan
@@ -145,6 +230,15 @@ class Session:
             self._human_plan = self._human_plan[1:] if on_plan and self._human_plan is not None else None
             self._given = self._given[1:] if on_plan and self._given is not None else None
         self._keep_plan_if_it_works()
+
+    def _take_up_rest(self) -> None:
+        rest, task = self._memory.rest, self.task
+        if not self._predicted or self._human_plan is None or rest is None or not rest.steps:
+            return
+        plan = tuple(step.action for step in rest.steps)
+        own = all(task.actions[i].participants == (task.human,) for i in plan)
+        if own and task.cost_of(plan) < task.cost_of(self._human_plan):
+            self._human_plan = plan
 
     def _keep_plan_if_it_works(self) -> None:
         try:
@@ -168,7 +262,7 @@ class Session:
     def _fact(self, name: str) -> int:
         fact = self._facts.get(canonical_name(name))
         if fact is None:
-            raise UsageError(f"there is no fact '{name}' in the task")
+            raise UsageError(no_fact(canonical_name(name), self.task.facts))
         return fact
 
     @cached_property

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Final
+from typing import Final, Literal
 
 from search import PreparedTask
 from search.simulation import Epoch, Simulated
@@ -13,6 +13,7 @@ from serendipity.model.answers.result import Result
 from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
 from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none, shown
 from serendipity.model.errors import LIMITS, InputError, UsageError
+from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import rounded
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -22,14 +23,15 @@ from serendipity.model.task.plans import PlanStep, Step
 from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.visibility import Visible
 
-HUMAN_MODELS: Final = ("observant", "local")
+Replanning = Literal["observant", "local"]
+HUMAN_MODELS: Final[tuple[Replanning, ...]] = ("observant", "local")
 """Models of a human who replans."""
 
 
 def simulate(
     task: Task,
     result: Result,
-    human_model: str = "observant",
+    human_model: Replanning = "observant",
     *,
     visible: Visible | None = None,
     time_limit: float | None = None,
@@ -67,16 +69,17 @@ def simulate(
     plan = _human_plan(task, result)
     horizon = result.horizon if isinstance(result.horizon, int) else None
     steps = [Step(step.epoch, _action(task, step)) for step in result.plan]
-    simulated = play(
-        HELD.of(task),
-        result.options,
-        plan,
-        steps,
-        human_model=human_model,
-        horizon=horizon,
-        visible=visible,
-        deadline=limits,
-    )
+    with HELD.taken(task) as prepared:
+        simulated = play(
+            prepared,
+            result.options,
+            plan,
+            steps,
+            human_model=human_model,
+            horizon=horizon,
+            visible=visible,
+            deadline=limits,
+        )
     return _Story(task, result, human_model, simulated).trace()
 
 
@@ -87,7 +90,7 @@ def realised(
     steps: tuple[Step, ...],
     *,
     cost: Fraction,
-    horizon: int | str | None,
+    horizon: Horizon | None,
     visible: Visible | None = None,
     deadline: Deadline,
 ) -> dict[str, bool]:
@@ -107,7 +110,7 @@ def realised(
     """
     models = ("observant",) if options.human_model != "local" else HUMAN_MODELS
     epochs = horizon if isinstance(horizon, int) else None
-    verdicts = {}
+    verdicts: dict[str, bool] = {}
     for model in models:
         try:
             deadline.check()  # what comes first can't be interrupted, and takes milliseconds on big tasks

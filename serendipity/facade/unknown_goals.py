@@ -4,7 +4,7 @@ Epoch 1 is the first epoch of the human's plans, and observations are actions of
 their current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -62,6 +62,15 @@ def settled(call: Call, goals: GoalsGiven, observed: ObservedGiven, beta: Number
     if len(considered) == 1:
         return _about(call, considered[0], recognition), partial(_certain, considered[0], recognition)
     return call, partial(_expected, considered, recognition)
+
+
+def asked_about(task: Task, goals: GoalsGiven, observed: ObservedGiven, beta: Number) -> Hashable:
+    """What tells one question from another.
+
+    Raises:
+        InputError: a file or an entry of it is wrong.
+    """
+    return candidate_goals(task, goals), observed_actions(task, observed), strictness(beta)
 
 
 def _recognised(

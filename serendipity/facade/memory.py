@@ -1,0 +1,333 @@
+"""What a session knows of the questions that it was asked: its answers, and what is left of them later.
+
+An answer to the same question from the same state stands: it is given at once where it is proved, and
+no later one is worse.  Once the world has moved on, what is left of a plan is what the next search
+begins with, if it is a plan of that call at all; and what was proved of the answers stays proved where
+that follows from the semantics (docs/decisions.md says where, and why).
+"""
+
+from collections import OrderedDict
+from collections.abc import Hashable, Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from operator import attrgetter
+from typing import Any, Final, NamedTuple
+
+from search import WarmStart
+from serendipity.model.answers.answer import Answer, Improvement
+from serendipity.model.options import Options
+from serendipity.model.task.actions import apply
+from serendipity.model.task.plans import Step, Window
+from serendipity.model.task.task import Task
+from serendipity.model.task.visibility import Visible
+
+_Key = tuple[Hashable, ...]
+"""A question: all options but limits; candidate goals and what was observed, where goals are not known."""
+
+_OPTIONS: Final = attrgetter(
+    *(f.name for f in fields(Options) if f.name not in ("time_limit", "memory_limit"))
+)
+
+_MOST: Final = 8
+"""Questions at once: modes and discounts that a caller goes back and forth between."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """What is known of one question.
+
+    Attributes:
+        options: of the call that answered it last.
+        answer: the last answer; None once the world has moved on.
+        warm: what a search may begin with.
+        human_plan: what is left, by name, of the human's plan that it is about; None where it is about none.
+        visible: what the human sees, if the caller has said it.
+    """
+
+    options: Options
+    answer: Answer | None
+    warm: WarmStart
+    human_plan: tuple[str, ...] | None
+    visible: Visible | None
+
+
+class Rest(NamedTuple):
+    """What is left of a plan, and the discount that it was made with."""
+
+    steps: tuple[Step, ...]
+    discount: Fraction
+
+
+class Memory:
+    """What is known of the last few questions."""
+
+    def __init__(self) -> None:
+        self._known: OrderedDict[_Key, _Known] = OrderedDict()
+
+    def question(
+        self,
+        options: Options,
+        visible: Visible | None,
+        about: Hashable,
+        human_plan: tuple[str, ...] | None,
+    ) -> "Question":
+        """A question, and what is known of it.
+
+        Args:
+            options: as they are asked for.
+            visible: what the human sees.
+            about: candidate goals and what was observed, where goals are not known.
+            human_plan: what the human is going to do, where that is known.
+        """
+        key = (*_OPTIONS(options), about)
+        known = self._known.get(key)
+        if known is not None and known.visible is not visible:
+            known = None
+        if known is not None and known.human_plan != human_plan:
+            warm = known.warm
+            if options.windowed and not _is_open(options, warm.window):  # its bound is beside that plan
+                warm = replace(warm, bound=None, is_best=False)
+            known = replace(known, answer=None, warm=warm)
+        return Question(self, key, visible, human_plan, known)
+
+    def keep(self, key: _Key, known: _Known) -> None:
+        """Remember an answer."""
+        self._known[key] = known
+        self._known.move_to_end(key)
+        while len(self._known) > _MOST:
+            self._known.popitem(last=False)
+
+    def written(self, task: Task) -> list[dict[str, Any]]:
+        """The plans that are left, and what is known of them, as plain values for another process."""
+        left = ((key, known) for key, known in self._known.items() if known.warm.steps)
+        return [_written(task, known) for key, known in left if key[-1] is None]
+
+    def read(self, task: Task, written: Iterable[Mapping[str, Any]]) -> None:
+        """Take over what :meth:`written` has told, from the same state."""
+        for value in written:
+            options, plan = Options.from_dict(value["options"]), value["human_plan"]
+            known = _Known(options, None, _read(task, value), None if plan is None else tuple(plan), None)
+            self.keep((*_OPTIONS(options), None), known)
+
+    @property
+    def rest(self) -> "Rest | None":
+        """What is left of the plan of the last answer, if all has gone as planned."""
+        if not self._known:
+            return None
+        known = next(reversed(self._known.values()))
+        if not known.warm.is_sure:
+            return None
+        return Rest(known.warm.steps, known.options.discount)
+
+    def forget(self) -> None:
+        """The questions are others now."""
+        self._known.clear()
+
+    def moved(self, before: Task, state: frozenset[int], *, epochs: int) -> None:
+        """The world is in another state.
+
+        Args:
+            before: the task from the state before.
+            state: ids of the facts that are true now.
+            epochs: how many have passed, 1 or 0.
+        """
+        for key, known in self._known.items():
+            self._known[key] = _moved(before, known, state, epochs)
+
+
+class Question:
+    """A question of a call, with what is known of it.
+
+    Args:
+        memory: what remembers the answers.
+        key: what tells it from others.
+        visible: what the human sees.
+        human_plan: what the human is going to do, where that is known.
+        known: what is known of it.
+    """
+
+    def __init__(
+        self,
+        memory: Memory,
+        key: _Key,
+        visible: Visible | None,
+        human_plan: tuple[str, ...] | None,
+        known: _Known | None,
+    ) -> None:
+        self._memory = memory
+        self._key = key
+        self._visible = visible
+        self._human_plan = human_plan
+        self._known = known
+
+    @property
+    def proved(self) -> Answer | None:
+        """The answer, where it is proved."""
+        answer = self._answer
+        if answer is None or answer.status not in ("optimal", "infeasible"):
+            return None
+        has_saving = answer.human_plan is not None or answer.cost is None
+        if self._known is not None and self._known.options.mode == "composite" and not has_saving:
+            return None  # a limit may have come before it was known
+        return _told_again(answer)
+
+    @property
+    def _answer(self) -> Answer | None:
+        return None if self._known is None else self._known.answer
+
+    @property
+    def warm(self) -> WarmStart | None:
+        """What a search may begin with."""
+        return None if self._known is None else self._known.warm
+
+    def better(self, found: Answer, options: Options) -> Answer:
+        """An answer, or the one that is known where that is better."""
+        return found if self._answer is None else _better(self._answer, found, options)
+
+    def answered(self, task: Task, answer: Answer, options: Options) -> None:
+        """Remember an answer.
+
+        Args:
+            task: what it is about.
+            answer: the answer.
+            options: in force.
+        """
+        if answer.status == "unknown":
+            return
+        answer = answer._replace(realised=answer.realised or None)  # where it is empty, time was up
+        warm, plan = WarmStart(), self._human_plan
+        if answer.steps is None and self._known is not None:
+            warm = self._known.warm  # which can still be finished
+        elif answer.ties is None and answer.goals is None and answer.bounds is None:
+            bound, is_best = _bound(answer, options), answer.status == "optimal"
+            warm = WarmStart(answer.steps or (), answer.window, True, bound, is_best, answer.horizon)
+            if answer.human_plan is not None:
+                plan = tuple(task.actions[i].name for i in answer.human_plan)
+        self._memory.keep(self._key, _Known(options, answer, warm, plan, self._visible))
+
+
+def _written(task: Task, known: _Known) -> dict[str, Any]:
+    warm = known.warm
+    return {
+        "options": known.options.to_dict(),
+        "human_plan": known.human_plan,
+        "steps": [[step.epoch, step.action] for step in warm.steps],
+        "names": [task.actions[step.action].name for step in warm.steps],
+        "window": None if warm.window is None else warm.window.to_dict(),
+        "is_sure": warm.is_sure,
+        "bound": None if warm.bound is None else str(warm.bound),
+        "is_best": warm.is_best,
+        "horizon": warm.horizon,
+    }
+
+
+def _read(task: Task, value: Mapping[str, Any]) -> WarmStart:
+    steps = tuple(Step(epoch, action) for epoch, action in value["steps"])
+    names = [task.actions[step.action].name for step in steps if step.action < len(task.actions)]
+    if names != value["names"]:
+        return WarmStart()  # the task was read otherwise
+    return WarmStart(
+        steps,
+        None if value["window"] is None else Window(**value["window"]),
+        value["is_sure"],
+        None if value["bound"] is None else Fraction(value["bound"]),
+        value["is_best"],
+        value["horizon"],
+    )
+
+
+def _told_again(answer: Answer) -> Answer:
+    gap = () if answer.cost is None else (Improvement(0.0, answer.objective, answer.lower_bound),)
+    searched = None if answer.expanded is None else 0
+    counted = None if answer.generated is None else 0
+    realised = answer.realised
+    if realised is None and answer.goals is not None:
+        realised = {}  # they are looked at with the goals' own tasks
+    return answer._replace(gap=gap, expanded=searched, generated=counted, realised=realised)
+
+
+def _better(known: Answer, found: Answer, options: Options) -> Answer:
+    """The better one of two answers to one question; bounds on the same objectives hold for both."""
+    if found.status in ("optimal", "infeasible"):
+        return found
+    alike = (known.window is None) == (found.window is None)
+    bounds = [answer.lower_bound for answer in (known, found) if answer.lower_bound is not None]
+    best = found if found.cost is not None and _rank(found, options) <= _rank(known, options) else known
+    if alike and bounds and best.objective is not None:
+        best = best._replace(lower_bound=min(max(bounds), best.objective))
+    if best is found or best.status == "unknown":
+        return best
+    again = _told_again(best)
+    return again._replace(expanded=found.expanded, generated=found.generated)
+
+
+def _rank(answer: Answer, options: Options) -> tuple[object, ...]:
+    """Of two answers the lesser is better (semantics 3.1, 7)."""
+    if answer.bounds is not None:
+        return (answer.bounds.upper,)
+    assert answer.objective is not None and answer.cost is not None, "it has a plan"
+    return options.windowed and not answer.opportunity, answer.objective, answer.cost
+
+
+def _bound(answer: Answer, options: Options) -> Fraction | None:
+    """What no plan's objective is below, the window included; None where the answer does not say."""
+    least = answer.lower_bound
+    if least is None or not options.windowed:
+        return least
+    if answer.saving_alone != 0:
+        return None  # the answer may be another one than the best plan
+    if answer.window is not None:
+        return least
+    return least + options.window_weight if least > 0 else None
+
+
+def _moved(before: Task, known: _Known, state: frozenset[int], epochs: int) -> _Known:
+    """What is left of what is known in another state.
+
+    Where the next epoch of the plan leads to that state, the rest is the rest of a plan; where nothing has
+    changed, it is as it was; otherwise it may be a plan by luck.
+    """
+    warm, options = known.warm, known.options
+    now = [before.actions[step.action] for step in warm.steps if step.epoch == 1]
+    planned = all(action.applicable(before.init) for action in now) and apply(before.init, *now) == state
+    if state == before.init and not planned:
+        return known
+    passed = 1 if planned else epochs
+    steps = (Step(step.epoch - passed, step.action) for step in warm.steps if step.epoch > passed)
+    left = WarmStart(tuple(steps), _later(warm.window) if passed else warm.window, planned and warm.is_sure)
+    if planned and warm.bound is not None and _stays(before, options, warm):
+        paid = sum((before.team_cost(action, options.discount) for action in now), Fraction(0))
+        last = warm.horizon - 1 if isinstance(warm.horizon, int) else warm.horizon
+        is_best = warm.is_best and (warm.window is None or warm.window.start > 1)
+        left = replace(left, bound=warm.bound - paid, is_best=is_best, horizon=last)
+    plan = known.human_plan
+    return _Known(options, None, left, plan if plan is None else plan[passed:], known.visible)
+
+
+def _later(window: Window | None) -> Window | None:
+    """A window as it is seen an epoch later; None once it is over."""
+    if window is None or window.end == 2:
+        return None
+    return Window(max(window.start - 1, 1), window.end - 1)
+
+
+def _stays(task: Task, options: Options, warm: WarmStart) -> bool:
+    """Whether every plan from now on, put behind the epoch that went as planned, was a plan before it.
+
+    Then what was no plan's objective is none now, once what the epoch cost is taken off.  The horizon, and
+    that the human goes on with the plan that they had, is looked at where that is known.
+    """
+    if options.max_cost is not None or options.human_model != "omniscient" or options.keep_prefix:
+        return False
+    if not options.windowed:
+        return options.mode != "communication" or not options.communication_weight
+    if task.robot_goal or options.preservation == "state":
+        return False
+    in_prefix = warm.window is None or warm.window.start > 1
+    return in_prefix or _is_open(options, warm.window)
+
+
+def _is_open(options: Options, window: Window | None) -> bool:
+    """Whether any plan fits a window that is open from the start, at no price."""
+    free = options.suffix == "replan" and options.preservation == "kernel" and options.max_window is None
+    return window is not None and window.start == 1 and free and not options.window_weight

@@ -1,0 +1,221 @@
+"""A session's answers are never worse than what is left of the last one, whenever a limit comes."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from random import Random
+
+import pytest
+
+import serendipity
+from serendipity import PlanStep, Result, SerendipityError, Session, Task
+from serendipity.testing.builders import task
+from serendipity.testing.cases import case_1, case_2, usar
+from serendipity.testing.generator import PlanCall, random_call
+
+_FIGURES = ("status", "cost", "objective", "opportunity", "saving", "saving_alone", "lower_bound", "horizon")
+
+
+def _interrupted(session: Session, **options: object) -> Result:
+    """The answer to a call that is cancelled as soon as it has said anything."""
+    answers = session.plan_anytime(**options)
+    answer = next(answers)
+    session.cancel()
+    return [answer, *answers][-1]
+
+
+def _now(answer: Result) -> list[PlanStep]:
+    return [step for step in answer.plan or () if step.epoch == 1]
+
+
+def _value(answer: Result) -> float:
+    """What the answer comes to: a person whose plan is not optimal may yet find a better one alone."""
+    return float("inf") if answer.cost is None else answer.cost - (answer.saving_alone or 0)
+
+
+def _fresh(call: PlanCall, session: Session) -> Result | str:
+    task = replace(call.task, init=session.task.init)
+    if call.options.get("human_model") == "local":  # what they see hangs on the variables, which are kept
+        task = call.task.at(session.task.init)
+    try:
+        return serendipity.plan(task, human_plan=session.human_plan, **call.keywords())
+    except SerendipityError as error:
+        return str(error)
+
+
+def _executed(call: PlanCall, dice: Random) -> Iterator[tuple[Session, float]]:
+    """A session epoch by epoch, most of them as planned, with what the rest of the last answer costs then."""
+    try:
+        session = Session(replace(call.task), human_plan=call.human_plan, **call.keywords())
+        answer = session.plan()
+        for _ in range(5):
+            if not answer.plan or answer.cost is None:
+                return
+            now, as_planned = _now(answer), dice.random() < 0.8
+            session.execute([step.action for step in now if as_planned or dice.random() < 0.5])
+            yield session, answer.cost - sum(step.cost for step in now) if as_planned else float("inf")
+            answer = session.plan()
+    except SerendipityError:
+        return
+
+
+def _is_remembered(answer: Result, rest: float) -> bool:
+    """Whether the rest of what was known is an answer to the new question, and known to be from the start.
+
+    With several optimal plans of the human's each epoch is another question, and what a human who replans
+    would do alone has to be known first.
+    """
+    over_plans = answer.options.ties != "fixed" and answer.mode in ("serendipity", "communication")
+    return _value(answer) <= rest + 1e-9 and answer.options.human_model == "omniscient" and not over_plans
+
+
+def test_over_random_calls_and_whole_executions() -> None:
+    """In every mode, interrupted: no worse than the rest, no false bound; and in the end the optimum."""
+    counted = 0
+    for seed in range(140):
+        call = random_call(seed)
+        for session, rest in _executed(call, Random(seed)):
+            fresh = _fresh(call, session)
+            if isinstance(fresh, str):
+                break
+            early = _interrupted(session)
+            assert serendipity.check(session.task, early).refuted is None, (seed, early)
+            if _is_remembered(fresh, rest):
+                counted += 1
+                assert _value(early) <= rest + 1e-9, (seed, early, rest)
+            if early.lower_bound is not None and fresh.objective is not None:
+                assert early.lower_bound <= fresh.objective + 1e-9, (seed, early)
+            answer = session.plan()
+            found, expected = ([getattr(a, name) for name in _FIGURES] for a in (answer, fresh))
+            assert found == expected, seed
+    assert counted > 100
+
+
+@pytest.mark.parametrize("mode", ["serendipity", "communication", "composite", "individual", "assistance"])
+def test_an_equal_call_is_answered_at_once(mode: str) -> None:
+    session = Session(serendipity.example("room2"), mode=mode, discount=0.9)
+    answer = session.plan()
+    again = session.plan(time_limit=0)
+    assert answer.status == again.status == "optimal"
+    assert (again.cost, again.plan, again.realised) == (answer.cost, answer.plan, answer.realised)
+    assert again.statistics["expanded"] == 0
+
+
+@pytest.mark.parametrize("options", [{"ties": "robust"}, {"goals": True}, {"human_model": "observant"}])
+def test_so_it_is_over_ties_and_goals_and_with_people_who_replan(options: dict[str, object]) -> None:
+    goals = [{"goal": [f"conducted_triage commx {room}"], "prior": 1} for room in ("room1", "room2")]
+    asked = {**options, **({"goals": goals} if "goals" in options else {})}
+    session = Session(serendipity.example("room2"), discount=0.6)
+    answer = session.plan(**asked)
+    again = session.plan(time_limit=0, **asked)
+    assert (again.status, again.cost, again.ties) == (answer.status, answer.cost, answer.ties)
+    assert session.plan(**{**asked, "discount": 0.5}).cost != answer.cost or "goals" in options
+
+
+def test_what_is_proved_stays_proved_while_all_goes_as_planned() -> None:
+    session = Session(serendipity.example("room2"), discount=0.6)
+    answer = session.plan()
+    assert answer.window is not None
+    for epoch in range(1, answer.window.start):
+        session.execute([step.action for step in answer.plan or () if step.epoch == epoch])
+        now = session.plan()
+        assert (now.status, now.opportunity, now.statistics["expanded"]) == ("optimal", True, 0)
+        assert now.window is not None and now.window.start == answer.window.start - epoch
+
+
+@pytest.mark.parametrize("case", [case_1, case_2])
+def test_so_it_does_where_nothing_helps(case: object) -> None:
+    session = Session(case(), discount=0)  # type: ignore[operator]
+    answer = session.plan()
+    assert not answer.opportunity
+    for step in (answer.plan or ())[:3]:
+        session.execute([step.action])
+        now = session.plan()
+        assert (now.status, now.opportunity, now.statistics["expanded"]) == ("optimal", False, 0)
+
+
+def _begun() -> Session:
+    """Help that is proved, an epoch after it was begun."""
+    session = Session(case_1(), discount=0.9)
+    answer = session.plan()
+    session.execute([step.action for step in _now(answer)])
+    return session
+
+
+def test_goals_that_are_not_known_and_assistance_may_be_asked_about_in_between() -> None:
+    session = Session(serendipity.example("room2"), discount=0.6)
+    known = session.plan().human_plan
+    goals = [{"goal": ["conducted_triage commx room1"], "prior": 1}]
+    assert session.plan(goals=goals).cost == 12.6
+    assert session.plan(mode="assistance").status == "optimal"
+    assert session.human_plan == known
+
+
+def test_a_world_that_is_other_than_planned_is_looked_at_anew() -> None:
+    session = _begun()
+    session.change({"at k2 r2": False, "at k2 r": True})
+    early = _interrupted(session)
+    assert serendipity.check(session.task, early).refuted is None
+    fresh = serendipity.plan(replace(session.task), human_plan=session.human_plan, discount=0.9)
+    assert session.plan().cost == fresh.cost
+
+
+def test_a_robot_that_did_not_do_its_part_spoils_the_rest() -> None:
+    session = Session(case_1(), discount=0.9)
+    answer = session.plan()
+    session.execute([step.action for step in _now(answer) if "h" in step.agents])
+    early = _interrupted(session)
+    assert serendipity.check(session.task, early).refuted is None
+    fresh = serendipity.plan(replace(session.task), human_plan=session.human_plan, discount=0.9)
+    assert (session.plan().cost, session.plan().status) == (fresh.cost, "optimal")
+
+
+def test_another_plan_of_the_human_and_another_goal_are_other_questions() -> None:
+    session = _begun()
+    session.follow(None)
+    assert session.plan().status == "optimal"
+    session.set_goal(["at h s"])
+    assert session.rest is None
+    assert session.plan().cost == serendipity.plan(replace(session.task), discount=0.9).cost
+
+
+def _shortcut(opening: str) -> Task:
+    """A long way, and a short one that a robot may open."""
+    walks = {f"walk{i} h": f"p{i} -> p{i + 1} !p{i}" for i in range(6)}
+    return task(init="p0", goal="p6", actions={**walks, "jump h": "p1 open -> p6 !p1", "open r": opening})
+
+
+def test_a_predicted_plan_gives_way_to_a_better_one_that_robots_have_made_possible() -> None:
+    """The answer in the middle of help was the old plan, which cost 5 where 1 was promised."""
+    session = Session(_shortcut("-> open"), discount=0.5)
+    answer = session.plan()
+    assert answer.opportunity and answer.cost == 2.5
+    session.execute([step.action for step in _now(answer)])
+    assert session.human_plan == ("jump h",)
+    assert _interrupted(session).cost == session.plan().cost == 1
+
+
+def test_so_it_does_where_nobody_has_planned_that() -> None:
+    session = Session(_shortcut("far -> open"), discount=0.5)
+    walks = session.plan().human_plan
+    assert walks is not None
+    session.execute([walks[0]])
+    session.change({"open": True})
+    answer = session.plan()
+    assert (answer.cost, answer.saving_alone) == (5, 4), "that is what was predicted"
+    assert (session.plan().cost, session.human_plan) == (1, ("jump h",))
+    given = Session(_shortcut("far -> open"), human_plan=walks, discount=0.5)
+    given.change({"open": True})
+    assert given.plan().cost == given.plan().cost == 6, "that is what they are going to do"
+
+
+def test_the_rest_is_there_to_be_finished_though_the_new_question_has_no_answer() -> None:
+    """Robots may spoil what the human would do alone, on the way to what they do together (semantics 3.1)."""
+    task = usar("a0-a1-c-d-g c-s", human="a0", robots={"rob": "s"}, kits={"k": "s"}, triage="g")
+    session = Session(task, discount=0.9)
+    answer = session.plan()
+    assert answer.opportunity and session.rest == answer.plan
+    session.execute([step.action for step in _now(answer)])
+    assert (session.plan().status, session.plan().reason) == ("infeasible", "no-human-plan")
+    while session.rest:
+        session.execute([step.action for step in session.rest if step.epoch == 1])
+    assert session.task.goal.holds(session.task.init)
