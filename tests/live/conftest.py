@@ -1,8 +1,12 @@
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 
 from tests.live.server import Server, serving
+from tests.show.browser import chromium, chromium_path
+
+Opened = Callable[..., Any]
 
 
 @pytest.fixture(scope="package")
@@ -10,3 +14,36 @@ def server() -> Iterator[Server]:
     """One service for all tests that leave it as they found it."""
     with serving("--workers", "2", "--queue", "8", "--body-limit", "0.5", "--time-limit", "20") as started:
         yield started
+
+
+@pytest.fixture(scope="package")
+def browser() -> Iterator[Any]:
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no chromium: `make test-browser` installs it where it may")
+    pytest.importorskip("playwright", reason="no playwright: `make test-browser` installs it")
+    with chromium(path) as running:
+        yield running
+
+
+@pytest.fixture
+def opened(browser: Any) -> Iterator[Opened]:
+    """Open a page; nobody may complain on its console, nor ask for anything of elsewhere."""
+    complaints: list[str] = []
+    pages = []
+
+    def opens(server: Server, width: int = 1440, height: int = 900, at: str = "") -> Any:
+        page = browser.new_page(viewport={"width": width, "height": height})
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on(
+            "request", lambda asked: None if server.url[7:] in asked.url else complaints.append(asked.url)
+        )
+        page.goto(server.url + at)
+        pages.append(page)
+        return page
+
+    yield opens
+    for page in pages:
+        page.close()
+    assert [c for c in complaints if "ERR_CONNECTION_REFUSED" not in c and "/live" not in c] == []

@@ -60,7 +60,14 @@ def serving(*arguments: str, command: str = "serve", env: dict[str, str] | None 
 
 def _serving(folder: str, *arguments: str, command: str, env: dict[str, str] | None) -> Iterator[Server]:
     process = subprocess.Popen(
-        [sys.executable, "-m", "serendipity", command, "--port", "0", *arguments],
+        [
+            sys.executable,
+            "-m",
+            "serendipity",
+            command,
+            *([] if "--port" in arguments else ["--port", "0"]),
+            *arguments,
+        ],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

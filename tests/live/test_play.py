@@ -1,9 +1,7 @@
-"""Rounds and studies behind the page: what the person knows, what is recorded, who gets what."""
+"""Rounds behind the page: what the person knows and reads, what is recorded, how a round goes on."""
 
 import json
-from collections import Counter
 from fractions import Fraction
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -12,32 +10,33 @@ from websockets.sync.client import connect
 
 import serendipity
 from serendipity.cli.app import main
-from serendipity.live.play.balance import condition, order
-from serendipity.live.play.questions import texts
+from serendipity.live.play.application import Room
+from serendipity.live.play.labels import Labels, labels_for
 from serendipity.live.play.records import as_csv, read
-from serendipity.live.play.setting import CONDITIONS, Setting
-from serendipity.live.play.study import Study
+from serendipity.live.play.setting import Setting
 from serendipity.live.play.table import Table
 from serendipity.model import InputError, UsageError
+from serendipity.scenarios.examples import EXAMPLES
 from tests.live.play_tasks import DOMAIN, two_goals, with_third_kit
 from tests.live.server import serving
 
 TO_HALL4 = [f"go to hall{i}" for i in (8, 7, 6, 5, 4)]
-TO_ROOM1 = ["go to hall3", "go to hall2", "go to hall1", "go to room1", "conduct triage room1"]
+TO_ROOM1 = ["go to hall3", "go to hall2", "go to hall1", "go to room1", "give treatment in room1"]
+TAKE = "take medkit mk2 from the robot"
 
 
 def setting(**changes: Any) -> Setting:
-    task = serendipity.example("room2")
-    return Setting(**{"name": "room2", "task": task, "discount": Fraction(3, 5), **changes})
+    task = changes.pop("task", None) or serendipity.example("room2")
+    labels = labels_for(task)
+    return Setting(**{"name": "room2", "task": task, "discount": Fraction(3, 5), "labels": labels, **changes})
 
 
-def go(host: Table | Study, *texts: str) -> dict[str, Any]:
+def go(host: Room, *texts: str) -> dict[str, Any]:
     """Choose by what the page shows; what it shows then."""
     for text in texts:
         view = host.view()
         choice = next(choice for choice in view["can"] if choice["text"] == text)
-        sent = {"do": "act", "round": view["round"], "epoch": view["epoch"], "action": choice["action"]}
-        assert host.do(sent) is None
+        assert host.do({"do": "act", "moment": view["moment"], "action": choice["action"]}) is None
     return host.view()
 
 
@@ -46,21 +45,23 @@ def test_the_papers_example() -> None:
     view = go(table, *TO_HALL4)
     assert view["can"][0] == {
         "action": "hand_over robot commx mk2 hall4",
-        "text": "hand over mk2",
-        "with": "robot",
+        "text": TAKE,
+        "with": "the robot",
         "kind": "offer",
         "cost": 1.0,
         "place": None,
     }
-    end = go(table, "hand over mk2", *TO_ROOM1)["end"]
+    end = go(table, TAKE, *TO_ROOM1)["end"]
     assert (end["paid"], end["team"], end["alone"], end["saved"]) == (11.0, 12.6, 13.0, 0.4)
     assert [(step["epoch"], step["text"]) for step in end["help"]][-1] == (
         6,
-        "commx and robot: hand over mk2",
+        f"commx and robot: {TAKE}",
     )
     told = table.do({"do": "explain"})
     assert told is not None
-    assert any("12.6" in sentence["text"] for sentence in told["sentences"])
+    said = [sentence["text"] for sentence in told["sentences"] if sentence["topic"] == "run"]
+    assert said[0] == "Epoch 1: waits: its part comes in epoch 2." and "mk2" in said[1]
+    assert said[-1] == "commx paid 11 instead of 13 alone, the team 12.6."
 
 
 @pytest.mark.parametrize(
@@ -74,20 +75,20 @@ def test_what_robots_do_in_each_condition(name: str, team: float, said: bool) ->
     helped = name != "none"
     assert (view["can"][0]["kind"] == "offer") is helped
     if helped:
-        view = go(table, "hand over mk2", *TO_ROOM1)
+        view = go(table, TAKE, *TO_ROOM1)
     else:
         view = go(table, "go to hall3", "go to hall2", "go to room2", "pick up medkit mk1", "go to hall2")
-        view = go(table, "go to hall1", "go to room1", "conduct triage room1")
+        view = go(table, "go to hall1", "go to room1", "give treatment in room1")
     assert view["end"]["team"] == team
-    assert view["end"]["helped"] is helped
+    assert (view["end"]["helped"] > 0) is helped
 
 
 def test_several_robots_speak_one_after_the_other() -> None:
     table = Table(setting(name="taxis", task=serendipity.example("taxis"), discount=1, condition="announced"))
     said = table.view()["said"]
     assert said is not None
-    assert "I am" not in said
-    assert said.startswith(("uno is going to ", "due is going to "))
+    assert "I will" not in said
+    assert said.startswith(("Uno will ", "Due will "))
 
 
 def test_somebody_with_a_local_view_knows_what_they_saw_last() -> None:
@@ -96,9 +97,9 @@ def test_somebody_with_a_local_view_knows_what_they_saw_last() -> None:
     assert len(view["map"]["remembered"]) == 3, "the robot and both medkits"
     assert not any(entry["others"] for entry in view["log"])
     view = go(table, TO_HALL4[4])
-    assert view["log"][0]["others"] == ["robot: go to hall4"]
+    assert view["log"][0]["others"] == ["the robot: go to hall4"]
     assert view["map"]["remembered"] == ["object-0"]
-    view = go(table, "hand over mk2", "go to hall3")
+    view = go(table, TAKE, "go to hall3")
     assert view["map"]["remembered"] == ["agent-1", "object-0"], "mk2 has come along"
 
 
@@ -106,7 +107,7 @@ def test_turning_off_towards_another_kit(tmp_path: Path) -> None:
     task = serendipity.load_pddl(DOMAIN, with_third_kit(tmp_path, "room6"), "commx", ["robot"])
     table = Table(setting(task=task))
     view = go(table, "go to hall8", "go to hall7", "go to room7", "go to room6", "pick up medkit mk3")
-    assert view["thinking"]["verdict"] == "aside"
+    assert view["thinking"]["verdict"] == "stopped"
     view = go(table, "go to room7", "go to hall7", "go to hall6", "go to hall5", "go to hall4", *TO_ROOM1)
     assert view["end"]["paid"] == 15.0, "nothing that was his has become dearer"
 
@@ -116,7 +117,7 @@ def test_two_goals(tmp_path: Path) -> None:
     task = serendipity.load_pddl(DOMAIN, problem, "commx", ["robot"])
     table = Table(setting(task=task, goals=two_goals(tmp_path), deadline=0.5))
     assert [goal["share"] for goal in table.view()["thinking"]["goals"]] == [0.5, 0.5]
-    view = go(table, *TO_HALL4, "hand over mk2", *TO_ROOM1)
+    view = go(table, *TO_HALL4, TAKE, *TO_ROOM1)
     assert view["end"]["team"] == 12.2
     said = [event["verdict"] for event in table.events() if event["event"] == "epoch"]
     assert said[:3] == ["unsure", "unsure", "helps"]
@@ -129,8 +130,8 @@ def test_two_goals(tmp_path: Path) -> None:
         {"do": "fly"},
         {"do": "explain"},
         {"do": ["act"]},
-        {"do": "act", "round": 1, "epoch": 1, "action": 3},
-        {"do": "act", "round": 1, "epoch": 1, "action": "fly"},
+        {"do": "act", "moment": "1.1", "action": 3},
+        {"do": "act", "moment": "1.1", "action": "fly"},
     ],
     ids=str,
 )
@@ -141,94 +142,131 @@ def test_what_a_page_can_not_ask_for(message: dict[str, Any]) -> None:
     assert table.view()["epoch"] == 1
 
 
-def test_of_two_pages_the_slower_one_does_nothing() -> None:
+def test_what_is_chosen_twice_or_for_another_epoch_does_nothing() -> None:
     table = Table(setting())
-    sent = {"do": "act", "round": 1, "epoch": 1, "action": "move commx room13 hall8"}
+    sent = {"do": "act", "moment": "1.1", "action": "move commx room13 hall8"}
     assert table.do(sent) is None
     assert table.do(sent) == {}
     assert table.view()["epoch"] == 2
 
 
-# -- studies
+def test_robots_that_announce_their_plan_count_on_somebody_who_knows_it() -> None:
+    """In III-D nothing helps without a word, and 12.6 of 13 is paid where the robot's plan is known."""
+    told = setting(task=serendipity.example("room7"), condition="announced").execution()
+    silent = setting(task=serendipity.example("room7")).execution()
+    assert (told.options.human_model, silent.options.human_model) == ("omniscient", "observant")
+    table = Table(setting(name="announced", condition="announced"))
+    said = table.view()["said"]
+    assert said.startswith("I will ")
+    assert "hand medkit mk2 to you (epoch 6)" in said
+    assert said.endswith("Please go to hall8 now.")
 
 
-def test_conditions_are_balanced_in_every_block() -> None:
-    names = tuple(CONDITIONS)
-    drawn = [condition(i, names, seed=7) for i in range(30)]
-    for block in range(10):
-        assert sorted(drawn[3 * block : 3 * block + 3]) == sorted(names)
-    assert len({tuple(drawn[3 * block : 3 * block + 3]) for block in range(10)}) > 1
+def test_robots_that_announce_what_they_do_say_that_they_have_stopped(tmp_path: Path) -> None:
+    task = serendipity.load_pddl(DOMAIN, with_third_kit(tmp_path, "room6"), "commx", ["robot"])
+    table = Table(setting(task=task, condition="announced"))
+    view = go(table, *TO_HALL4[:2], "go to room7", "go to room6", "pick up medkit mk3")
+    while view["thinking"]["verdict"] != "stopped":
+        view = go(table, "wait")
+    assert view["said"].startswith("I have stopped helping")
 
 
-@pytest.mark.parametrize("count", range(1, 8))
-def test_orders_are_balanced(count: int) -> None:
-    rows = [order(row, count) for row in range(count * (1 + count % 2))]
-    assert all(sorted(row) == list(range(count)) for row in rows)
-    for place in range(count):
-        assert len(set(Counter(row[place] for row in rows).values())) == 1
-    behind = Counter(pair for row in rows for pair in pairwise(row))
-    assert len(behind) == count * (count - 1)
-    assert len(set(behind.values())) <= 1
+def test_a_round_goes_on_from_its_record(tmp_path: Path) -> None:
+    file = tmp_path / "record.jsonl"
+    before = go(Table(setting(), file), *TO_HALL4)
+    again = Table(setting(), file)
+    view = again.view()
+    assert {**view, "thinking": None} == {**before, "thinking": None}
+    assert go(again, TAKE, *TO_ROOM1)["end"]["team"] == 12.6
+    assert Table(setting(), file).view()["moment"] == "2.1", "that round is over"
+    with pytest.raises(InputError, match="of another task, or was played otherwise"):
+        Table(setting(discount=Fraction(1, 2)), file)
+    file.write_text(file.read_text().replace("move_reverse commx hall8 hall7", "move commx hall8 room8"))
+    events, _ = read(file)
+    file.write_text(
+        "".join(json.dumps(e) + "\n" for e in events if e.get("round") == 1 and e["event"] != "again")
+    )
+    with pytest.raises(InputError, match="epoch 2: comes out otherwise than it is recorded"):
+        Table(setting(), file)
 
 
-def study(folder: Path, rounds: int = 2) -> Study:
-    settings = [setting(name=f"room2-{i}") for i in range(rounds)]
-    return Study(settings, folder, texts(folder), seed=3)
+def test_what_was_shown_and_said_is_recorded() -> None:
+    table = Table(setting(condition="announced"))
+    go(table, *TO_HALL4)
+    last = table.events()[-1]
+    assert last["choices"] == ["go to hall6", "go to hall4", "go to room12", "go to room5", "wait"]
+    assert last["said"].startswith("I will ")
+    assert table.events()[4]["seen"] == ["the robot: go to hall4"]
+    assert last["goal"] == [{"text": "Treat the patient in room1", "holds": False}]
 
 
-def test_a_participant_from_consent_to_the_end(tmp_path: Path) -> None:
-    (tmp_path / "questions.txt").write_text("Was it good?\n\nAgain?\n")
-    host = study(tmp_path)
-    assert host.view()["stage"] == "consent"
-    with pytest.raises(UsageError, match="consent"):
-        host.do({"do": "go on"})
-    host.do({"do": "go on", "agree": True})
-    for number in (1, 2):
-        view = host.view()
-        assert (view["stage"], view["round"], view["thinking"], view["condition"]) == (
-            "play",
-            number,
-            None,
-            None,
-        )
-        with pytest.raises(UsageError):
-            host.do({"do": "go on"})
-        way = ["go to hall3", "go to hall2", "go to room2", "pick up medkit mk1", "go to hall2"]
-        go(host, *TO_HALL4, *way, "go to hall1", "go to room1", "conduct triage room1")
-        host.do({"do": "go on"})
-        for wrong in (None, [1], [0, 1], [8, 1], [True, 1], ["1", 1], [1.5, 1]):
-            with pytest.raises(UsageError, match="answers"):
-                host.do({"do": "go on", "round": number, "answers": wrong})
-        host.do({"do": "go on", "round": number, "answers": [3, 7], "comment": 'fine, "really"'})
-    assert host.view()["stage"] == "end"
-    events = host.events()
-    assert events == read(tmp_path / "P001.jsonl")
-    assert {event["participant"] for event in events} == {"P001"}
-    assert [event["seconds"] for event in events] == sorted(event["seconds"] for event in events)
-    assert len(as_csv(events).splitlines()) == 1 + len(events)
-    host.do({"do": "go on"})
-    assert host.view()["study"]["participant"] == "P002"
+def test_a_bad_line_spoils_nothing_but_itself(tmp_path: Path) -> None:
+    file = tmp_path / "P001.jsonl"
+    file.write_bytes(b'{"event": "a"}\nnonsense\n\xff\n[1]\n{"event": "b"}\n{"event": "c')
+    events, faults = read(file)
+    assert [event["event"] for event in events] == ["a", "b"]
+    assert [fault.split(": ")[0] for fault in faults] == [f"P001.jsonl:{n}" for n in (2, 3, 4)]
+    assert file.read_bytes().endswith(b'"c\n'), "what is added begins a line of its own"
 
 
-def test_what_was_recorded_outlives_the_server(tmp_path: Path) -> None:
-    host = study(tmp_path)
-    host.do({"do": "go on", "agree": True})
-    go(host, *TO_HALL4)
-    with (tmp_path / "P001.jsonl").open("a") as file:
-        file.write('{"event": "ep')  # the power fails
-    later = study(tmp_path)
-    assert [event["event"] for event in later.events()] == ["consent", "begun", *["epoch"] * 5]
-    assert later.view()["study"]["participant"] == "P002"
-    (tmp_path / "P002.jsonl").write_text("{}\nnonsense\n")
-    with pytest.raises(InputError, match=r"P002.jsonl:2: expected an event"):
-        later.events()
+def test_csv_has_what_json_has() -> None:
+    events = [
+        {"event": "a", "order": ["x", "y"], "seconds": 0.5},
+        {"event": "b", "goals": {"g": 1}, "n": None},
+    ]
+    head, first, second = as_csv(events).splitlines()
+    assert set(head.split(",")) >= {key for event in events for key in event}
+    assert '"[""x"", ""y""]"' in first
+    assert '"{""g"": 1}"' in second
 
 
-def test_the_condition_is_not_told(tmp_path: Path) -> None:
-    host = study(tmp_path)
-    host.do({"do": "go on", "agree": True})
-    shown = json.dumps({**host.view(), "map": None})
-    assert not any(f'"{name}"' in shown for name in CONDITIONS)
+# -- words
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_shipped_domains_have_sentences_for_everything(name: str) -> None:
+    task = serendipity.example(name)
+    labels = labels_for(task)
+    assert labels.complete(task)
+    assert labels.about
+    view = Table(setting(name=name, task=task)).view()
+    texts = [part["text"] for part in (*view["goal"], *view["can"])]
+    assert not any(mark in text for text in texts for mark in "_{}")
+
+
+def test_sentences_of_a_file(tmp_path: Path) -> None:
+    task, file = serendipity.example("room2"), tmp_path / "labels.toml"
+    file.write_text('[things]\nmk = "the kit {}"\n[actions]\npick_up_medkit = "take {1}"\n')
+    view = Table(setting(labels=labels_for(task, file))).view()
+    assert view["goal"][0]["text"] == "conducted triage room1", "what has no label is said by its name"
+    assert Labels(things={"mk": "the kit {}"}).thing("mk12") == "the kit mk12"
+    (tmp_path / "ground").mkdir()
+    assert Labels(actions={"pick_up": ("get {1}",)}).action("pick_up_commx_mk1") == (
+        ("get {1}",),
+        ("commx", "mk1"),
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[actions", "expected TOML: "),
+        ("verbs = 1", "verbs: extra inputs are not permitted"),
+        ("[actions]\nmove = 3", "actions.move"),
+        ("[actions]\nmove = '{who}'", "actions.move: expected {0}, {1} ... only"),
+        ("[actions]\nmove = '{'", "actions.move: expected {0}, {1} ... only"),
+        ("[actions]\nmove = []", "actions.move: expected a sentence"),
+        ("[actions]\nmove = '{3}'", "actions.move: there is no {3}, only 3 arguments"),
+        ("[goals]\nconducted_triage = '{2}'", "goals.conducted_triage: there is no {2}"),
+    ],
+)
+def test_wrong_labels_are_one_line(text: str, said: str, tmp_path: Path) -> None:
+    file = tmp_path / "labels.toml"
+    file.write_text(text)
+    with pytest.raises(InputError, match="labels") as told:
+        labels_for(serendipity.example("room2"), file)
+    assert str(told.value).startswith(f"{file}: {said}")
+    assert "\n" not in str(told.value)
 
 
 # -- the command
@@ -240,9 +278,16 @@ def test_the_condition_is_not_told(tmp_path: Path) -> None:
         (["--view", "x"], "--view: expected one of observant, local"),
         (["--robots-are", "x"], "--robots-are: expected one of none, silent, announced"),
         (["--discount", "2"], "discount: expected a number in [0, 1]"),
-        (["--rounds", "0"], "--rounds: expected a number from 1 to 50"),
-        (["--study", "here", "--example", "room2"], "--study: has scenarios of its own"),
-        (["--study", "here", "--goals", "x"], "--goals: goes with a task"),
+        (["--study", "here", "--rounds", "0"], "--rounds: expected a number from 1 to 50"),
+        (
+            ["--study", "here", "--example", "room2"],
+            "--study: has scenarios, conditions and records of its own",
+        ),
+        (["--study", "here", "--goals", "x"], "--study: has scenarios, conditions and records of its own"),
+        (["--study", "here", "--robots-are", "none"], "--study: has scenarios, conditions and records"),
+        (["--study", "here", "--records", "there"], "--study: has scenarios, conditions and records"),
+        (["--report"], "--report: goes with --study"),
+        (["--labels", "none.toml"], "none.toml: can't be read"),
         (["--study", "{file}/x"], "--study: "),
         (["--records", "{file}/x"], "--records: "),
         (["--goals", "none.txt"], "none.txt: "),
@@ -267,13 +312,12 @@ def test_what_was_played_outlives_a_server_that_is_killed() -> None:
         with connect(server.url.replace("http", "ws") + "/live") as page:
             view = json.loads(page.recv())
             for action in ("move commx room13 hall8", "move_reverse commx hall8 hall7"):
-                sent = {"do": "act", "round": view["round"], "epoch": view["epoch"], "action": action}
-                page.send(json.dumps(sent))
+                page.send(json.dumps({"do": "act", "moment": view["moment"], "action": action}))
                 view = json.loads(page.recv())
         shown = server.client.get("/export.json").json()
         server.process.kill()
         (file,) = server.folder.glob("serendipity-play/*.jsonl")
-        assert read(file) == shown
+        assert read(file) == (shown, [])
         assert [event["event"] for event in shown] == ["begun", "epoch", "epoch"]
 
 
@@ -282,8 +326,7 @@ def test_a_map_has_room_for_all_that_comes_together_and_never_shrinks() -> None:
     widths = [table.view()["map"]["width"]]
     while (view := table.view())["end"] is None:
         able = [choice for choice in view["can"] if choice["kind"] in ("offer", "go")] or view["can"]
-        sent = {"do": "act", "round": 1, "epoch": view["epoch"], "action": able[0]["action"]}
-        table.do(sent)
+        table.do({"do": "act", "moment": view["moment"], "action": able[0]["action"]})
         widths.append(table.view()["map"]["width"])
         if len(widths) > 15:
             break

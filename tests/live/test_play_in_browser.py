@@ -1,55 +1,22 @@
-"""Rounds that somebody plays on the page, in a real Chromium: by clicks, by keys, on a phone, in a study."""
+"""Rounds that somebody plays on the page, in a real Chromium: by clicks, by keys, on a phone."""
 
 import json
+import shutil
 import signal
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
+from tests.live.conftest import Opened
 from tests.live.play_tasks import DOMAIN, two_goals, with_third_kit
 from tests.live.server import Server, serving
-from tests.show.browser import chromium, chromium_path
 
 pytestmark = pytest.mark.browser
 
 TO_ROOM1 = ("hall3", "hall2", "hall1", "room1")
-Opened = Callable[..., Any]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    path = chromium_path()
-    if path is None:
-        pytest.skip("no chromium: `make test-browser` installs it where it may")
-    pytest.importorskip("playwright", reason="no playwright: `make test-browser` installs it")
-    with chromium(path) as running:
-        yield running
-
-
-@pytest.fixture
-def opened(browser: Any) -> Iterator[Opened]:
-    """Open a page; nobody may complain on its console, nor ask for anything of elsewhere."""
-    complaints: list[str] = []
-    pages = []
-
-    def opens(server: Server, width: int = 1440, height: int = 900) -> Any:
-        page = browser.new_page(viewport={"width": width, "height": height})
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on(
-            "request", lambda asked: None if server.url[7:] in asked.url else complaints.append(asked.url)
-        )
-        page.goto(server.url)
-        pages.append(page)
-        return page
-
-    yield opens
-    for page in pages:
-        page.close()
-    assert [c for c in complaints if "ERR_CONNECTION_REFUSED" not in c and "/live" not in c] == []
+TAKE = "take medkit mk2 from the robot"
 
 
 def go(page: Any, *places: str) -> None:
@@ -79,17 +46,17 @@ def test_the_papers_example_by_clicks(opened: Opened) -> None:
         page = opened(server)
         page.click("#think")
         go(page, "hall8", "hall7", "hall6", "hall5", "hall4")
-        assert page.inner_text("#can .offer .word").split("\n")[-1] == "hand over mk2"
+        assert page.inner_text("#can .offer .word").split("\n")[-1] == TAKE
         assert page.inner_text("#thought .verdict") == "helps"
-        choose(page, "hand over mk2")
-        page.wait_for_selector('#can button:has-text("hand over mk2")', state="detached")
+        choose(page, TAKE)
+        page.wait_for_selector('#can button:has-text("take medkit mk2")', state="detached")
         go(page, *TO_ROOM1)
-        choose(page, "conduct triage")
+        choose(page, "give treatment")
         page.wait_for_selector("#finish")
         assert page.inner_text("#finish-text") == "11 epochs. You paid 11 instead of 13."
         costs = page.locator("#finish-costs td").all_inner_texts()
         assert costs == ["11", "12.6", "13", "0.4"]
-        assert "epoch 6: commx and robot: hand over mk2" in page.inner_text("#finish-help")
+        assert "epoch 6: commx and robot: take medkit mk2 from the robot" in page.inner_text("#finish-help")
         page.click("#ask-why")
         page.wait_for_selector('#why:has-text("12.6")')
         events = server.client.get("/export.json").json()
@@ -101,6 +68,23 @@ def test_the_papers_example_by_clicks(opened: Opened) -> None:
         assert len(table) == 1 + len(events)
         page.click("#again")
         page.wait_for_selector('#epoch:text-is("1")')
+
+
+def test_who_uses_the_keyboard_stays_where_they_are_and_hears_what_happens(opened: Opened) -> None:
+    with serving(command="play") as server:
+        page = opened(server)
+        page.wait_for_selector("#can button")
+        page.focus('.reach[data-place="hall8"]')
+        page.keyboard.press("Space")  # goes there, and does not wait
+        page.wait_for_selector('#epoch:text-is("2")')
+        assert page.evaluate("document.activeElement.classList.contains('reach')")
+        assert "hall8" in page.inner_text("#told")
+        page.wait_for_selector("body:not(.settling)")
+        page.focus("#can li:last-child button")
+        page.keyboard.press("Enter")
+        page.wait_for_selector('#epoch:text-is("3")')
+        assert page.evaluate("document.activeElement.closest('#can') !== null")
+        assert page.inner_text("#told").startswith("Epoch 3. You: ")
 
 
 def test_the_papers_example_by_keys(opened: Opened) -> None:
@@ -122,11 +106,11 @@ def test_somebody_turns_off_towards_another_kit(opened: Opened, tmp_path: Path) 
         go(page, "hall8", "hall7", "room7", "room6")
         choose(page, "pick up medkit")
         go(page, "room7", "hall7", "hall6", "hall5", "hall4", *TO_ROOM1)
-        choose(page, "conduct triage")
+        choose(page, "give treatment")
         page.wait_for_selector("#finish")
         said = verdicts(server)
         assert said[:2] == ["waits", "helps"]
-        assert set(said[-4:]) == {"aside"}, "nothing is left to be helped with"
+        assert set(said[-4:]) == {"stopped"}, "the help that was begun is of no use any more"
         events = [e for e in server.client.get("/export.json").json() if e["event"] == "epoch"]
         assert events[-1]["human_cost"] == 15.0, "help did not make anything dearer"
         assert not any("hand_over" in step for event in events for step in event["steps"])
@@ -141,10 +125,10 @@ def test_two_goals_are_possible(opened: Opened, tmp_path: Path) -> None:
         assert "not sure which goal" in page.inner_text("#thought")
         go(page, "hall8", "hall7", "hall6", "hall5", "hall4")
         assert page.locator("#thought .share output").all_inner_texts()[0] == "100 %"
-        choose(page, "hand over mk2")
-        page.wait_for_selector('#can button:has-text("hand over mk2")', state="detached")
+        choose(page, TAKE)
+        page.wait_for_selector('#can button:has-text("take medkit mk2")', state="detached")
         go(page, *TO_ROOM1)
-        choose(page, "conduct triage")
+        choose(page, "give treatment")
         page.wait_for_selector("#finish")
         assert verdicts(server)[:6] == ["unsure", "unsure", "helps", "helps", "helps", "helps"]
         assert page.locator("#finish-costs td").all_inner_texts()[1] == "12.2"
@@ -156,7 +140,7 @@ def test_two_pages_a_reload_and_a_server_that_stops(opened: Opened) -> None:
         go(one, "hall8")
         two.wait_for_selector('#epoch:text-is("2")')
         assert fits(two)
-        stale = {"do": "act", "round": 1, "epoch": 1, "action": "move commx room13 hall8"}
+        stale = {"do": "act", "moment": "1.1", "action": "move commx room13 hall8"}
         two.evaluate(
             "m => new Promise(r => { const s = new WebSocket(`ws://${location.host}/live`);"
             "s.onopen = () => s.send(m); s.onmessage = () => setTimeout(() => { s.close(); r(); }, 200); })",
@@ -183,7 +167,7 @@ def test_local_view_on_a_phone(opened: Opened) -> None:
         go(page, "hall8", "hall7", "hall6", "hall5")
         assert "robot" not in page.inner_text("#log")
         go(page, "hall4")
-        assert "robot: go to hall4" in page.inner_text("#log")
+        assert "the robot: go to hall4" in page.inner_text("#log")
         assert page.locator("#map [data-token=agent-1].remembered").count() == 0
         assert fits(page)
 
@@ -207,53 +191,37 @@ def test_where_there_is_no_map_there_are_lists(opened: Opened, tmp_path: Path) -
         page.wait_for_selector("#finish")
 
 
-def test_a_study_from_consent_to_thanks(opened: Opened, tmp_path: Path) -> None:
-    folder = tmp_path / "study"
-    with serving("--study", str(folder), "--rounds", "2", command="play") as server:
-        page = opened(server, 800, 1000)
-        page.wait_for_selector("#consent-text p")
-        assert page.is_disabled("#start")
-        page.check("#agree")
-        page.click("#start")
-        for number in (1, 2):
-            page.wait_for_selector(f'#participant:has-text("round {number}")')
-            assert page.is_hidden("#thinking")
-            play_alone(page, server)
-            page.click("#go-on")
-            page.wait_for_selector("#asked fieldset")
-            if number == 1:
-                page.reload()
-                page.wait_for_selector("#asked fieldset")
-            for question in range(4):
-                page.click(f'#asked fieldset >> nth={question} >> label:has-text("{question + 2}")')
-            page.fill("#comment", "=1+1")
-            page.click("#send")
-        page.wait_for_selector("#number")
-        events = server.client.get("/export.json").json()
-        kinds = [event["event"] for event in events]
-        assert kinds.count("begun") == 2
-        assert [e["answer"] for e in events if e["event"] == "answer"] == [2, 3, 4, 5, "=1+1"] * 2
-        assert kinds[-1] == "end"
-        assert "'=1+1" in server.client.get("/export.csv").text, "no spreadsheet computes it"
-        page.click("#next")
-        page.wait_for_selector('#participant:has-text("P002")')
-    written = [json.loads(line) for line in (folder / "P001.jsonl").read_text().splitlines()]
-    assert written == events
+def test_a_double_click_is_one_choice(opened: Opened) -> None:
+    """Also one that the browser takes for two clicks."""
+    with serving(command="play") as server:
+        page = opened(server)
+        for count in (2, 3):
+            page.wait_for_selector("body:not(.settling)")
+            box = page.locator("#can button").first.bounding_box()
+            for _ in range(3):
+                page.mouse.click(box["x"] + 20, box["y"] + 10)
+                page.wait_for_timeout(40)
+            page.wait_for_selector(f'#epoch:text-is("{count}")')
+            page.wait_for_timeout(300)
+            assert page.inner_text("#epoch") == str(count)
+        assert page.is_hidden("#refused")
 
 
-def play_alone(page: Any, server: Server) -> None:
-    """The way that the person would take alone, as a planner knows it."""
-    import serendipity
-    from serendipity.live.play.scenarios import scenarios
-
-    begun = [e for e in server.client.get("/export.json").json() if e["event"] == "begun"][-1]
-    task = dict(scenarios(2, 1, serendipity.Options(discount=0.6).discount))[begun["scenario"]]
-    plan = serendipity.plan(task, mode="individual").human_plan or ()
-    for epoch, action in enumerate(plan, start=1):
-        sent = {"do": "act", "round": begun["round"], "epoch": epoch, "action": action}
-        page.evaluate(
-            "m => new Promise(r => { const s = new WebSocket(`ws://${location.host}/live`); let heard = 0;"
-            "s.onopen = () => s.send(m); s.onmessage = () => { if (++heard === 2) { s.close(); r(); } }; })",
-            json.dumps(sent),
-        )
-    page.wait_for_selector("#finish")
+def test_a_round_goes_on_when_the_server_is_back(opened: Opened, tmp_path: Path) -> None:
+    with serving(command="play") as server:
+        page = opened(server)
+        go(page, "hall8", "hall7", "hall6")
+        (record,) = (server.folder / "serendipity-play").glob("*.jsonl")
+        shutil.copy(record, tmp_path / "record.jsonl")
+        server.stop(signal.SIGTERM)
+        page.wait_for_selector("#lost")
+        port = str(server.port)
+        with serving("--records", str(tmp_path / "record.jsonl"), "--port", port, command="play"):
+            page.wait_for_selector("#lost", state="hidden")
+            page.wait_for_selector('#epoch:text-is("4")')
+            assert page.is_hidden("#anew")
+            go(page, "hall5")
+        page.wait_for_selector("#lost")
+        with serving("--port", port, command="play"):
+            page.wait_for_selector("#anew")
+            assert page.inner_text("#epoch") == "1"

@@ -1,5 +1,7 @@
 """What is wrong gets 4xx and one line: the one that the command line says."""
 
+import functools
+import json
 import sys
 
 import pytest
@@ -86,6 +88,55 @@ def test_a_form_of_another_site_is_no_json(server: Server) -> None:
         "/plan", content=b'{"task": {"example": "room2"}}', headers={"content-type": "text/plain"}
     )
     assert answer.status_code == 422
+    assert answer.json() == {"error": "body: expected JSON, and 'Content-Type: application/json'"}
+
+
+def nested(levels: int) -> object:
+    return functools.reduce(lambda inner, _: [inner], range(levels), 1)
+
+
+def priced(cost: str) -> dict[str, object]:
+    """A task whose only action costs so much."""
+    effect = f":effect (and (p) (increase (total-cost) {cost}))"
+    domain = "(define (domain d) (:types agent) (:predicates (p)) (:functions (total-cost) (c))"
+    domain += f"(:action a :parameters (?w - agent) {effect}))"
+    objects = "(:objects h r - agent) (:init (= (c) 2)) (:goal (p))"
+    return {
+        "domain": domain,
+        "problem": f"(define (problem p) (:domain d) {objects})",
+        "human": "h",
+        "robots": ["r"],
+    }
+
+
+@pytest.mark.parametrize(
+    ("body", "start"),
+    [
+        ({"task": ROOM2, "options": {"discount": nested(500)}}, ""),
+        ({"task": ROOM2, "options": {"discount": nested(900)}}, ""),
+        ({"task": {"example": "\ud800"}}, "body: expected text, got half of a surrogate pair"),
+        ({"task": {**priced("1"), "domain": "\udfff"}}, "body: expected text"),
+        ({"task": ROOM2, "options": {"mode": "\ud800"}}, "body: expected text"),
+        ({"task": {"agents": {"a" * 300: {"domain": "", "problem": ""}}}}, "agents: expected the name"),
+        ({"task": priced(f"(* {'(c) ' * 1000})")}, "domain.pddl:1: action 'a h': expected a cost of at most"),
+    ],
+    ids=["nested", "deeply", "example", "domain", "option", "name", "product"],
+)
+def test_what_is_odd_is_one_line(server: Server, body: object, start: str) -> None:
+    content = json.dumps(body)
+    answer = server.client.post("/plan", content=content, headers={"content-type": "application/json"})
+    assert answer.status_code in (400, 422)
+    assert set(answer.json()) == {"error"}
+    assert answer.json()["error"].startswith(start)
+    assert "\n" not in answer.json()["error"]
+
+
+def test_a_result_with_very_many_steps_in_an_epoch_is_refuted(server: Server) -> None:
+    result = server.post("/plan", {"task": ROOM2}).json()
+    result["plan"] = result["plan"][:1] * 2000
+    answer = server.post("/verify", {"task": ROOM2, "result": result})
+    assert answer.status_code == 200
+    assert answer.json()["verdict"] == "refuted"
 
 
 @pytest.mark.parametrize("chunked", [False, True])

@@ -9,8 +9,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from starlette.exceptions import HTTPException
 
 from serendipity.cli.app import main
+from serendipity.live.service.sessions import Sessions
 from tests.live.server import Server, serving, workers_of
 
 ROOM2 = {"example": "room2"}
@@ -138,6 +140,52 @@ def test_workers_end_with_a_server_that_is_killed() -> None:
         workers = workers_of(server.process.pid)
         server.process.kill()
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
+
+
+def test_what_workers_have_in_temporary_files_goes_with_them(tmp_path: Path) -> None:
+    def folders() -> list[Path]:
+        return [*tmp_path.iterdir()]
+
+    with serving("--workers", "2", env={"TMPDIR": str(tmp_path)}) as server:
+        assert answers(server)
+        before = folders()
+        assert len(before) == 2
+        for folder in before:
+            (folder / "half-read.pddl").write_text("(define")
+        for pid in workers_of(server.process.pid):
+            os.kill(pid, signal.SIGKILL)
+        until(lambda: len(folders()) == 2 and not {*before} & {*folders()})
+        server.stop()
+        until(lambda: not folders())
+    with serving("--workers", "1", env={"TMPDIR": str(tmp_path)}) as server:
+        server.process.kill()
+        until(lambda: not folders())
+
+
+def test_sessions_have_a_share_of_memory() -> None:
+    sessions = Sessions(1000, 3 * 2**20, 3600)
+    begun = {"task": {"domain": "\N{ROBOT FACE}" * 2**18}}  # four bytes each
+    for _ in range(2):
+        sessions.add(sessions.begin(begun))
+    assert sessions.size > 2 * 2**20
+    with pytest.raises(HTTPException, match="all of them may take 3 MiB"):
+        sessions.begin(begun)
+    small = sessions.begin({"task": ROOM2})
+    small.move(b" " * 2**20)
+    with pytest.raises(HTTPException, match="all of them may take 3 MiB"):
+        sessions.add(small)
+
+
+def test_each_request_has_a_line_of_log(tmp_path: Path) -> None:
+    with serving("--workers", "1", "-v") as server:
+        answer = server.client.get("/health")
+        server.client.get("/nowhere%0a")
+        _, said = server.stop()
+    lines = [line for line in said.splitlines() if "access_log" in line]
+    assert len(lines) == 2
+    assert "127.0.0.1 'GET /health' 200" in lines[0]
+    assert lines[0].endswith(answer.headers["x-request-id"])
+    assert "404" in lines[1]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])

@@ -1,4 +1,4 @@
-"""The page as an ASGI application: one websocket, and exports; nothing leaves the machine."""
+"""The page as an ASGI application: a websocket for each room, and files; nothing comes from elsewhere."""
 
 import asyncio
 import json
@@ -7,82 +7,102 @@ from importlib.resources import files
 from typing import Any, Final, Protocol
 
 from fastapi import FastAPI, Response, WebSocket, WebSocketDisconnect
-from fastapi.responses import HTMLResponse
+from fastapi.responses import HTMLResponse, PlainTextResponse
 from starlette.middleware import Middleware
 
 from serendipity.live.guards.access import Access
+from serendipity.live.guards.access_log import Logged
 from serendipity.live.guards.bodies import BodyLimits
 from serendipity.live.guards.headers import Headed
-from serendipity.live.play.records import Event, as_csv
+from serendipity.live.play.table import Download
 from serendipity.model import SerendipityError
 
-_TYPES: Final = {"play.js": "text/javascript", "map.js": "text/javascript", "play.css": "text/css"}
+_TYPES: Final = {"js": "text/javascript", "css": "text/css"}
+_PARTS: Final = ("play.js", "study.js", "map.js", "play.css")
+_FRESH: Final = {"Cache-Control": "no-store"}
 _KIB: Final = 1024
 _PATIENCE: Final = 5.0
 """Seconds that a page has to take what it is told."""
 
 
-class Host(Protocol):
-    """What is behind the page: :class:`.table.Table`, or a study."""
+class Room(Protocol):
+    """What some pages show together."""
 
     def view(self) -> dict[str, Any]:
         """What pages show."""
 
     def do(self, message: dict[str, Any]) -> dict[str, Any] | None:
-        """What a page asks for; an answer for it alone, or None where all pages are to be told."""
+        """What a page asks for; an answer for it alone, or None where all of the room are to be told."""
 
-    def events(self) -> list[Event]:
-        """All that has happened."""
+
+class Host(Protocol):
+    """What is behind the pages: :class:`.table.Table`, or a study."""
+
+    def room(self, token: str) -> Room | None:
+        """The room of a token; that of the first page where it is empty."""
+
+    def file(self, path: str) -> Download | None:
+        """What there is at another address."""
 
 
 def application(host: Host, hosts: Sequence[str]) -> FastAPI:
     """The application.
 
     Args:
-        host: what is behind the page.
+        host: what is behind the pages.
         hosts: names under which it may be asked, ports apart.
     """
     app = FastAPI(
         openapi_url=None,
         middleware=[
+            Middleware(Logged),
             Middleware(Headed, inline=False),
             Middleware(Access, hosts=hosts),
             Middleware(BodyLimits, most=64 * _KIB, seconds=10.0),
         ],
     )
-    pages = _Pages(host)
+    pages: dict[str, _Pages] = {}
 
     @app.get("/")
-    async def page() -> HTMLResponse:
-        return HTMLResponse(_text("play.html"), headers={"Cache-Control": "no-cache"})
+    @app.get("/s/{token}")
+    async def page(token: str = "") -> Response:
+        if host.room(token) is None:
+            return PlainTextResponse(
+                "There is nobody with this link. Please look whether it is complete.", 404
+            )
+        return HTMLResponse(_text("play.html"), headers=_FRESH)
 
     @app.get("/page/{name}")
     async def part(name: str) -> Response:
-        if name not in _TYPES:
+        if name not in _PARTS:
             return Response(status_code=404)
-        return Response(_text(name), media_type=_TYPES[name], headers={"Cache-Control": "no-cache"})
+        return Response(_text(name), media_type=_TYPES[name.rpartition(".")[2]], headers=_FRESH)
 
-    @app.get("/export.json")
-    async def as_json() -> Response:
-        text = json.dumps(host.events(), ensure_ascii=False, indent=1)
-        return _download(text, "application/json", "serendipity.json")
-
-    @app.get("/export.csv")
-    async def as_table() -> Response:
-        return _download(as_csv(host.events()), "text/csv; charset=utf-8", "serendipity.csv")
+    @app.get("/{path:path}")
+    async def file(path: str) -> Response:
+        found = await asyncio.to_thread(host.file, path)
+        if found is None:
+            return Response(status_code=404)
+        saved = {} if found.name is None else {"Content-Disposition": f'attachment; filename="{found.name}"'}
+        return Response(found.text, media_type=found.kind, headers=_FRESH | saved)
 
     @app.websocket("/live")
-    async def live(socket: WebSocket) -> None:
-        await pages.serve(socket)
+    @app.websocket("/live/{token}")
+    async def live(socket: WebSocket, token: str = "") -> None:
+        room = host.room(token)
+        if room is None:
+            await socket.close(1008)
+            return
+        await pages.setdefault(token, _Pages(room)).serve(socket)
 
     return app
 
 
 class _Pages:
-    """The pages that are open: what one of them does, all of them show."""
+    """The pages of a room that are open: what one of them does, all of them show."""
 
-    def __init__(self, host: Host) -> None:
-        self._host = host
+    def __init__(self, room: Room) -> None:
+        self._room = room
         self._open: set[WebSocket] = set()
         self._turn = asyncio.Lock()
 
@@ -101,16 +121,13 @@ class _Pages:
             self._open.discard(socket)
 
     async def _hear(self, socket: WebSocket, text: str) -> None:
-        try:
-            message = json.loads(text)
-        except (ValueError, RecursionError):
-            message = None
-        if not isinstance(message, dict):
+        message = _message(text)
+        if message is None:
             await socket.send_json({"kind": "refused", "error": "expected a JSON object"})
             return
         async with self._turn:
             try:
-                answer = await asyncio.to_thread(self._host.do, message)
+                answer = await asyncio.to_thread(self._room.do, message)
             except SerendipityError as error:
                 await socket.send_json({"kind": "refused", "error": str(error)})
                 return
@@ -129,12 +146,18 @@ class _Pages:
             self._open.discard(page)
 
     async def _view(self) -> dict[str, Any]:
-        return {"kind": "view", **await asyncio.to_thread(self._host.view)}
+        return {"kind": "view", **await asyncio.to_thread(self._room.view)}
+
+
+def _message(text: str) -> dict[str, Any] | None:
+    """What a page says, halves of characters replaced, since no file takes them; None: no object."""
+    try:
+        whole = json.dumps(json.loads(text), ensure_ascii=False).encode(errors="replace")
+        message = json.loads(whole)
+    except (ValueError, RecursionError):
+        return None
+    return message if isinstance(message, dict) else None
 
 
 def _text(name: str) -> str:
     return files("serendipity.live.play").joinpath("page", name).read_text(encoding="utf-8")
-
-
-def _download(text: str, kind: str, name: str) -> Response:
-    return Response(text, media_type=kind, headers={"Content-Disposition": f'attachment; filename="{name}"'})

@@ -1,17 +1,21 @@
 """One round: a person's actions in, and out comes what their page shows."""
 
+from pathlib import Path
 from typing import Any
 
 import serendipity
-from serendipity.execution import VERDICTS, Decided, Execution, Passed
+from serendipity.execution import VERDICTS, Decided, Passed
+from serendipity.execution.account import account
+from serendipity.execution.log import decision_of
 from serendipity.live.play.eyes import Eyes
+from serendipity.live.play.records import Event
 from serendipity.live.play.setting import Setting
 from serendipity.live.play.stage import Stage
 from serendipity.live.play.words import Words
-from serendipity.model import GroundAction, UsageError
+from serendipity.model import GroundAction, InputError, UsageError
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.plans import PlanStep
-from serendipity.show.map.places import find_places
+from serendipity.pictures.map.places import find_places
 
 _EXPLAINING = 10.0
 """Seconds for an explanation at the end."""
@@ -34,18 +38,9 @@ class Game:
         if alone.cost is None:
             raise UsageError(f"{setting.name}: {task.agents[task.human]} can't reach the goal alone")
         self.alone = alone.cost
-        self.run = Execution(
-            task,
-            discount=setting.discount,
-            human_model=setting.view,
-            goals=setting.goals,
-            deadline=setting.deadline,
-            told=setting.condition == "announced",
-        )
-        if setting.condition == "none":
-            self.run.drop(task.agents[robot] for robot in task.robots)
+        self.run = setting.execution()
         places = find_places(task)
-        self._words = Words(task, places)
+        self._words = Words(task, places, setting.labels)
         self._eyes = Eyes(task, setting.view)
         self._stage = Stage(task, places, self._eyes)
         self._stage.look(self.run.state)
@@ -54,17 +49,71 @@ class Game:
 
     @property
     def done(self) -> bool:
-        """Whether the goal is reached."""
-        return self.run.done
+        """Whether the round is over: the goal is reached, or there are no more epochs."""
+        most = self.setting.most_epochs
+        return self.run.done or (most is not None and self.run.epoch > most)
 
-    def act(self, action: str | None) -> Passed:
+    def act(self, action: str | None) -> Event:
         """The person does something, or waits.
+
+        Returns:
+            The epoch, as it is recorded: what was shown and said before it, and what came of it.
 
         Raises:
             UsageError: the round is over, or there is no such action.
         """
-        if self.run.done:
+        if self.done:
             raise UsageError("the round is over")
+        if action is not None and not isinstance(action, str):
+            raise UsageError(f"action: expected a name, got {action!r:.50}")
+        decided = self.run.decided
+        shown = {
+            "said": self._said(decided),
+            "choices": [choice["text"] for choice in self._choices(decided)],
+            "goal": self._words.goal(self._eyes.belief),
+        }
+        passed = self._step(action)
+        return {
+            "epoch": passed.epoch,
+            "action": passed.human or "wait",
+            "in_vain": passed.in_vain,
+            "steps": [f"{'+'.join(step.agents)}: {step.action}" for step in passed.steps],
+            "seen": self._seen[0]["others"],
+            "verdict": passed.decided.verdict,
+            "reason": passed.decided.reason,
+            "goals": dict(passed.decided.goals),
+            "offers": [step.action for step in passed.decided.offers],
+            **shown,
+            "decision_seconds": round(passed.decided.seconds, 4),
+            "human_cost": passed.human_cost,
+            "team_cost": passed.cost,
+            "alone_cost": self.alone,
+            "reached": passed.done,
+            "done": self.done,
+            "chosen": passed.human,
+            "decision": passed.decided.to_dict(),
+        }
+
+    def again(self, event: Event, file: Path | None = None) -> None:
+        """Play a recorded epoch: what robots had decided, and what the person did.
+
+        Args:
+            event: the record.
+            file: named in errors.
+
+        Raises:
+            InputError: the record is of another round.
+        """
+        try:
+            self.run.recall(decision_of(event["decision"], self.run.epoch))
+            passed = self._step(event["chosen"])
+            same = (passed.epoch, passed.human_cost) == (event["epoch"], event["human_cost"])
+        except (KeyError, TypeError, AttributeError, ValueError, UsageError):
+            same = False
+        if not same:
+            raise InputError(f"epoch {event.get('epoch')}: comes out otherwise than it is recorded", file)
+
+    def _step(self, action: str | None) -> Passed:
         near, before = self._stage.here, self.run.state
         passed = self.run.step(action)
         own = next((step for step in passed.steps if self.human in step.agents), None)
@@ -78,7 +127,7 @@ class Game:
     def view(self) -> dict[str, Any]:
         """Everything that the page shows of the round."""
         run = self.run
-        decided = None if run.done else run.decided
+        decided = None if self.done else run.decided
         return {
             "scenario": self.setting.name,
             "condition": self.setting.condition,
@@ -97,14 +146,30 @@ class Game:
             "log": self._seen,
             "thinking": None if decided is None else self._thinking(decided),
             "said": None if decided is None else self._said(decided),
-            "done": run.done,
-            "end": self._end() if run.done else None,
+            "done": self.done,
+            "end": self._end() if self.done else None,
         }
 
     def explanation(self) -> list[dict[str, str]]:
-        """Why help comes as it does in this task, in sentences by topic."""
+        """Why help came as it did in this run, and what plans say of the task, in sentences by topic."""
+        happened = account(self.run.passed, self.human, self.alone)
         found = serendipity.explain(self.setting.task, discount=self.setting.discount, time_limit=_EXPLAINING)
-        return [{"topic": topic, "text": text} for topic, text in found.sentences]
+        said = "Beside this run, what plans say of somebody who does as they want, whatever robots promise:"
+        return [
+            *({"topic": "run", "text": text} for text in happened),
+            {"topic": "plan", "text": said},
+            *({"topic": topic, "text": text} for topic, text in found.sentences),
+        ]
+
+    def robots(self) -> dict[str, int]:
+        """In how many epochs robots did something, or offered something, or were taken up on it."""
+        passed = self.run.passed
+        others = [[s for s in p.steps if list(s.agents) != [self.human]] for p in passed]
+        return {
+            "helped": sum(bool(steps) for steps in others),
+            "offered": sum(bool(p.decided.offers) for p in passed),
+            "taken": sum(any(self.human in s.agents for s in steps) for steps in others),
+        }
 
     def _ground(self, step: PlanStep, state: frozenset[int]) -> GroundAction:
         """The action of a step, in the variant that is possible in a state where one is."""
@@ -172,20 +237,22 @@ class Game:
 
     def _said(self, decided: Decided) -> str | None:
         """What robots say aloud, where they do."""
+        if self.setting.condition == "announced" and decided.verdict == "stopped":
+            return "I have stopped helping; please go on alone."
         if self.setting.condition != "announced" or decided.verdict not in ("helps", "waits"):
             return None
+        task = self.setting.task
         mine = [s for s in decided.plan or () if list(s.agents) != [self.human]]
         if not mine:
             return None
         wish = "" if decided.expected is None else f" Please {self._words.step(decided.expected)} now."
         said: dict[str, list[str]] = {}
         for step in mine:
-            text = f"{self._words.step(step)} (epoch {self.run.epoch + step.epoch - 1})"
+            robot = next(i for i in task.robots if task.agents[i] in step.agents)
+            text = f"{self._words.step(step, robot)} (epoch {self.run.epoch + step.epoch - 1})"
             said.setdefault(self._words.robots(step), []).append(text)
-        one = len(self.setting.task.robots) == 1
-        speeches = (
-            f"{'I am' if one else f'{who} is'} going to {', '.join(does)}." for who, does in said.items()
-        )
+        one = len(task.robots) == 1
+        speeches = (f"{'I' if one else _capital(who)} will {', '.join(does)}." for who, does in said.items())
         return " ".join(speeches) + wish
 
     def _told(self, passed: Passed, near: str | None) -> dict[str, Any]:
@@ -216,7 +283,6 @@ class Game:
         """What the round came to."""
         run, discount = self.run, self.setting.discount
         paid, team = float(run.human_cost), float(run.cost)
-        helped = [p for p in run.passed for s in p.steps if {*s.agents} != {self.human}]
         lines = []
         for passed in run.passed:
             for step in passed.steps:
@@ -231,7 +297,12 @@ class Game:
             "spared": round(self.alone - paid, 9),
             "epochs": len(run.passed),
             "help": lines,
-            "helped": bool(helped),
+            "reached": run.done,
+            **self.robots(),
             "discount": float(discount),
             "reasons": [{"epoch": p.epoch, "text": p.decided.reason} for p in run.passed],
         }
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -4,36 +4,15 @@ import json
 from collections.abc import Iterable
 from datetime import UTC, datetime
 from pathlib import Path
-from time import perf_counter
 from typing import Any, Final
 
-from serendipity.model import InputError, UsageError
+from serendipity.model import UsageError
 from serendipity.writing.csv_text import as_csv as csv_of
 
 Event = dict[str, Any]
 
-COLUMNS: Final = (
-    "participant",
-    "time",
-    "seconds",
-    "event",
-    "condition",
-    "round",
-    "scenario",
-    "epoch",
-    "action",
-    "in_vain",
-    "steps",
-    "verdict",
-    "reason",
-    "human_cost",
-    "team_cost",
-    "alone_cost",
-    "done",
-    "question",
-    "answer",
-)
-"""Of the CSV; an event has those that it is about."""
+_FIRST: Final = ("participant", "time", "event", "condition", "round", "scenario", "epoch", "action")
+"""Columns of the CSV that come first; all others follow in the order in which they come up."""
 
 
 class Records:
@@ -42,68 +21,67 @@ class Records:
     Args:
         participant: goes into each event.
         file: is added to, line by line, or None.
+        events: that it holds already.
 
     Attributes:
         events: so far.
     """
 
-    def __init__(self, participant: str, file: Path | None = None) -> None:
+    def __init__(self, participant: str, file: Path | None = None, events: Iterable[Event] = ()) -> None:
         self._participant = participant
         self._file = file
-        self._begun = perf_counter()
-        self.events: list[Event] = []
+        self.events = list(events)
 
-    def add(self, event: str, **about: Any) -> None:
+    def add(self, event: str, **about: Any) -> Event:
         """Record an event; it is on the disk when this returns.
 
         Raises:
             UsageError: the file can't be written.
         """
-        told = {
-            "participant": self._participant,
-            "time": datetime.now(UTC).isoformat(timespec="milliseconds"),
-            "seconds": round(perf_counter() - self._begun, 3),
-            "event": event,
-            **about,
-        }
+        now = datetime.now(UTC).isoformat(timespec="milliseconds")
+        told = {"participant": self._participant, "time": now, "event": event, **about}
+        if self._file is not None:
+            try:
+                with self._file.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(told, ensure_ascii=False) + "\n")
+            except OSError as error:
+                raise UsageError(f"{self._file} can't be written: {error.strerror}") from None
         self.events.append(told)
-        if self._file is None:
-            return
-        try:
-            with self._file.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(told, ensure_ascii=False) + "\n")
-        except OSError as error:
-            raise UsageError(f"{self._file} can't be written: {error.strerror}") from None
+        return told
 
 
-def read(file: Path) -> list[Event]:
-    """The events that a file holds; a last line that was cut off is left out.
+def read(file: Path) -> tuple[list[Event], list[str]]:
+    """The events that a file holds, and what is wrong with it, line by line.
 
-    Raises:
-        InputError: a line is no event.
+    A last line that was cut off, when the power failed, is left out without a word, and ended, so that
+    what is added begins a line of its own.
     """
-    events = []
-    lines = file.read_text(encoding="utf-8").split("\n")
-    for number, line in enumerate(lines[:-1], start=1):
+    events, faults = [], []
+    *lines, cut = file.read_bytes().split(b"\n")
+    if cut:
+        with file.open("ab") as opened:
+            opened.write(b"\n")
+    for number, line in enumerate(lines, start=1):
         try:
-            event = json.loads(line)
-        except (ValueError, RecursionError):  # no JSON, or nested too deeply
+            event = json.loads(line.decode())
+        except (ValueError, RecursionError):  # no UTF-8, no JSON, or nested too deeply
             event = None
-        if not isinstance(event, dict):
-            raise InputError("expected an event, as JSON", file, number)
-        events.append(event)
-    return events
+        if isinstance(event, dict) and isinstance(event.get("event"), str):
+            events.append(event)
+        else:
+            faults.append(f"{file.name}:{number}: expected an event, as JSON in UTF-8; it is left out")
+    return events, faults
 
 
 def as_csv(events: Iterable[Event]) -> str:
-    """Events as a table: a row each."""
-    rows = [[_cell(event.get(column)) for column in COLUMNS] for event in events]
-    return csv_of(COLUMNS, rows)
+    """Events as a table, a row each, with everything that is in them; lists and objects as JSON."""
+    rows = list(events)
+    columns = list(dict.fromkeys((*_FIRST, *(key for event in rows for key in event))))
+    return csv_of(columns, [[cell(event.get(column)) for column in columns] for event in rows])
 
 
-def _cell(value: Any) -> str:
+def cell(value: Any) -> str:
+    """A value in a table."""
     if value is None:
         return ""
-    if isinstance(value, list):
-        return "; ".join(map(str, value))
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)

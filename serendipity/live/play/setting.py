@@ -1,10 +1,13 @@
 """How a round is played: the task, what its person sees, and what its robots do."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
+import serendipity
+from serendipity.live.play.labels import Labels
 from serendipity.model import Task
+from serendipity.model.keywords import HumanModel
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven
@@ -33,12 +36,34 @@ class Setting:
         goals: goals that robots think possible, as :func:`serendipity.recognise` takes them; None: they
             know the person's.
         deadline: seconds for each decision of the robots, or None.
+        labels: words for its domain.
+        most_epochs: after which it is over, whatever has been reached; None: without end.
     """
 
     name: str
     task: Task
     discount: Fraction
-    view: str = "observant"
+    view: HumanModel = "observant"
     condition: str = "silent"
     goals: "GoalsGiven | None" = None
     deadline: float | None = None
+    labels: Labels = field(default_factory=Labels)
+    most_epochs: int | None = None
+
+    def execution(self) -> serendipity.Execution:
+        """The round at its beginning.
+
+        Robots that announce what they do have a person before them who knows their plan, and count on it; the
+        others take the person for somebody who replans on sight.
+        """
+        run = serendipity.Execution(
+            self.task,
+            discount=self.discount,
+            human_model=self.view,
+            goals=self.goals,
+            deadline=self.deadline,
+            told=self.condition == "announced",
+        )
+        if self.condition == "none":
+            run.drop(self.task.agents[robot] for robot in self.task.robots)
+        return run

@@ -5,15 +5,15 @@ from typing import Any
 
 from serendipity.live.play.eyes import Eyes
 from serendipity.model import Options, Result, Task
-from serendipity.show.formats.svg import svg
-from serendipity.show.map.layout import Layout, lay_out
-from serendipity.show.map.places import Places
-from serendipity.show.picture.map_picture import MARGIN, map_picture
-from serendipity.show.picture.palette import agent_colours, on
-from serendipity.show.picture.tokens import agent_key, initials, object_key
-from serendipity.show.scene.crowds import cell_size
-from serendipity.show.scene.finder import Finder
-from serendipity.show.scene.scene import Frame, Scene
+from serendipity.pictures.formats.svg import svg
+from serendipity.pictures.map.layout import Layout, lay_out
+from serendipity.pictures.map.places import Places
+from serendipity.pictures.picture.map_picture import MARGIN, map_picture
+from serendipity.pictures.picture.palette import agent_colours, on
+from serendipity.pictures.picture.tokens import agent_key, initials, object_key
+from serendipity.pictures.scene.crowds import cell_size
+from serendipity.pictures.scene.finder import Finder
+from serendipity.pictures.scene.scene import Frame, Scene
 
 
 class Stage:

@@ -1,15 +1,24 @@
-"""Where rounds are played: every page shows the same one, and each event is recorded."""
+"""Rounds for whoever opens the page: every page shows the same one, and each event is recorded."""
 
+import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from serendipity.live.play.game import Game
-from serendipity.live.play.records import Event, Records
+from serendipity.live.play.records import Event, Records, as_csv, read
 from serendipity.live.play.setting import Setting
-from serendipity.model import UsageError
+from serendipity.model import InputError, UsageError
 
 Message = Mapping[str, Any]
+
+
+class Download(NamedTuple):
+    """A file that is answered: its text, its media type, and its name where it is to be saved."""
+
+    text: str
+    kind: str
+    name: str | None = None
 
 
 class Table:
@@ -17,18 +26,47 @@ class Table:
 
     Args:
         setting: what is played.
-        file: where every event is written down when it happens; None: nowhere.
+        file: where every event is written down when it happens; None: nowhere.  A round in it that is not
+            over goes on.
+
+    Raises:
+        InputError: the file is of other rounds.
     """
 
     def __init__(self, setting: Setting, file: Path | None = None) -> None:
         self._setting = setting
-        self._records = Records("player", file)
-        self._round = 0
-        self._begin()
+        events, faults = ([], []) if file is None or not file.exists() else read(file)
+        if faults:
+            raise InputError(faults[0].partition(": ")[2], file)
+        self._records = Records("player", file, events)
+        self._round = max((event.get("round", 0) for event in events), default=0)
+        last = next((event for event in reversed(events) if event["event"] == "begun"), None)
+        if last is None or not self._go_on(last, events, file):
+            self._begin()
+
+    # -- the pages
+
+    def room(self, token: str) -> "Table | None":
+        """What a page shows whose address ends in a token: there is one room, without one."""
+        return None if token else self
+
+    def file(self, path: str) -> Download | None:
+        """What there is to be saved."""
+        if path == "export.json":
+            return as_json(self._records.events, "serendipity.json")
+        if path == "export.csv":
+            return Download(as_csv(self._records.events), "text/csv; charset=utf-8", "serendipity.csv")
+        return None
 
     def view(self) -> dict[str, Any]:
         """What pages show."""
-        return {"stage": "play", "round": self._round, "study": None, **self._game.view()}
+        return {
+            "stage": "play",
+            "moment": self._moment,
+            "round": self._round,
+            "study": None,
+            **self._game.view(),
+        }
 
     def do(self, message: Message) -> dict[str, Any] | None:
         """What a page asks for; an answer for it alone, or None where all pages are to be told.
@@ -37,16 +75,20 @@ class Table:
             UsageError: it asks for what there is not.
         """
         what = message.get("do")
+        if what == "hello":
+            return {}
         if what == "act":
-            return play(self._game, self._round, message, self._records)
+            if message.get("moment") != self._moment:
+                return {}  # a double click, or another page was quicker
+            self._records.add("epoch", **self._about(), **self._game.act(message.get("action")))
+            return None
         if what == "again":
             self._records.add("again", round=self._round)
             self._begin()
             return None
         if what == "panel":
-            self._records.add(
-                "panel", round=self._round, epoch=self._game.run.epoch, open=bool(message.get("open"))
-            )
+            about = {"round": self._round, "epoch": self._game.run.epoch}
+            self._records.add("panel", **about, open=bool(message.get("open")))
             return {}
         if what == "explain" and self._game.done:
             return {"kind": "explanation", "sentences": self._game.explanation()}
@@ -56,55 +98,40 @@ class Table:
         """All that has happened."""
         return list(self._records.events)
 
+    @property
+    def _moment(self) -> str:
+        return f"{self._round}.{self._game.run.epoch}"
+
+    def _about(self) -> Event:
+        return {
+            "round": self._round,
+            "scenario": self._setting.name,
+            "condition": self._setting.condition,
+        }
+
     def _begin(self) -> None:
         self._round += 1
         self._game = Game(self._setting)
-        begun(self._game, self._round, self._records)
+        self._records.add("begun", **self._about(), **begun(self._game))
+
+    def _go_on(self, first: Event, events: list[Event], file: Path | None) -> bool:
+        """Play what there is of the last round; whether there is anything left of it."""
+        self._game = Game(self._setting)
+        if any(first.get(key) != value for key, value in {**self._about(), **begun(self._game)}.items()):
+            raise InputError("can't go on with it: it is of another task, or was played otherwise", file)
+        later = events[events.index(first) :]
+        for event in later:
+            if event["event"] == "epoch":
+                self._game.again(event, file)
+        return not self._game.done and all(event["event"] != "again" for event in later)
 
 
-def begun(game: Game, number: int, records: Records) -> None:
-    """Record that a round begins."""
+def begun(game: Game) -> Event:
+    """What is recorded of a round that begins."""
     setting = game.setting
-    records.add(
-        "begun",
-        round=number,
-        scenario=setting.name,
-        condition=setting.condition,
-        view=setting.view,
-        discount=str(setting.discount),
-        alone_cost=game.alone,
-    )
+    return {"view": setting.view, "discount": str(setting.discount), "alone_cost": game.alone}
 
 
-def play(game: Game, number: int, message: Message, records: Records) -> dict[str, Any] | None:
-    """An action of the person, if it is about the epoch that is to come; another page may have been quicker.
-
-    Raises:
-        UsageError: there is no such action.
-    """
-    if message.get("round") != number or message.get("epoch") != game.run.epoch:
-        return {}
-    action = message.get("action")
-    if action is not None and not isinstance(action, str):
-        raise UsageError(f"action: expected a name, got {action!r:.50}")
-    passed = game.act(action)
-    records.add(
-        "epoch",
-        round=number,
-        scenario=game.setting.name,
-        condition=game.setting.condition,
-        epoch=passed.epoch,
-        action=passed.human or "wait",
-        in_vain=passed.in_vain,
-        steps=[f"{'+'.join(step.agents)}: {step.action}" for step in passed.steps],
-        verdict=passed.decided.verdict,
-        reason=passed.decided.reason,
-        goals=dict(passed.decided.goals),
-        offers=[step.action for step in passed.decided.offers],
-        decision_seconds=round(passed.decided.seconds, 4),
-        human_cost=passed.human_cost,
-        team_cost=passed.cost,
-        alone_cost=game.alone,
-        done=passed.done,
-    )
-    return None
+def as_json(value: object, name: str) -> Download:
+    """A value, to be saved as JSON."""
+    return Download(json.dumps(value, ensure_ascii=False, indent=1), "application/json", name)

@@ -11,6 +11,7 @@ from starlette.middleware import Middleware
 
 from serendipity import __version__
 from serendipity.live.guards.access import Access
+from serendipity.live.guards.access_log import Logged
 from serendipity.live.guards.bodies import BodyLimits
 from serendipity.live.guards.headers import Headed
 from serendipity.live.service.calls import call_router
@@ -30,6 +31,7 @@ class ServiceLimits:
         body: bytes of a request.
         body_seconds: until all of them have to be there.
         sessions: how many are remembered.
+        session_bytes: what all of them may take.
         session_seconds: after which an unused one is forgotten.
     """
 
@@ -37,6 +39,7 @@ class ServiceLimits:
     body: int = 4 * 2**20
     body_seconds: float = 20.0
     sessions: int = 1000
+    session_bytes: int = 256 * 2**20
     session_seconds: float = 3600.0
 
 
@@ -49,7 +52,7 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         token: what requests have to bring, or None.
     """
     pool = Pool(limits.pool)
-    sessions = Sessions(limits.sessions, limits.session_seconds)
+    sessions = Sessions(limits.sessions, limits.session_bytes, limits.session_seconds)
     metrics = Metrics(pool, sessions)
 
     @asynccontextmanager
@@ -68,6 +71,7 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         redoc_url=None,
         responses=REFUSALS,
         middleware=[
+            Middleware(Logged),
             Middleware(Counted, metrics=metrics),
             Middleware(Headed, inline=True),
             Middleware(Access, hosts=hosts, token=token),

@@ -1,10 +1,12 @@
 """What is wrong with a request: a status, and the one line that the command line says, too."""
 
+import logging
 from collections.abc import Callable, Coroutine
 from typing import Any, Final
 
 from fastapi import Request, Response
 from fastapi.exceptions import RequestValidationError
+from pydantic_core import PydanticSerializationError
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
@@ -34,14 +36,26 @@ async def _refused(_request: Request, error: Exception) -> Response:
     return JSONResponse({"error": error.detail}, error.status_code, error.headers)
 
 
-async def _malformed(_request: Request, error: Exception) -> Response:
+async def _malformed(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
     first = error.errors()[0]
     if first["type"] == "json_invalid":
         found = first.get("ctx", {}).get("error", "it can't be read")
         return JSONResponse({"error": f"body: expected JSON: {found}"}, 400)
+    if first["loc"] == ("body",) and "json" not in request.headers.get("content-type", ""):
+        return JSONResponse({"error": "body: expected JSON, and 'Content-Type: application/json'"}, 422)
     where = ".".join(str(part) for part in first["loc"][1:]) or "body"
-    return JSONResponse({"error": f"{where}: {_lower(first['msg'])}"}, 422)
+    found = _lower(first["msg"].removeprefix("Value error, "))
+    return JSONResponse({"error": f"{where}: {found}"}, 422)
+
+
+async def _too_deep(_request: Request, _error: Exception) -> Response:
+    return JSONResponse({"error": "body: it is nested too deeply"}, 422)
+
+
+async def _broken(request: Request, error: Exception) -> Response:
+    logging.getLogger(__name__).error("%s failed", request.url.path, exc_info=error)
+    return JSONResponse({"error": "the server failed on this request: please report it"}, 500)
 
 
 async def _gone(_request: Request, _error: Exception) -> Response:
@@ -56,5 +70,8 @@ HANDLERS: Final[dict[Any, Callable[[Request, Exception], Coroutine[Any, Any, Res
     HTTPException: _refused,
     RequestValidationError: _malformed,
     GoneError: _gone,
+    RecursionError: _too_deep,
+    PydanticSerializationError: _too_deep,
+    Exception: _broken,
 }
 """By what is raised."""

@@ -1,11 +1,13 @@
 """What requests have to look like; what their values mean is checked by those who plan."""
 
+import json
 from dataclasses import fields
 from typing import Any, Final
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from serendipity.model.options import CHOICES, Options
+from serendipity.model.keywords import CHOICES
+from serendipity.model.options import Options
 
 _DOMAIN: Final = "text of a PDDL domain"
 _PROBLEM: Final = "text of a PDDL problem"
@@ -22,9 +24,21 @@ def _options_schema() -> dict[str, Any]:
 
 
 class Asked(BaseModel):
-    """A part of a request; what it does not know is an error."""
+    """A part of a request; what it does not know is an error, and so is what is no text."""
 
     model_config = ConfigDict(extra="forbid")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _only_text(cls, given: object) -> object:
+        try:
+            if isinstance(given, dict):
+                json.dumps(given, ensure_ascii=False).encode()
+        except UnicodeEncodeError:
+            raise ValueError("expected text, got half of a surrogate pair") from None
+        except RecursionError:
+            raise ValueError("it is nested too deeply") from None
+        return given
 
 
 class FilePair(Asked):

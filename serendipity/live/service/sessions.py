@@ -7,45 +7,57 @@ from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 from starlette.exceptions import HTTPException
+
+_AROUND: Final = 1024
+"""Bytes of a session besides its texts, at most."""
 
 
 @dataclass(slots=True)
 class Remembered:
-    """One session.
+    """One session; what may be large of it is kept as JSON text.
 
     Attributes:
         name: its id; nobody guesses it.
         begun: the request that began it.
-        state: where it stands, as workers write it; None before the first call.
+        state: where it stands, as workers write it; ``null`` before the first call.
         version: calls so far.
         used: when it was used last.
         busy: whether a call is under way.
     """
 
     name: str
-    begun: dict[str, Any]
+    begun: bytes
     used: float
-    state: dict[str, Any] | None = None
+    state: bytes = b"null"
     version: int = 0
     busy: bool = False
 
     def asked(self, call: str, given: dict[str, Any]) -> bytes:
         """A call as a worker's job."""
-        session = {"id": self.name, "version": self.version, "state": self.state, **self.begun}
-        return json.dumps({"session": session, "call": call, "given": given}).encode()
+        session = b'{"id": "%s", "version": %d, "state": %s, "begun": %s}' % (
+            *(self.name.encode(), self.version),
+            *(self.state, self.begun),
+        )
+        head = json.dumps({"call": call, "given": given}).encode()
+        return b'%s, "session": %s}' % (head[:-1], session)
 
     def move(self, state: bytes) -> None:
         """Take over where a call has left it."""
-        self.state = json.loads(state)
+        self.state = state
         self.version += 1
 
     @property
     def stands(self) -> dict[str, Any]:
         """What callers see of it."""
-        return {"id": self.name, **(self.state or {})}
+        return {"id": self.name, **(json.loads(self.state) or {})}
+
+    @property
+    def size(self) -> int:
+        """The bytes that it takes, and some for what is around them."""
+        return len(self.begun) + len(self.state) + _AROUND
 
 
 class Sessions:
@@ -53,31 +65,54 @@ class Sessions:
 
     Args:
         most: how many there may be.
+        bytes_: how many bytes all of them may take.
         seconds: after which an unused one is forgotten.
     """
 
-    def __init__(self, most: int, seconds: float) -> None:
+    def __init__(self, most: int, bytes_: int, seconds: float) -> None:
         self._most = most
+        self._bytes = bytes_
         self._seconds = seconds
         self._known: OrderedDict[str, Remembered] = OrderedDict()
 
     def __len__(self) -> int:
         return len(self._known)
 
+    @property
+    def size(self) -> int:
+        """The bytes that all of them take."""
+        return sum(session.size for session in self._known.values())
+
     def begin(self, begun: dict[str, Any]) -> Remembered:
         """A session that :meth:`add` makes known.
 
         Raises:
-            HTTPException: there are too many.
+            HTTPException: there are too many, or they take too much memory.
         """
+        session = Remembered(
+            secrets.token_urlsafe(16), json.dumps(begun, ensure_ascii=False).encode(), time.monotonic()
+        )
+        self._require_room(session)
+        return session
+
+    def add(self, session: Remembered) -> None:
+        """Make a session known.
+
+        Raises:
+            HTTPException: meanwhile there are too many, or they take too much memory.
+        """
+        self._require_room(session)
+        self._known[session.name] = session
+
+    def _require_room(self, session: Remembered) -> None:
         self._forget()
         if len(self._known) >= self._most:
             raise HTTPException(429, f"sessions: there are {self._most}, no more are kept: delete one")
-        return Remembered(secrets.token_urlsafe(16), begun, time.monotonic())
-
-    def add(self, session: Remembered) -> None:
-        """Make a session known."""
-        self._known[session.name] = session
+        if self.size + session.size > self._bytes:
+            most = f"{self._bytes / 2**20:g} MiB"
+            raise HTTPException(
+                429, f"sessions: all of them may take {most}, too little for this: delete one"
+            )
 
     def named(self, name: str) -> Remembered:
         """A session.

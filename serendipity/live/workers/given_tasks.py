@@ -15,7 +15,7 @@ from serendipity.model import Deadline, Task, UsageError
 Given = Mapping[str, Any]
 """``example``; or ``domain``, ``problem``, ``human``, ``robots``; or ``agents``, ``team``, ``human``."""
 
-_FOLDER_NAME: Final = re.compile(r"\w[\w.-]*")
+_FOLDER_NAME: Final = re.compile(r"\w[\w.-]{0,59}")
 
 
 class GivenTasks:

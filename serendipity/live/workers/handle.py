@@ -2,10 +2,12 @@
 
 import asyncio
 import os
+import shutil
 import signal
 import sys
 from asyncio.subprocess import PIPE, Process
 from contextlib import suppress
+from tempfile import mkdtemp
 from typing import Final
 
 from serendipity.live.workers.frames import Frame, Incoming
@@ -22,9 +24,10 @@ class Handle:
         resident: bytes that it had in memory at the end of its last job.
     """
 
-    def __init__(self, process: Process) -> None:
+    def __init__(self, process: Process, folder: str) -> None:
         assert process.stdout is not None
         self._process = process
+        self._folder = folder
         self._incoming = Incoming(process.stdout)
         self.working = False
         self.resident = 0
@@ -32,14 +35,15 @@ class Handle:
     @classmethod
     async def start(cls, memory_limit: float) -> "Handle":
         """Start a process: in a session of its own, so that Ctrl-C in a terminal is left to the server."""
+        folder = mkdtemp(prefix="serendipity-worker-")
         process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", "serendipity.live.workers.process", str(memory_limit)),
+            *(sys.executable, "-m", "serendipity.live.workers.process", str(memory_limit), folder),
             stdin=PIPE,
             stdout=PIPE,
             start_new_session=True,
             limit=_HEAD,
         )
-        return cls(process)
+        return cls(process, folder)
 
     @property
     def pid(self) -> int:
@@ -90,8 +94,9 @@ class Handle:
         await self.wait()
 
     async def wait(self) -> None:
-        """Return when it has ended."""
+        """Return when it has ended; what it had in its temporary folder is gone with it."""
         await self._process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
 
     async def _say(self, frame: Frame) -> None:
         assert self._process.stdin is not None

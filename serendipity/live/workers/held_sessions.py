@@ -10,7 +10,7 @@ from serendipity.live.workers.given_tasks import GivenTasks
 from serendipity.model import Deadline, Task
 
 Remembered = Mapping[str, Any]
-"""``id`` and ``version``; ``task`` and ``options`` of the beginning; ``state``, as :meth:`HeldSessions.keep`
+"""``id`` and ``version``; ``begun``, the request that began it; ``state``, as :meth:`HeldSessions.keep`
 has it, or None at the beginning."""
 
 
@@ -36,13 +36,16 @@ class HeldSessions:
         version, held = self._held.pop(remembered["id"], (None, None))
         if held is not None and version == remembered["version"]:
             return held
-        task = self._tasks.task(remembered["task"], deadline)
-        options = remembered["options"]
+        begun = remembered["begun"]
+        task = self._tasks.task(begun["task"], deadline)
+        options = begun["options"]
         options_from(dict(options))
         state = remembered["state"]
         if state is None:
-            return Session(task, human_plan=remembered["human_plan"], **options)
-        return Session(_moved(task, state), human_plan=state["human_plan"], **options)
+            return Session(task, human_plan=begun["human_plan"], **options)
+        session = Session(_moved(task, state), human_plan=state["human_plan"], **options)
+        session._remind(state["known"])
+        return session
 
     def keep(self, remembered: Remembered, session: Session) -> dict[str, Any]:
         """Hold a session as its next version; what has to be remembered of it."""
@@ -53,7 +56,10 @@ class HeldSessions:
 
 
 def stands(session: Session) -> dict[str, Any]:
-    """Where a session stands: the true facts, the human's goal, and what they are going to do, if known."""
+    """Where a session stands: the true facts, the human's goal, and what they are going to do, if known.
+
+    ``known`` is what is left of its answers.
+    """
     task = session.task
     return {
         "facts": [task.facts[fact] for fact in sorted(task.init)],
@@ -62,6 +68,7 @@ def stands(session: Session) -> dict[str, Any]:
             *(f"!{task.facts[fact]}" for fact in task.goal.negative),
         ],
         "human_plan": None if session.human_plan is None else list(session.human_plan),
+        "known": session._remembered(),
     }
 
 

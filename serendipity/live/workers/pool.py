@@ -6,6 +6,7 @@ from contextlib import aclosing, asynccontextmanager
 from dataclasses import dataclass, field
 from typing import Final
 
+from search.kernel.library import library
 from serendipity.live.workers.frames import Frame
 from serendipity.live.workers.handle import Handle
 
@@ -82,6 +83,7 @@ class Pool:
 
     async def start(self) -> None:
         """Start all workers."""
+        library()  # says once if there is none, and not once for each process
         for _ in range(self.limits.workers):
             self._idle.append(await self._started())
 

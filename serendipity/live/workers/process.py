@@ -1,14 +1,16 @@
-"""A worker, ``python -m serendipity.live.workers.process MEMORY_LIMIT``: jobs on stdin, answers on stdout.
+"""A worker, ``python -m serendipity.live.workers.process MIB FOLDER``: jobs on stdin, answers on stdout.
 
-It ends when stdin does, so it never outlives the server.
+It ends when stdin does, so it never outlives the server, and takes its folder for temporary files with it.
 """
 
 import json
 import logging
 import os
 import queue
+import shutil
 import signal
 import sys
+import tempfile
 import threading
 from typing import IO, Final
 
@@ -36,12 +38,14 @@ class Worker:
         source: where jobs come from.
         sink: where answers go to.
         memory_limit: of the process, in MiB.
+        folder: its own, for temporary files: gone when it ends.
     """
 
-    def __init__(self, source: IO[bytes], sink: IO[bytes], memory_limit: float) -> None:
+    def __init__(self, source: IO[bytes], sink: IO[bytes], memory_limit: float, folder: str) -> None:
         self._source = source
         self._sink = sink
         self._memory_limit = memory_limit
+        self._folder = folder
         self._desk = Desk()
         self._jobs: queue.SimpleQueue[tuple[Frame, threading.Event]] = queue.SimpleQueue()
 
@@ -60,7 +64,7 @@ class Worker:
             else:
                 current = threading.Event()
                 self._jobs.put((frame, current))
-        _end()
+        self._end()
 
     def _work(self, job: Frame, cancelled: threading.Event) -> None:
         self._say({"kind": "begun"})
@@ -87,18 +91,18 @@ class Worker:
             self._sink.write(Frame(head, body).encoded)
             self._sink.flush()
         except OSError:
-            _end()
+            self._end()
+
+    def _end(self) -> None:
+        """End this process and the solvers that it has started."""
+        shutil.rmtree(self._folder, ignore_errors=True)
+        if hasattr(os, "killpg") and os.getpgid(0) == os.getpid():
+            os.killpg(0, signal.SIGKILL)
+        os._exit(0)
 
 
 def _failed(status: int, line: str) -> dict[str, object]:
     return {"kind": "error", "status": status, "error": line}
-
-
-def _end() -> None:
-    """End this process and the solvers that it has started."""
-    if hasattr(os, "killpg") and os.getpgid(0) == os.getpid():
-        os.killpg(0, signal.SIGKILL)
-    os._exit(0)
 
 
 def _limit_addresses(memory_limit: float) -> None:
@@ -115,11 +119,13 @@ def _limit_addresses(memory_limit: float) -> None:
 
 def main() -> None:
     """Run a worker on the standard streams; what a library prints goes to stderr."""
-    memory_limit = float(sys.argv[1])
+    memory_limit, folder = float(sys.argv[1]), sys.argv[2]
+    tempfile.tempdir = os.environ["TMPDIR"] = folder  # also for the solvers that it starts
+    logging.getLogger("search.kernel").setLevel(logging.ERROR)  # the pool says once if there is none
     _limit_addresses(memory_limit)
     sink = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
-    Worker(sys.stdin.buffer, sink, memory_limit).run()
+    Worker(sys.stdin.buffer, sink, memory_limit, folder).run()
 
 
 if __name__ == "__main__":

@@ -22,7 +22,10 @@ const theMap = (() => {
     rect.dataset.place = choice.place;
     rect.addEventListener("click", () => act(choice.action));
     rect.addEventListener("keydown", (event) => {
-      if (event.key === "Enter") act(choice.action);
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      event.stopPropagation(); // elsewhere on the page a blank waits
+      if (!event.repeat) act(choice.action);
     });
     return rect;
   }
@@ -68,7 +71,7 @@ const theMap = (() => {
     scroller.innerHTML = map.svg;
     const svg = scroller.firstElementChild;
     const small = map.width <= 1200;
-    svg.style.setProperty("--least", `${Math.round(map.width * (small ? 0.46 : 0.65))}px`);
+    svg.style.setProperty("--least", `${Math.round(map.width * (small ? 0.6 : 0.65))}px`);
     svg.style.setProperty("--most", `${Math.round(map.width * 1.35)}px`);
     svg.removeAttribute("width");
     svg.removeAttribute("height");
@@ -83,7 +86,11 @@ const theMap = (() => {
     if (numbers) moved.setAttribute("transform", `translate(${-numbers[1]} ${-numbers[2]})`);
     below(moved);
     if (map.seen) for (const place of Object.keys(map.places)) if (!map.seen.includes(place)) moved.append(box(map, place, "unseen", 2));
-    if (map.here) moved.append(box(map, map.here, "here", 4));
+    if (map.here) {
+      const here = box(map, map.here, "here", 4);
+      here.dataset.place = map.here;
+      moved.append(here);
+    }
     for (const key of map.remembered) {
       const token = svg.querySelector(`[data-token="${key}"]`);
       if (token) token.classList.add("remembered");
@@ -93,7 +100,20 @@ const theMap = (() => {
     svg.append(top);
     glide(before);
     keepInSight(map);
+    tellSize();
   }
+
+  function tellSize() {
+    const goesOn = scroller.scrollWidth > scroller.clientWidth + 4 || scroller.scrollHeight > scroller.clientHeight + 4;
+    document.getElementById("map-size").hidden = !drawn || !(goesOn || scroller.classList.contains("whole"));
+  }
+
+  document.getElementById("map-whole").addEventListener("click", (event) => {
+    const whole = scroller.classList.toggle("whole");
+    event.currentTarget.setAttribute("aria-pressed", whole);
+    if (!whole) keepInSight(drawn);
+  });
+  addEventListener("resize", tellSize);
 
   // The reachable place that lies in a direction, if one does.
   function towards(dx, dy, choices) {

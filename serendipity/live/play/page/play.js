@@ -9,15 +9,24 @@
   };
   const money = (value) => String(Math.round(value * 1000) / 1000);
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+  const token = location.pathname.startsWith("/s/") ? location.pathname.slice(2) : "";
+  const settling = 250; // milliseconds in which a click was meant for what stood there before
   let socket = null;
   let view = null; // what the server said last
   let shown = ""; // stage and round of that
+  let since = 0; // when that was shown
+  let settled = 0;
+
+  const page = () => ({ browser: navigator.userAgent, language: navigator.language, screen: `${screen.width}x${screen.height}`, window: `${innerWidth}x${innerHeight}` });
 
   // -- talking to the server
 
   function connect() {
-    socket = new WebSocket(`ws://${location.host}/live`);
-    socket.addEventListener("open", () => (id("lost").hidden = true));
+    socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live${token}`);
+    socket.addEventListener("open", () => {
+      id("lost").hidden = true;
+      say({ do: "hello", page: page() });
+    });
     socket.addEventListener("message", (event) => hear(JSON.parse(event.data)));
     socket.addEventListener("close", () => {
       id("lost").hidden = false;
@@ -30,38 +39,70 @@
     if (socket && socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
   }
 
+  // What is chosen is about the moment that is shown: a click that comes late, or twice, does nothing.
+  function answer(message) {
+    if (view) say({ moment: view.moment, took: Math.round(performance.now() - since), ...message });
+  }
+
   function hear(message) {
     id("refused").hidden = message.kind !== "refused";
     if (message.kind === "refused") id("refused").textContent = message.error;
     if (message.kind === "explanation") explain(message.sentences);
+    if (message.kind === "go") location.assign(message.to);
     if (message.kind === "view") show(message);
   }
 
   function act(action) {
-    if (view && view.stage === "play" && !view.done) say({ do: "act", round: view.round, epoch: view.epoch, action });
+    if (view && view.stage === "play" && !view.done) answer({ do: "act", action });
   }
 
   // -- showing what it says
 
   function show(next) {
     const fresh = shown !== `${next.stage} ${next.round}`;
+    const back = view !== null && !next.study && (next.round < view.round || (next.round === view.round && next.epoch < view.epoch));
+    if (view === null || view.moment !== next.moment) {
+      since = performance.now();
+      document.body.classList.add("settling");
+      clearTimeout(settled);
+      settled = setTimeout(() => document.body.classList.remove("settling"), settling);
+    }
+    id("anew").hidden = !back;
     view = next;
     shown = `${next.stage} ${next.round}`;
-    for (const stage of ["consent", "play", "questions", "end"]) id(stage).hidden = stage !== next.stage;
+    for (const stage of ["consent", "instructions", "play", "questions", "end", "withdrawn"]) id(stage).hidden = stage !== (next.stage === "closing" ? "questions" : next.stage);
     id("keys").hidden = next.stage !== "play";
-    const study = next.study;
-    id("exports").hidden = Boolean(study) && next.stage !== "end";
-    id("participant").hidden = !study;
-    if (study) id("participant").textContent = study.participant + (next.stage === "play" ? `, round ${next.round} of ${study.rounds}` : "");
-    id("scenario").textContent = next.scenario && !study ? next.scenario : "";
+    id("exports").hidden = Boolean(next.study);
+    id("scenario").textContent = next.scenario && !next.study ? next.scenario : "";
+    if (next.study) theStudy.show(next, fresh);
     if (next.stage === "play") showPlay(fresh);
-    if (next.stage === "consent" && fresh) showConsent();
-    if (next.stage === "questions" && fresh) showQuestions();
-    if (next.stage === "end") id("number").textContent = study.participant;
     if (fresh) scrollTo({ top: 0 });
   }
 
+  // Whoever uses the keyboard stays where they are, although the choices are new.
+  function keepingFocus(change) {
+    const focused = document.activeElement;
+    const place = focused && focused.closest && focused.closest("#can, #map-scroller");
+    const at = place && place.id === "can" ? [...id("can").querySelectorAll("button")].indexOf(focused) : -1;
+    change();
+    if (!place || view.done) return;
+    const offered = [...id("can").querySelectorAll("button")];
+    const wanted = at < 0 ? id("map-scroller").querySelector(".reach") : offered[Math.min(at, offered.length - 1)];
+    (wanted || offered[0]).focus({ preventScroll: true });
+  }
+
+  // What has happened, for those who hear the page.
+  function tell(fresh) {
+    const last = view.log[0];
+    id("told").textContent = fresh || !last ? "" : [`Epoch ${view.epoch}.`, `You: ${last.you}.`, ...last.others.map((text) => `${text}.`)].join(" ");
+  }
+
   function showPlay(fresh) {
+    keepingFocus(() => showRound(fresh));
+    tell(fresh);
+  }
+
+  function showRound(fresh) {
     id("goal").replaceChildren(...view.goal.map((part) => {
       const item = make("li", part.text, part.holds ? "holds" : "");
       if (part.holds) item.append(make("span", " (done)", "hidden"));
@@ -134,9 +175,13 @@
   }
 
   function showCosts() {
+    if (view.study) {
+      id("bars").replaceChildren(bar("you", "you", view.paid, Math.max(20, view.paid)));
+      return;
+    }
     const most = Math.max(view.alone, view.paid, view.team);
     const rows = [bar("you", "you", view.paid, most), bar("you alone", "alone", view.alone, most)];
-    const team = view.condition !== null && view.team !== view.paid && (view.done || view.sight === "everywhere");
+    const team = view.team !== view.paid && (view.done || view.sight === "everywhere");
     if (team) rows.splice(1, 0, bar("with robots", "team", view.team, most));
     const off = Math.round(view.discount * 100);
     rows.push(make("p", "“You alone” is what the whole way costs without any help." +
@@ -201,38 +246,38 @@
 
   function showEnd() {
     const end = view.end;
+    id("again").hidden = id("ask-why").hidden = Boolean(view.study);
+    id("go-on").hidden = !view.study;
+    id("finish-costs").replaceChildren();
+    id("finish-help").replaceChildren();
+    if (view.study) theStudy.showRound(view);
+    else showOutcome(end);
+    id("finish").focus({ preventScroll: false });
+  }
+
+  function showOutcome(end) {
     id("finish-title").textContent = end.spared > 0 && end.helped ? "You made it, with a little help" : "You made it";
     id("finish-text").textContent = `${end.epochs} epochs. ` + (end.spared > 0
       ? `You paid ${money(end.paid)} instead of ${money(end.alone)}.`
       : end.spared === 0 ? `You paid ${money(end.paid)}, as much as the best way alone.` : `You paid ${money(end.paid)}; the best way alone costs ${money(end.alone)}.`);
     const rows = [["you", end.paid], ["you and the robots", end.team], ["you alone, at best", end.alone]];
-    const table = rows.slice(0, view.study ? 1 : 3).map(([name, value]) => {
+    const table = rows.map(([name, value]) => {
       const row = make("tr");
       row.append(make("th", name), make("td", money(value)));
       return row;
     });
-    if (!view.study) {
-      const total = make("tr", undefined, "total");
-      total.append(make("th", end.saved >= 0 ? "saved in all" : "paid more in all"), make("td", money(Math.abs(end.saved))));
-      table.push(total);
-    }
-    id("finish-costs").replaceChildren(...table);
-    id("finish-help").replaceChildren();
-    if (!view.study) {
-      id("finish-help").append(make("p", end.help.length ? "What the robots did:" : "The robots did nothing."));
-      const list = make("ul");
-      for (const step of end.help) list.append(make("li", `epoch ${step.epoch}: ${step.text}`));
-      id("finish-help").append(list);
-      const more = make("details");
-      more.append(make("summary", "What they thought, epoch by epoch"));
-      const thoughts = make("ol");
-      for (const reason of end.reasons) thoughts.append(make("li", reason.text));
-      more.append(thoughts);
-      id("finish-help").append(more);
-    }
-    id("again").hidden = id("ask-why").hidden = Boolean(view.study);
-    id("go-on").hidden = !view.study;
-    id("finish").focus({ preventScroll: false });
+    const total = make("tr", undefined, "total");
+    total.append(make("th", end.saved >= 0 ? "saved in all" : "paid more in all"), make("td", money(Math.abs(end.saved))));
+    id("finish-costs").append(...table, total);
+    id("finish-help").append(make("p", end.help.length ? "What the robots did:" : "The robots did nothing."));
+    const list = make("ul");
+    for (const step of end.help) list.append(make("li", `epoch ${step.epoch}: ${step.text}`));
+    const more = make("details");
+    more.append(make("summary", "What they thought, epoch by epoch"));
+    const thoughts = make("ol");
+    for (const reason of end.reasons) thoughts.append(make("li", reason.text));
+    more.append(thoughts);
+    id("finish-help").append(list, more);
   }
 
   function explain(sentences) {
@@ -242,42 +287,9 @@
     id("why").replaceChildren(head, ...sentences.map((sentence) => make("p", sentence.text)));
   }
 
-  // -- a study
-
-  function showConsent() {
-    id("consent-text").replaceChildren(...view.study.consent.map((text) => make("p", text)));
-    id("agree").checked = false;
-    id("start").disabled = true;
-  }
-
-  function showQuestions() {
-    id("asked").replaceChildren(...view.study.questions.map((question, number) => {
-      const field = make("fieldset");
-      const scale = make("div", undefined, "scale");
-      for (let value = 1; value <= 7; value += 1) {
-        const label = make("label", String(value));
-        const input = make("input");
-        Object.assign(input, { type: "radio", name: `q${number}`, value, required: true });
-        label.prepend(input);
-        scale.append(label);
-      }
-      field.append(make("legend", question), scale);
-      return field;
-    }));
-    id("comment").value = "";
-  }
-
-  id("agree").addEventListener("change", () => (id("start").disabled = !id("agree").checked));
-  id("start").addEventListener("click", () => say({ do: "go on", agree: id("agree").checked }));
-  id("go-on").addEventListener("click", () => say({ do: "go on" }));
-  id("next").addEventListener("click", () => say({ do: "go on" }));
-  id("form").addEventListener("submit", (event) => {
-    event.preventDefault();
-    const answers = view.study.questions.map((_, number) => Number(new FormData(id("form")).get(`q${number}`)));
-    say({ do: "go on", round: view.round, answers, comment: id("comment").value });
-  });
-
   // -- the rest of the page
+
+  const theStudy = makeStudy({ id, make, money, say, answer, page });
 
   id("again").addEventListener("click", () => say({ do: "again" }));
   id("ask-why").addEventListener("click", () => {

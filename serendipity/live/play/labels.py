@@ -1,0 +1,144 @@
+"""What people read instead of PDDL: sentences for a domain's actions and goals, nouns for its things."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from string import Formatter
+from typing import Final
+
+from pydantic import BaseModel, ConfigDict
+
+from serendipity.live.play.settings_file import read_settings
+from serendipity.model import InputError, Task
+from serendipity.pictures.map.names import parts
+from serendipity.scenarios.examples import DATA
+
+_FILE: Final = "labels.toml"
+
+Parsed = tuple[str, tuple[str, ...]]
+"""The name of a schema, and its arguments."""
+
+
+class _File(BaseModel):
+    """What a file of labels may hold."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    about: list[str] = []
+    things: dict[str, str] = {}
+    actions: dict[str, str | list[str]] = {}
+    goals: dict[str, str] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Labels:
+    """Words for a domain.
+
+    Attributes:
+        about: paragraphs on what one does there.
+        things: a phrase for a thing or robot, by its name, or by what stands before the number in it;
+            ``{}`` is the name.
+        actions: what each who takes part does, in the order of the arguments; ``{0}`` is the first of these.
+        goals: what to do for a fact to hold, likewise.
+    """
+
+    about: tuple[str, ...] = ()
+    things: Mapping[str, str] = field(default_factory=dict)
+    actions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    goals: Mapping[str, str] = field(default_factory=dict)
+
+    def thing(self, name: str) -> str:
+        """A thing or a robot."""
+        return self.things.get(name, self.things.get(name.rstrip("0123456789"), "{}")).replace("{}", name)
+
+    def action(self, name: str) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+        """The sentences of an action, and its arguments; None without a label."""
+        schema, arguments = _parsed(name, self.actions)
+        return None if schema not in self.actions else (self.actions[schema], arguments)
+
+    def goal(self, fact: str) -> tuple[str, tuple[str, ...]] | None:
+        """The sentence of a fact that is wanted, and its arguments; None without a label."""
+        schema, arguments = _parsed(fact, self.goals)
+        return None if schema not in self.goals else (self.goals[schema], arguments)
+
+    def complete(self, task: Task) -> bool:
+        """Whether everything that can be done or is wanted in a task has its sentence."""
+        wanted = (*task.goal.positive, *task.goal.negative)
+        told = {schema for schema, _ in _schemas(task, self.actions)} <= self.actions.keys()
+        return told and all(self.goal(task.facts[fact]) for fact in wanted) and self.fault(task) is None
+
+    def fault(self, task: Task) -> str | None:
+        """The first sentence that asks for an argument that there is not."""
+        named = [(self.actions.get(s, ()), a, f"actions.{s}") for s, a in _schemas(task, self.actions)]
+        for fact in (*task.goal.positive, *task.goal.negative):
+            schema, arguments = _parsed(task.facts[fact], self.goals)
+            named.append(((self.goals.get(schema, ""),), arguments, f"goals.{schema}"))
+        for sentences, arguments, where in named:
+            most = max((number for s in sentences for number in _numbers(s)), default=-1)
+            if most >= len(arguments):
+                return f"{where}: there is no {{{most}}}, only {len(arguments)} arguments"
+        return None
+
+
+def labels_for(task: Task, file: Path | None = None) -> Labels:
+    """The labels of a file, or else those that are shipped for the task's domain, if any are.
+
+    Raises:
+        InputError: the file is wrong; it says where.
+    """
+    if file is not None:
+        labels = read_labels(file)
+        if fault := labels.fault(task):
+            raise InputError(fault, file)
+        return labels
+    shipped = (read_labels(file) for file in sorted(DATA.glob(f"*/{_FILE}")))
+    return next((labels for labels in shipped if labels.complete(task)), Labels())
+
+
+def read_labels(file: Path) -> Labels:
+    """The labels of a file.
+
+    Raises:
+        InputError: it can't be read, or has something else in it; it says where.
+    """
+    held = read_settings(file, _File)
+    actions = {name: (s,) if isinstance(s, str) else tuple(s) for name, s in held.actions.items()}
+    sentences = {f"actions.{name}": told for name, told in actions.items()}
+    sentences |= {f"goals.{name}": (told,) for name, told in held.goals.items()}
+    for where, told in sentences.items():
+        if not told:
+            raise InputError(f"{where}: expected a sentence", file)
+        for sentence in told:
+            try:
+                list(_numbers(sentence))
+            except ValueError:
+                raise InputError(f"{where}: expected {{0}}, {{1}} ... only, got '{sentence}'", file) from None
+    return Labels(tuple(held.about), held.things, actions, held.goals)
+
+
+def _numbers(sentence: str) -> Iterator[int]:
+    for _, name, form, conversion in Formatter().parse(sentence):
+        if name is not None:
+            if form or conversion or not name.isdecimal():
+                raise ValueError(name)
+            yield int(name)
+
+
+def _parsed(name: str, known: Mapping[str, object]) -> Parsed:
+    """The schema of a name, and what comes behind it; in ground files ``_`` stands between all of it."""
+    words = tuple(name.split())
+    if len(words) > 1 or words[0] in known:
+        return words[0], words[1:]
+    split = parts(name)
+    fitting = [schema for schema in known if split[: len(parts(schema))] == parts(schema)]
+    schema = max(fitting, key=len, default=split[0])
+    return schema, split[len(parts(schema)) :]
+
+
+def _schemas(task: Task, known: Mapping[str, object]) -> set[Parsed]:
+    """One action of each schema and number of arguments."""
+    found = {}
+    for action in task.actions:
+        schema, arguments = _parsed(action.name, known)
+        found[schema, len(arguments)] = arguments
+    return {(schema, arguments) for (schema, _), arguments in found.items()}

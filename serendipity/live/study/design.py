@@ -1,0 +1,207 @@
+"""What a study is, once and for all: kept in its folder, so that it goes on the same after a pause."""
+
+import hashlib
+import json
+import secrets
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Final
+
+import serendipity
+from serendipity.live.play.labels import labels_for
+from serendipity.live.play.opening import made
+from serendipity.live.play.setting import Setting
+from serendipity.live.play.settings_file import read_settings
+from serendipity.live.study.drawing import draw, numbered, practice
+from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse, report, to_dict
+from serendipity.live.study.texts import OwnScenario, StudyFile
+from serendipity.model import InputError, SerendipityError, UsageError
+from serendipity.model.schemas import schema_fault
+
+_SCHEMA: Final = "serendipity.study/1"
+_TEXTS: Final = "study.toml"
+_KEPT: Final = "study.json"
+_FORMER: Final = ("consent.txt", "questions.txt")
+_USUAL: Final = {"rounds": 4, "discount": "3/5", "view": "observant", "deadline": 2.0}
+
+
+@dataclass(frozen=True, slots=True)
+class Design:
+    """A study before anybody takes part.
+
+    Attributes:
+        texts: what participants read and are asked, and the conditions.
+        scenarios: by name.
+        practice: the round to practise with, or None.
+        seed: of all draws.
+        secret: whoever has it may see and save everything.
+        code: what participants get at the end.
+        mark: the hash of all this, but for the secret; it stands in each record.
+        report: the rehearsals in words.
+    """
+
+    texts: StudyFile
+    scenarios: Mapping[str, Setting]
+    practice: Setting | None
+    seed: int
+    secret: str
+    code: str
+    mark: str
+    report: str
+
+    def setting(self, scenario: str, condition: str) -> Setting:
+        """A round of somebody's."""
+        return replace(self.scenarios[scenario], condition=condition)
+
+    def instructions(self) -> list[str]:
+        """What there is to know before the first round."""
+        rounds = [*self.scenarios.values(), *([] if self.practice is None else [self.practice])]
+        about = dict.fromkeys(text for setting in rounds for text in setting.labels.about)
+        first = "First comes a round for practice, in which the robot stands still."
+        return [*about, *self.texts.instructions, *([] if self.practice is None else [first])]
+
+
+def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Design:
+    """The study of a folder: as it was begun, or a new one, with scenarios that are drawn and rehearsed.
+
+    Args:
+        folder: made where it is missing.
+        labels: words for scenarios of the study's own.
+        **given: ``rounds``, ``seed``, ``discount``, ``view``, ``deadline``; None: as begun, or as usual.
+
+    Raises:
+        UsageError: the folder can't be made, or the study was begun otherwise, or conditions don't differ.
+        InputError: a file of the folder is wrong.
+    """
+    made(folder, "--study")
+    former = next((name for name in _FORMER if (folder / name).exists()), None)
+    if former is not None:
+        raise InputError(f"is not read any more: its text stands in {_TEXTS} now", folder / former)
+    file = folder / _TEXTS
+    texts = read_settings(file, StudyFile) if file.exists() else StudyFile.model_validate({})
+    if texts.scenarios and given.get("rounds") not in (None, len(texts.scenarios)):
+        raise UsageError(f"--rounds: {file} has {len(texts.scenarios)} scenarios of its own")
+    kept = _read(folder / _KEPT)
+    if kept is None:
+        kept = _begin(folder, texts, labels, given)
+        _write(folder / _KEPT, kept)
+    for name, value in given.items():
+        if value is not None and value != kept["settings"][name]:
+            begun = kept["settings"][name]
+            raise UsageError(f"--{name}: the study in {folder} was begun with {begun}; take another folder")
+    if kept["texts"] != texts.model_dump():
+        raise InputError(f"is not what the study was begun with ({_KEPT}): take another folder", file)
+    return _design(folder, texts, labels, kept)
+
+
+def _begin(folder: Path, texts: StudyFile, labels: Path | None, given: Mapping[str, Any]) -> dict[str, Any]:
+    settings = {**_USUAL, **{name: value for name, value in given.items() if value is not None}}
+    if texts.scenarios:
+        settings["rounds"] = len(texts.scenarios)
+    settings.setdefault("seed", secrets.randbelow(10**9))
+    how, played = _how(texts, settings), {}
+    for own in texts.scenarios:
+        setting = _own(own, folder, labels, how)
+        played[own.name] = _shown(setting, texts.conditions)
+    if not texts.scenarios:
+        drawn = draw(settings["rounds"], settings["seed"], texts.conditions, **how)
+        played = {setting.name: rehearsal for setting, rehearsal in drawn}
+    return {
+        "schema": _SCHEMA,
+        "version": serendipity.__version__,
+        "settings": settings,
+        "texts": texts.model_dump(),
+        "scenarios": {name: to_dict(rehearsal) for name, rehearsal in played.items()},
+        "practice": practice(settings["seed"]) if texts.practice and not texts.scenarios else None,
+        "report": report(played, texts.conditions),
+        "completion_code": texts.completion_code or secrets.token_hex(4).upper(),
+        "secret": secrets.token_urlsafe(16),
+    }
+
+
+def _shown(setting: Setting, conditions: list[str]) -> Rehearsal:
+    played = rehearse(setting, conditions)
+    wrong = fault(played, conditions)
+    if wrong is not None:
+        raise UsageError(f"scenario {setting.name}: {wrong} when somebody plays it who plays well")
+    return played
+
+
+def _how(texts: StudyFile, settings: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        "discount": Fraction(settings["discount"]),
+        "view": settings["view"],
+        "deadline": settings["deadline"],
+        "most_epochs": texts.most_epochs,
+    }
+
+
+def _own(own: OwnScenario, folder: Path, labels: Path | None, how: Mapping[str, Any]) -> Setting:
+    where = f"scenario {own.name}"
+    try:
+        if (own.example is None) == (not own.files):
+            raise UsageError("expected an example, or files")
+        if own.example is not None:
+            task = serendipity.example(own.example)
+        else:
+            task = _loaded([folder / file for file in own.files], own)
+        return Setting(own.name, task, labels=labels_for(task, labels), **how)
+    except SerendipityError as error:
+        raise InputError(f"{where}: {error}", folder / _TEXTS) from None
+
+
+def _loaded(files: list[Path], own: OwnScenario) -> serendipity.Task:
+    if len(files) == 1:
+        return serendipity.load(files[0], human=own.human)
+    if len(files) == 2 and own.human is not None:
+        return serendipity.load_pddl(files[0], files[1], own.human, own.robots)
+    raise UsageError("files: expected a folder, or a domain and a problem with their human")
+
+
+def _design(folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[str, Any]) -> Design:
+    how = _how(texts, kept["settings"])
+    own = {scenario.name: scenario for scenario in texts.scenarios}
+    scenarios = {
+        name: _own(own[name], folder, labels, how) if name in own else numbered(_number(name), **how)
+        for name in kept["scenarios"]
+    }
+    trial = None if kept["practice"] is None else numbered(kept["practice"], **how)
+    same = {key: value for key, value in kept.items() if key != "secret"}
+    mark = hashlib.sha256(json.dumps(same, sort_keys=True).encode()).hexdigest()[:16]
+    return Design(
+        texts,
+        scenarios,
+        None if trial is None else replace(trial, name="practice", condition="none"),
+        kept["settings"]["seed"],
+        kept["secret"],
+        kept["completion_code"],
+        mark,
+        kept["report"],
+    )
+
+
+def _number(name: str) -> int:
+    return int(name.rpartition("-")[2])
+
+
+def _read(file: Path) -> dict[str, Any] | None:
+    if not file.exists():
+        return None
+    try:
+        kept = json.loads(file.read_bytes())
+    except (ValueError, RecursionError):
+        raise InputError("expected JSON, as a study has written it", file) from None
+    if fault := schema_fault(kept.get("schema") if isinstance(kept, dict) else None, _SCHEMA):
+        raise InputError(fault, file)
+    assert isinstance(kept, dict)
+    return kept
+
+
+def _write(file: Path, kept: Mapping[str, Any]) -> None:
+    try:
+        file.write_text(json.dumps(kept, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+        file.chmod(0o600)  # the secret is in it
+    except OSError as error:
+        raise UsageError(f"--study: {file} can't be written: {(error.strerror or '').lower()}") from None

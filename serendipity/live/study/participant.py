@@ -1,0 +1,248 @@
+"""One participant: where they are in the study follows from their record, so it outlives the server."""
+
+from collections.abc import Mapping
+from time import perf_counter
+from typing import Any, Final
+
+import serendipity
+from serendipity.live.play.game import Game
+from serendipity.live.play.records import Event, Records
+from serendipity.live.play.table import begun
+from serendipity.live.study.design import Design
+from serendipity.live.study.texts import Question
+from serendipity.model import InputError, UsageError
+
+_SHOWN: Final = (
+    "sight",
+    "human",
+    "goal",
+    "epoch",
+    "map",
+    "legend",
+    "facts",
+    "can",
+    "paid",
+    "log",
+    "said",
+    "done",
+)
+"""What of a round a participant's page is told: nothing of what robots think, or are worth."""
+
+_OVER: Final = ("end", "withdrawn")
+
+
+class Participant:
+    """Somebody who takes part.
+
+    Args:
+        design: of the study.
+        records: theirs, which begin with how they joined.
+
+    Attributes:
+        joined: the first event.
+        stage: ``instructions``, ``play``, ``questions``, ``closing``, ``end`` or ``withdrawn``.
+        round: 0 is for practice.
+
+    Raises:
+        InputError: the record is no participant's.
+    """
+
+    def __init__(self, design: Design, records: Records) -> None:
+        self._design = design
+        self._records = records
+        self.stage, self.round = "instructions", 0
+        self._epochs: list[Event] = []
+        self._game: Game | None = None
+        self._left: str | None = None
+        self._since = perf_counter()
+        self.joined: Event = {}
+        try:
+            for event in records.events:
+                self._happened(event)
+            known = self._design.scenarios.keys() >= set(self.joined["order"])
+            if not known or not all(isinstance(self.joined[key], str) for key in ("token", "condition")):
+                raise InputError("it is of another study")
+        except (KeyError, TypeError, InputError) as error:
+            raise InputError(f"can't be gone on with: {error}") from None
+        self._go_on()
+
+    # -- what pages show
+
+    @property
+    def name(self) -> str:
+        """Their number."""
+        return str(self.joined["participant"])
+
+    @property
+    def over(self) -> bool:
+        """Whether they have come to the end, or withdrawn."""
+        return self.stage in _OVER
+
+    @property
+    def last(self) -> str:
+        """When anything was heard of them."""
+        return str(self._records.events[-1]["time"])
+
+    def events(self) -> list[Event]:
+        """All that has happened."""
+        return list(self._records.events)
+
+    def view(self) -> dict[str, Any]:
+        """What their pages show."""
+        study: dict[str, Any] = {"participant": self.name, "rounds": len(self.joined["order"])}
+        shown = {"stage": self.stage, "moment": self._moment, "round": self.round, "study": study}
+        if self.stage == "instructions":
+            study["text"] = self._design.instructions()
+        elif self.stage == "play":
+            game = self._playing()
+            view = game.view()
+            shown |= {key: view[key] for key in _SHOWN} | {"end": self._end(game) if game.done else None}
+        elif self.stage in ("questions", "closing"):
+            study["questions"] = [question.model_dump() for question in self._questions()]
+        elif self.stage == "end":
+            study["code"] = self._design.code
+        return shown
+
+    def _end(self, game: Game) -> dict[str, Any]:
+        run = game.run
+        told = {"paid": float(run.human_cost), "epochs": len(run.passed), "reached": run.done}
+        return told if self.round else {**told, "alone": game.alone}
+
+    # -- what pages do
+
+    def do(self, message: Mapping[str, Any]) -> dict[str, Any] | None:
+        """What a page asks for; an answer for it alone, or None where all of theirs are to be told.
+
+        Raises:
+            UsageError: it asks for what there is not.
+        """
+        what = message.get("do")
+        if what == "hello":
+            self._add("opened", version=serendipity.__version__, **page_facts(message))
+            return {}
+        if message.get("moment") != self._moment:
+            return {}  # a double click, a message that is sent again, or another page was quicker
+        took = _took(message.get("took"))
+        if what == "withdraw" and not self.over:
+            self._add("withdrawn", stage=self.stage, round=self.round)
+        elif what == "act" and self.stage == "play":
+            action = self._playing().act(message.get("action"))
+            self._add("epoch", **self._about(), **took, **self._seconds(), **action)
+        elif what == "go on" and self.stage == "instructions":
+            self._add("instructed", **took, **self._seconds(), text=self._design.instructions())
+        elif what == "go on" and self.stage == "play" and self._playing().done:
+            self._add("round over", **self._about(), **took, **self._playing().robots())
+        elif what == "answer" and self.stage in ("questions", "closing"):
+            self._answer(message, took)
+        else:
+            raise UsageError(f"expected something else at this point of the study, got {what!r:.50}")
+        self._go_on()
+        return None
+
+    def _answer(self, message: Mapping[str, Any], took: Event) -> None:
+        asked, answers, times = self._questions(), message.get("answers"), message.get("times")
+        if not isinstance(answers, list) or len(answers) != len(asked):
+            raise UsageError(f"answers: expected {len(asked)}")
+        if not isinstance(times, list) or len(times) != len(asked):
+            times = [None] * len(asked)
+        for question, answer in zip(asked, answers, strict=True):
+            if wrong := question.fault(answer):
+                raise UsageError(f"answers: {wrong}, got {answer!r:.50}")
+        told = [
+            {"question": question.text, "answer": answer, **_took(time)}
+            for question, answer, time in zip(asked, answers, times, strict=True)
+        ]
+        about = self._about() if self.stage == "questions" else {"condition": self.joined["condition"]}
+        self._add("answers", **about, about=self.stage, **took, **self._seconds(), answers=told)
+
+    # -- from one point to the next
+
+    @property
+    def _moment(self) -> str:
+        return f"{self.stage}.{self.round}.{len(self._epochs)}"
+
+    def _happened(self, event: Event) -> None:
+        """Move on by what is recorded."""
+        what = event["event"]
+        if what == "opened":
+            return
+        self._since = perf_counter()
+        self._left = what if what in ("instructed", "round over", "answers") else None
+        if what == "joined":
+            self.joined = event
+        elif what == "begun":
+            self.stage, self.round, self._epochs = "play", event["round"], []
+        elif what == "epoch":
+            self._epochs.append(event)
+        elif what == "asked":
+            self.stage = event["about"]
+        elif what in _OVER:
+            self.stage, self._game = what, None
+
+    def _go_on(self) -> None:
+        """Begin what comes next, where something has come to its end."""
+        left, asks = self._left, self._design.texts
+        if left is None:
+            return
+        if left == "instructed":
+            self._begin(0 if self._design.practice is not None else 1)
+        elif left == "round over" and self.round and asks.questions:
+            self._add("asked", **self._about(), about="questions")
+        elif self.stage != "closing" and self.round < len(self.joined["order"]):
+            self._begin(self.round + 1)
+        elif self.stage != "closing" and asks.closing:
+            self._add("asked", condition=self.joined["condition"], about="closing")
+        else:
+            self._add("end", condition=self.joined["condition"], code=self._design.code)
+
+    def _begin(self, number: int) -> None:
+        self.round, self._game = number, None
+        self._epochs = []
+        self._add("begun", **self._about(), **begun(self._playing()))
+
+    def _playing(self) -> Game:
+        """The round, as far as it is recorded."""
+        if self._game is None:
+            trial, name = self._design.practice, self._about()["scenario"]
+            if self.round == 0 and trial is not None:
+                self._game = Game(trial)
+            else:
+                self._game = Game(self._design.setting(name, self.joined["condition"]))
+            for event in self._epochs:
+                self._game.again(event)
+        return self._game
+
+    def _questions(self) -> list[Question]:
+        return self._design.texts.questions if self.stage == "questions" else self._design.texts.closing
+
+    def _about(self) -> Event:
+        name = self.joined["order"][self.round - 1] if self.round else "practice"
+        condition = self.joined["condition"] if self.round else "none"
+        return {"round": self.round, "scenario": name, "condition": condition}
+
+    def _seconds(self) -> Event:
+        """How long what is answered now has been there."""
+        return {"seconds": round(perf_counter() - self._since, 3)}
+
+    def _add(self, event: str, **about: Any) -> None:
+        self._happened(self._records.add(event, **about))
+
+
+def page_facts(message: Mapping[str, Any]) -> Event:
+    """What a page says of itself, as far as it has the form that is expected."""
+    page = message.get("page")
+    if not isinstance(page, dict):
+        return {}
+    texts = {key: page[key][:300] for key in ("browser", "language") if isinstance(page.get(key), str)}
+    sizes = {key: page[key][:30] for key in ("screen", "window") if isinstance(page.get(key), str)}
+    return {**texts, **sizes}
+
+
+def _took(milliseconds: object) -> Event:
+    """How long it took on the page, where that says so."""
+    good = isinstance(milliseconds, (int, float)) and 0 <= milliseconds < 1e9
+    return (
+        {"page_seconds": round(milliseconds / 1000, 3)}
+        if good and isinstance(milliseconds, (int, float))
+        else {}
+    )

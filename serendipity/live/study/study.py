@@ -1,0 +1,217 @@
+"""A study on the network: a page to join on, one for each participant, one for those who run it."""
+
+import re
+import secrets
+from collections.abc import Mapping
+from datetime import UTC, datetime, timedelta
+from html import escape
+from pathlib import Path
+from threading import Lock
+from typing import Any, Final
+
+import serendipity
+from serendipity.live.play.records import Event, Records, as_csv, read
+from serendipity.live.play.table import Download, as_json
+from serendipity.live.study.balance import order, places
+from serendipity.live.study.design import Design
+from serendipity.live.study.participant import Participant, page_facts
+from serendipity.live.study.tidy import codebook, rounds_table
+from serendipity.model import InputError, UsageError
+
+_FILE: Final = re.compile(r"P(\d{3,6})\.jsonl")
+_OUTSIDE: Final = ("PROLIFIC_PID", "participant", "id")
+"""What of the address may say who somebody is elsewhere: the first of these that is there."""
+
+
+class Study:
+    """Participants, each with a link and a file of their own.
+
+    Args:
+        design: of the study.
+        folder: where the files are; whoever has begun goes on.
+
+    Attributes:
+        faults: lines about what could not be read.
+    """
+
+    def __init__(self, design: Design, folder: Path) -> None:
+        self._design = design
+        self._folder = folder
+        self._joining = Lock()
+        self._participants: dict[str, Participant] = {}
+        self._unreadable: list[Event] = []
+        self._visits: dict[str, str] = {}
+        self.faults: list[str] = []
+        for file in sorted(file for file in folder.iterdir() if _FILE.fullmatch(file.name)):
+            events, faults = read(file)
+            self.faults += faults
+            try:
+                self._take_in(Participant(design, Records(file.stem, file, events)))
+            except InputError as error:
+                self.faults.append(f"{file.name}: {error}")
+                self._unreadable += events
+
+    def room(self, token: str) -> "Participant | _Lobby | None":
+        """The page to join on, or a participant's."""
+        return self._participants.get(token) if token else _Lobby(self)
+
+    def file(self, path: str) -> Download | None:
+        """What those who run the study may see and save; the address ends in the secret of the study."""
+        start, _, rest = path.partition("/")
+        secret, _, name = rest.partition("/")
+        if start != "experimenter" or not secrets.compare_digest(
+            secret.encode(), self._design.secret.encode()
+        ):
+            return None
+        people = list(self._participants.values())
+        if name == "":
+            return Download(self._overview(people), "text/html; charset=utf-8")
+        if name == "events.json":
+            return as_json(self.events(), name)
+        made = {
+            "events.csv": lambda: as_csv(self.events()),
+            "rounds.csv": lambda: rounds_table(self._design, [(p.events(), self.state(p)) for p in people]),
+            "codebook.csv": lambda: codebook(self._design),
+        }
+        return Download(made[name](), "text/csv; charset=utf-8", name) if name in made else None
+
+    def events(self) -> list[Event]:
+        """The events of all participants."""
+        return [e for p in self._participants.values() for e in p.events()] + self._unreadable
+
+    def state(self, participant: Participant) -> str:
+        """``finished``, ``withdrawn``, ``under way``, or ``lost``: nothing was heard of them for long."""
+        if participant.over:
+            return "finished" if participant.stage == "end" else "withdrawn"
+        silent = datetime.now(UTC) - datetime.fromisoformat(participant.last)
+        lost = silent > timedelta(minutes=self._design.texts.lost_after_minutes)
+        return "lost" if lost else "under way"
+
+    # -- joining
+
+    def consent(self) -> list[str]:
+        """What is agreed to."""
+        return list(self._design.texts.consent)
+
+    def join(self, message: Mapping[str, Any]) -> Participant:
+        """Somebody agrees to take part; who has done so before, by what the address says, goes on.
+
+        Raises:
+            UsageError: they don't agree, or no file can be made.
+        """
+        if message.get("agree") is not True:
+            raise UsageError("consent: nobody takes part without it")
+        visit, address = message.get("visit"), message.get("address")
+        known = dict(address) if isinstance(address, dict) else {}
+        outside = next((str(known[key])[:200] for key in _OUTSIDE if known.get(key)), None)
+        with self._joining:
+            for participant in self._participants.values():
+                if outside is not None and participant.joined.get("outside_id") == outside:
+                    return participant
+            if isinstance(visit, str) and visit in self._visits:  # a double click
+                return self._participants[self._visits[visit]]
+            joined = self._new(outside, page_facts(message))
+            if isinstance(visit, str):
+                self._visits[visit[:100]] = joined.joined["token"]
+            return joined
+
+    def _new(self, outside: str | None, page: Event) -> Participant:
+        texts, names = self._design.texts, list(self._design.scenarios)
+        place, condition, row = self._free()
+        records = self._file()
+        records.add(
+            "joined",
+            token=secrets.token_urlsafe(16),
+            outside_id=outside,
+            place=place,
+            condition=condition,
+            order=[names[i] for i in order(row, len(names))],
+            seed=self._design.seed,
+            study=self._design.mark,
+            version=serendipity.__version__,
+            consent=texts.consent,
+            **page,
+        )
+        participant = Participant(self._design, records)
+        self._take_in(participant)
+        return participant
+
+    def _free(self) -> tuple[int, str, int]:
+        """The first place that nobody has: those who have withdrawn or are lost give theirs back."""
+        held = {
+            participant.joined["place"]
+            for participant in self._participants.values()
+            if self.state(participant) in ("finished", "under way")
+        }
+        drawn = places(self._design.texts.conditions, len(self._design.scenarios), self._design.seed)
+        return next((i, name, row) for i, (name, row) in enumerate(drawn) if i not in held)
+
+    def _file(self) -> Records:
+        """A new file, under the next number."""
+        numbers = [int(found[1]) for file in self._folder.iterdir() if (found := _FILE.fullmatch(file.name))]
+        name = f"P{max(numbers, default=0) + 1:03}"
+        try:
+            (self._folder / f"{name}.jsonl").touch(exist_ok=False)
+        except OSError as error:
+            raise UsageError(f"{name}.jsonl can't be made: {(error.strerror or '').lower()}") from None
+        return Records(name, self._folder / f"{name}.jsonl")
+
+    def _take_in(self, participant: Participant) -> None:
+        self._participants[participant.joined["token"]] = participant
+
+    # -- those who run it
+
+    def _overview(self, people: list[Participant]) -> str:
+        """The experimenter's page; it does not tell who has which condition."""
+        rows = "".join(
+            f"<tr><td>{p.name}</td><td>{escape(p.joined.get('outside_id') or '')}</td>"
+            f"<td>{self.state(p)}</td><td>{p.stage} {p.round or ''}</td>"
+            f"<td>{escape(p.last[:19].replace('T', ' '))}</td>"
+            f'<td><a href="/s/{p.joined["token"]}">link</a></td></tr>'
+            for p in people
+        )
+        heads = "".join(
+            f"<th>{name}</th>" for name in ("", "outside id", "state", "at", "last heard of, UTC", "")
+        )
+        saved = " ".join(
+            f'<a href="/experimenter/{self._design.secret}/{name}" download>{name}</a>'
+            for name in ("rounds.csv", "events.csv", "events.json", "codebook.csv")
+        )
+        faults = "".join(f"<p class='banner'>{escape(fault)}</p>" for fault in self.faults)
+        return (
+            '<!doctype html><html lang="en"><meta charset="utf-8"><title>Study</title>'
+            '<link rel="icon" href="data:,"><link rel="stylesheet" href="/page/play.css">'
+            f'<main class="sheet people"><h1>Study</h1>{faults}<p>Save: {saved}</p>'
+            f"<table><tr>{heads}</tr>{rows}</table><h2>Rehearsal</h2><pre>{escape(self._design.report)}</pre>"
+            f"<p>Study {self._design.mark}, completion code {escape(self._design.code)}. New participants "
+            "join at <a href='/'>/</a>; what stands there as ?PROLIFIC_PID=, ?participant= or ?id= is their "
+            "outside id.</p></main></html>"
+        )
+
+
+class _Lobby:
+    """The page to join on."""
+
+    def __init__(self, study: Study) -> None:
+        self._study = study
+
+    def view(self) -> dict[str, Any]:
+        """What it shows."""
+        return {
+            "stage": "consent",
+            "moment": "consent",
+            "round": 0,
+            "study": {"text": self._study.consent(), "participant": None},
+        }
+
+    def do(self, message: Mapping[str, Any]) -> dict[str, Any]:
+        """Join.
+
+        Raises:
+            UsageError: see :meth:`Study.join`.
+        """
+        if message.get("do") == "hello":
+            return {}
+        if message.get("do") != "join":
+            raise UsageError(f"expected somebody to join, got {message.get('do')!r:.50}")
+        return {"kind": "go", "to": f"/s/{self._study.join(message).joined['token']}"}
