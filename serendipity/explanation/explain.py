@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import Any, Final, TypeVar
+from typing import Final, TypeVar, Unpack
 
 from serendipity.explanation.ask import PROVED, Ask, parts_of
 from serendipity.explanation.break_even import discount_threshold, window_weight_threshold
@@ -15,16 +15,18 @@ from serendipity.facade.interruptibility import InterruptionReport, interruption
 from serendipity.model import Deadline, LimitReachedError, Result, Task, UsageError
 from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.keywords import AnswerOptions, InterruptionOptions, listing
 from serendipity.model.resources.limits import limits_from
 
 _MODES: Final = ("serendipity", "communication", "composite")
-_REPORTED: Final = ("discount", "horizon", "suffix", "preservation", "interference")
+_REPORTED: Final = tuple(InterruptionOptions.__annotations__)
 
 T = TypeVar("T")
 
 OnProgress = Callable[[int, int], None] | None
 
 
+@listing
 def explain(
     task: Task,
     result: Result | None = None,
@@ -34,7 +36,7 @@ def explain(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
-    **options: Any,
+    **options: Unpack[AnswerOptions],
 ) -> Explanation:
     """Why help comes as it does, or why there is none; each claim rests on a planning call.
 

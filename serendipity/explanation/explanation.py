@@ -1,6 +1,8 @@
 """What an explanation consists of, and its JSON form (schema ``serendipity.explanation/1``)."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, Final
 
 from serendipity.explanation.ask import Parts
@@ -9,12 +11,13 @@ from serendipity.explanation.misses import Miss
 from serendipity.explanation.moments import Moment
 from serendipity.facade.interruptibility import Removal
 from serendipity.model import Result
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.explanation/1"
 
 
-@dataclass(frozen=True, slots=True)
-class Explanation:
+@dataclass(frozen=True, slots=True, repr=False)
+class Explanation(Told):
     """Why an answer is what it is.
 
     Attributes:
@@ -48,6 +51,22 @@ class Explanation:
     def complete(self) -> bool:
         """Whether nothing is missing for want of time or memory."""
         return self.limit is None
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``explain`` prints: the sentences, topic by topic."""
+        for i, (topic, several) in enumerate(groupby(self.sentences, key=lambda sentence: sentence[0])):
+            yield from [Line()] if i else []
+            yield Line(topic, "bold")
+            yield from (Line(f"  {text}") for _, text in several)
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield from self.answer._in_short()
+        yield f"{len(self.sentences)} sentences"
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object (schema ``serendipity.explanation/1``)."""

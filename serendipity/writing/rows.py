@@ -42,7 +42,7 @@ def _csv(table: Table) -> str:
 def _json_lines(table: Table) -> str:
     import json
 
-    from serendipity.writing.printable import printable_json
+    from serendipity.model.printable import printable_json
 
     encode = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
     lines = (encode(dict(zip(table.columns, row, strict=True))) for row in table.rows)

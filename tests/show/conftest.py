@@ -6,7 +6,7 @@ import pytest
 
 import serendipity
 from serendipity.model import Task
-from serendipity.show import Scene, build_scene
+from serendipity.pictures import Scene, build_scene
 from serendipity.testing import cases
 
 

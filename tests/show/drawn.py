@@ -3,9 +3,9 @@
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
-from serendipity.show import Scene
-from serendipity.show.formats.svg import svg
-from serendipity.show.picture.map_picture import map_picture
+from serendipity.pictures import Scene
+from serendipity.pictures.formats.svg import svg
+from serendipity.pictures.picture.map_picture import map_picture
 
 SVG = "{http://www.w3.org/2000/svg}"
 

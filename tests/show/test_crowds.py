@@ -9,13 +9,13 @@ import pytest
 
 import serendipity
 from serendipity.model import Task
-from serendipity.show import Scene, build_scene, draw
-from serendipity.show.formats.svg import svg
-from serendipity.show.map.layout import lay_out
-from serendipity.show.map.names import elided
-from serendipity.show.map.places import Whereabouts, find_places
-from serendipity.show.picture.map_picture import MARGIN, map_picture
-from serendipity.show.scene.scene import Meeting
+from serendipity.pictures import Scene, build_scene, draw
+from serendipity.pictures.formats.svg import svg
+from serendipity.pictures.map.layout import lay_out
+from serendipity.pictures.map.names import elided
+from serendipity.pictures.map.places import Whereabouts, find_places
+from serendipity.pictures.picture.map_picture import MARGIN, map_picture
+from serendipity.pictures.scene.scene import Meeting
 from serendipity.testing.builders import _atom_task
 from tests.show.drawn import SVG, Drawn, drawn_tokens
 

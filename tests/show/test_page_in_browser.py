@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from serendipity.show import Scene, draw
+from serendipity.pictures import Scene, draw
 from tests.show.browser import chromium, chromium_path
 
 pytestmark = pytest.mark.browser

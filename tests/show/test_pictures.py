@@ -11,10 +11,12 @@ import pytest
 
 import serendipity
 from serendipity.model import Task, UsageError
-from serendipity.show import Scene, build_scene, draw
-from serendipity.show.picture.drawing import fitted, wrapped
-from serendipity.show.picture.palette import HUMAN, ROBOTS, on
-from serendipity.show.picture.tokens import tokens
+from serendipity.pictures import Scene, build_scene, draw
+from serendipity.pictures.formats.page import page
+from serendipity.pictures.map.names import ems
+from serendipity.pictures.picture.drawing import fitted, wrapped
+from serendipity.pictures.picture.palette import HUMAN, ROBOTS, on
+from serendipity.pictures.picture.tokens import tokens
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -138,8 +140,35 @@ def test_labels_fit() -> None:
     text, size = fitted("a very long name indeed", 60, 20, 10)
     assert text.endswith("…")
     assert size == 10
-    assert wrapped("pick up medkit", 60, 13) == ("pick up", "medkit")
-    assert wrapped("conducted_triage commx room1", 130, 12) == ("conducted_triage", "commx room1")
+    assert wrapped("pick up medkit", 60, (13,)) == (("pick up", "medkit"), 13)
+    assert wrapped("conducted_triage commx room1", 130, (14, 12))[0] == ("conducted_triage", "commx room1")
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("communicate soil data general waypoint6", "communicate soil data general waypoint1"),
+        ("communicated_rock_data waypoint4", "communicated_soil_data waypoint4"),
+        ("hoist1 crate1 pallet0 depot0", "hoist1 crate1 pallet0 distributor0"),
+    ],
+)
+def test_what_tells_labels_apart_is_not_cut(one: str, other: str) -> None:
+    for text in (one, other):
+        for bold in (False, True):
+            lines, size = wrapped(text, 90, (14, 12, 11, 10, 9), 4, bold=bold)
+            assert "".join(lines).replace(" ", "") == text.replace(" ", "")
+            assert size >= 9
+
+
+def test_wide_letters_need_more_room() -> None:
+    assert ems("phenomenon") > ems("pilltill10") > 0
+    assert fitted("ward" * 5, 100, 20, 5)[1] > fitted("wmwm" * 5, 100, 20, 5)[1]
+    assert fitted("\u90e8\u5c4b" * 3, 100, 20, 5)[1] < fitted("abcdef", 100, 20, 5)[1]
+
+
+def test_paper_has_every_epoch(room2: Scene) -> None:
+    rows = page(room2).partition('class="rows"')[2].partition("</section>")[0]
+    assert set(re.findall(r'data-column="(\d+)"', rows)) == {str(i) for i in range(len(room2.frames))}
 
 
 def test_a_still_of_a_large_building_shows_the_part_that_matters(tmp_path: Path) -> None:

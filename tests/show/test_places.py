@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import serendipity
 from serendipity.model import Task
+from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.scenarios.building import figure2
-from serendipity.show.map.places import Whereabouts, find_places
 from serendipity.testing import cases
 from serendipity.testing.builders import _atom_task, usar
 from tests.show.conftest import ground

@@ -7,9 +7,9 @@ import pytest
 
 import serendipity
 from serendipity.model import Condition, InputError, PlanStep, Window
-from serendipity.show import Scene, build_scene
-from serendipity.show.map.places import Whereabouts
-from serendipity.show.scene.headline import headline
+from serendipity.pictures import Scene, build_scene
+from serendipity.pictures.map.places import Whereabouts
+from serendipity.pictures.scene.headline import headline
 from serendipity.testing import cases
 from serendipity.testing.builders import task
 from serendipity.testing.cases import WORKED, Worked

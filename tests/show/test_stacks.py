@@ -6,8 +6,8 @@ import pytest
 
 import serendipity
 from serendipity.model import Task
-from serendipity.show.map.places import find_places
-from serendipity.show.scene.building import build_scene
+from serendipity.pictures.map.places import find_places
+from serendipity.pictures.scene.building import build_scene
 from serendipity.testing.builders import task as build
 from tests.show.drawn import Drawn, drawn_tokens
 

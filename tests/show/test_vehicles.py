@@ -1,8 +1,8 @@
 """Who drives is where the vehicle is, and so is what it carries; fuel is no place."""
 
 import serendipity
-from serendipity.show import Scene
-from serendipity.show.map.places import Whereabouts, find_places
+from serendipity.pictures import Scene
+from serendipity.pictures.map.places import Whereabouts, find_places
 
 DORA, ROLO = 0, 1
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.show import Scene, build_scene
-from serendipity.show.picture.tokens import initials
+from serendipity.pictures import Scene, build_scene
+from serendipity.pictures.picture.tokens import initials
 
 DATA = Path(__file__).parent / "data" / "wards"
 

@@ -1,0 +1,72 @@
+"""Plans as pictures: a page that plays them, and stills.
+
+``build_scene`` computes everything that is shown from a task and a result; ``draw`` only
+draws it.
+"""
+
+from typing import TYPE_CHECKING
+
+from serendipity.model import UsageError
+from serendipity.pictures.scene.building import build_scene
+from serendipity.pictures.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from serendipity.facade.interruptibility import InterruptionReport
+    from serendipity.pictures.picture.drawing import Picture
+
+__all__ = ["Scene", "build_scene", "check_epoch", "draw", "draw_windows"]
+
+
+def draw(scene: Scene, suffix: str, epoch: int | None = None) -> str | bytes:
+    """A scene as the content of a file.
+
+    Args:
+        scene: what to draw.
+        suffix: ``.html`` for a page; ``.svg`` or ``.png`` for a still.
+        epoch: of a still; None for the one that says most.
+
+    Raises:
+        UsageError: there is no such epoch or form, or PNG lacks the extra ``plot``.
+    """
+    check_epoch(scene, epoch)
+    if suffix == ".html":
+        from serendipity.pictures.formats.page import page
+
+        return page(scene)
+    from serendipity.pictures.picture.still import still
+
+    return _written(still(scene, epoch), suffix, ".html, .svg or .png")
+
+
+def check_epoch(scene: Scene, epoch: int | None) -> None:
+    """Whether there is such an epoch.
+
+    Raises:
+        UsageError: there is none.
+    """
+    last = scene.frames[-1].epoch
+    if epoch is not None and not 0 <= epoch <= last:
+        raise UsageError(f"epoch: expected one from 0 to {last}, got {epoch}")
+
+
+def draw_windows(report: "InterruptionReport", suffix: str) -> str | bytes:
+    """A report on windows as a heat map, ``.svg`` or ``.png``.
+
+    Raises:
+        UsageError: there is no such form, or PNG lacks the extra ``plot``.
+    """
+    from serendipity.pictures.picture.heat_map import heat_map
+
+    return _written(heat_map(report), suffix, ".svg or .png")
+
+
+def _written(picture: "Picture", suffix: str, known: str) -> str | bytes:
+    if suffix == ".svg":
+        from serendipity.pictures.formats.svg import svg
+
+        return svg(picture) + "\n"
+    if suffix == ".png":
+        from serendipity.pictures.formats.png import png
+
+        return png(picture)
+    raise UsageError(f"expected a picture {known}, got '{suffix}'")

@@ -1,0 +1,181 @@
+"""The page: one HTML file with everything in it, which plays a plan in any browser."""
+
+import json
+from functools import cache
+from importlib.resources import files
+from string import Template
+from typing import Any, Final
+
+from serendipity.model.numbers import plain
+from serendipity.model.printable import markup, printable
+from serendipity.pictures.formats.svg import path, svg
+from serendipity.pictures.picture.drawing import Picture
+from serendipity.pictures.picture.map_picture import MARGIN, map_picture, trails
+from serendipity.pictures.picture.palette import agent_colours, on
+from serendipity.pictures.picture.timeline_picture import (
+    COLUMN,
+    columns,
+    cursor,
+    lane_labels,
+    timeline_picture,
+)
+from serendipity.pictures.picture.tokens import Token, agent_key, tokens
+from serendipity.pictures.scene.headline import headline, subtitle
+from serendipity.pictures.scene.scene import Frame, Scene
+
+_WIDE: Final = 1200.0
+_SMALLEST: Final = 0.46  # nearly all of a building of nine cells on a phone
+_SMALLEST_WIDE: Final = 0.65
+_LARGEST: Final = 1.35
+_PRINTED: Final = 8  # epochs beside each other on paper
+
+
+def page(scene: Scene) -> str:
+    """A scene as a self-contained HTML page; it asks for nothing from any network."""
+    last = scene.frames[-1]
+    city = map_picture(scene, 0)
+    lanes = timeline_picture(scene)
+    lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, cursor(scene)), lanes.description)
+    return _template("page.html").substitute(
+        title=markup(f"{scene.name}: {headline(scene)}"),
+        headline=markup(headline(scene)),
+        subtitle=markup(subtitle(scene)),
+        style=_text("style.css"),
+        script=_text("play.js"),
+        data=_embedded(_data(scene)),
+        map="" if city is None else svg(city, inline=True, id="map"),
+        sizes="" if city is None else _sizes(city),
+        without_map="hidden" if city is None else "",
+        legend=_legend(scene),
+        last=last.epoch,
+        labels=svg(lane_labels(scene), inline=True),
+        lanes=svg(lanes, inline=True, id="lanes"),
+        rows=_rows(scene),
+        bars=_bars(scene),
+        table=_table(scene),
+    )
+
+
+def _sizes(city: Picture) -> str:
+    """How small and how large the map may get; a large one scrolls rather than shrink further."""
+    least = _SMALLEST if city.width <= _WIDE else _SMALLEST_WIDE
+    widest = 1560 if city.width > _WIDE else 1200
+    sides = f"--least:{city.width * least:.0f}px;--most:{city.width * _LARGEST:.0f}px"
+    return f"{sides};--aspect:{city.width / city.height:.3f};--stage:{widest}px"
+
+
+@cache
+def _text(name: str) -> str:
+    return files("serendipity.pictures.formats").joinpath("page", name).read_text(encoding="utf-8")
+
+
+def _template(name: str) -> Template:
+    return Template(_text(name))
+
+
+def _embedded(value: dict[str, Any]) -> str:
+    """JSON that can't end the script element it stands in."""
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def _data(scene: Scene) -> dict[str, Any]:
+    return {
+        "frames": [_frame(scene, frame) for frame in scene.frames],
+        "trails": {key: [path(points)[1:] for points in steps] for key, steps in trails(scene).items()},
+        "meetings": [{"epoch": meeting.epoch, "text": printable(meeting.text)} for meeting in scene.meetings],
+        "column": COLUMN,
+        "margin": MARGIN,
+        "most": max(float(scene.frames[-1].cost), float(scene.frames[-1].former_spent), 1e-9),
+        "colours": {str(i): colour for i, colour in agent_colours(len(scene.agents), scene.human).items()},
+        "human": agent_key(scene.human),
+        "start": 0,
+    }
+
+
+def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
+    last = scene.frames[-1]
+    return {
+        "caption": printable(frame.caption),
+        "tokens": {key: _token(key, token) for key, token in tokens(scene, frame).items()},
+        "cost": f"{plain(frame.cost)} of {plain(last.cost)}",
+        "former": f"{plain(frame.former_spent)} of {plain(last.former_spent)}",
+        "formerValue": float(frame.former_spent),
+        "spent": [float(frame.spent[agent]) for agent in scene.lanes],
+        "window": frame.in_window,
+        "made": [*map(printable, frame.made)],
+        "undone": [*map(printable, frame.undone)],
+    }
+
+
+def _token(key: str, token: Token) -> list[float | int | str | None]:
+    """Centre and holder; for frames and counts also size, names and text."""
+    spot = token.spot
+    told: list[float | int | str | None] = [round(spot.x, 1), round(spot.y, 1), token.holder]
+    if spot.names:
+        told += [round(spot.width, 1), round(spot.height, 1), printable(", ".join(spot.names))]
+    return [*told, token.text] if key.startswith("more-") else told
+
+
+def _rows(scene: Scene) -> str:
+    """The timeline in rows, for paper, which can't be scrolled."""
+    labels = svg(lane_labels(scene), inline=True)
+    ends = [
+        (first, min(first + _PRINTED, columns(scene)) - 1) for first in range(0, columns(scene), _PRINTED)
+    ]
+    return "".join(
+        f"<div>{labels}{svg(timeline_picture(scene, first, last), inline=True)}</div>" for first, last in ends
+    )
+
+
+def _legend(scene: Scene) -> str:
+    colours = agent_colours(len(scene.agents), scene.human)
+    items = []
+    for agent in scene.lanes:
+        kind = "person" if agent == scene.human else "machine"
+        sample = f'<i class="{kind}" style="background:{colours[agent]};color:{on(colours[agent])}"></i>'
+        items.append(f"{sample}{markup(scene.agents[agent])}")
+    if scene.deviates:
+        items.append(f'<i class="former"></i>{markup(scene.agents[scene.human])}’s former plan')
+    if scene.window is not None:
+        items.append('<i class="window"></i>window')
+    if scene.meetings:
+        items.append('<i class="meeting"></i>hand-over or joint action')
+    if scene.contains:
+        items.append('<i class="together"></i>in it, on it or carried')
+    if scene.goals:
+        items.append('<i class="goal"></i>goal')
+    return "".join(f"<li>{item}</li>" for item in items)
+
+
+def _bars(scene: Scene) -> str:
+    """Two bars: the former plan's cost so far, and the team's, in the agents' colours."""
+    colours = agent_colours(len(scene.agents), scene.human)
+    part = '<span class="part" style="background:{}" title="{}"></span>'
+    parts = "".join(part.format(colours[agent], markup(scene.agents[agent])) for agent in scene.lanes)
+    rows = [("team", "this plan", parts, "cost")]
+    if scene.former_acts:
+        rows.append(("former", "former plan", '<span class="part former"></span>', "former-cost"))
+    return "".join(
+        f'<div class="bar" id="bar-{key}"><span class="name">{name}</span>'
+        f'<span class="track" aria-hidden="true">{inside}</span><output id="{output}">0</output></div>'
+        for key, name, inside, output in rows
+    )
+
+
+def _table(scene: Scene) -> str:
+    """The plan as a table, full names and all."""
+    head = "".join(f'<th scope="col">{markup(scene.agents[agent])}</th>' for agent in scene.lanes)
+    if scene.deviates:
+        head += f'<th scope="col">{markup(scene.agents[scene.human])}’s former plan</th>'
+    rows = []
+    for frame in scene.frames[1:]:
+        cells = []
+        for agent in scene.lanes:
+            acts = [a.action for a in scene.acts if a.epoch == frame.epoch and agent in a.agents]
+            cells.append(", ".join(acts))
+        if scene.deviates:
+            cells.append(", ".join(a.action for a in scene.former_acts if a.epoch == frame.epoch))
+        body = "".join(f"<td>{markup(cell)}</td>" for cell in cells)
+        row_class = ' class="window"' if frame.in_window else ""
+        rows.append(f'<tr{row_class}><th scope="row">{frame.epoch}</th>{body}</tr>')
+    return f'<thead><tr><th scope="col">epoch</th>{head}</tr></thead><tbody>{"".join(rows)}</tbody>'

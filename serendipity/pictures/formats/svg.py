@@ -1,0 +1,105 @@
+"""Pictures as SVG, written by hand: no library is needed."""
+
+from collections.abc import Iterator, Mapping
+
+from serendipity.model.printable import markup
+from serendipity.pictures.picture.drawing import Circle, Group, Line, Picture, Point, Rect, Shape, Style, Text
+
+_FONT = "system-ui, 'DejaVu Sans', 'Segoe UI', Arial, sans-serif"
+
+
+def svg(picture: Picture, *, inline: bool = False, **attributes: str) -> str:
+    """A picture as an SVG element.
+
+    Args:
+        picture: what to write.
+        inline: for a page, which sets the size; else a file of its own, on white.
+        **attributes: of the element, e.g. ``id``.
+    """
+    width, height = number(picture.width), number(picture.height)
+    own = {
+        "xmlns": "http://www.w3.org/2000/svg",
+        "viewBox": f"0 0 {width} {height}",
+        "width": width,
+        "height": height,
+        "role": "img",
+        "aria-label": picture.description,
+        "font-family": _FONT,
+        **attributes,
+    }
+    body = "".join(part for shape in picture.shapes for part in _shape(shape))
+    paper = "" if inline else '<rect width="100%" height="100%" fill="#ffffff"/>'
+    title = f"<title>{markup(picture.description)}</title>" if not inline else ""
+    return f"<svg{_attributes(own)}>{title}{paper}{body}</svg>"
+
+
+def number(value: float) -> str:
+    """A coordinate, as short as it can be."""
+    return f"{value:.2f}".rstrip("0").rstrip(".")
+
+
+def path(points: tuple[Point, ...], *, closed: bool = False) -> str:
+    """The ``d`` of a line through points."""
+    joined = "L".join(f"{number(x)} {number(y)}" for x, y in points)
+    return (f"M{joined}" + ("Z" if closed else "")) if points else ""
+
+
+def _shape(shape: Shape) -> Iterator[str]:
+    match shape:
+        case Rect():
+            place = {"x": shape.x, "y": shape.y, "width": shape.width, "height": shape.height}
+            corner = {"rx": number(shape.round)} if shape.round else {}
+            where = {key: number(value) for key, value in place.items()}
+            yield f"<rect{_attributes({**where, **corner, **_paint(shape.style)})}/>"
+        case Circle():
+            place = {"cx": shape.x, "cy": shape.y, "r": shape.radius}
+            where = {key: number(value) for key, value in place.items()}
+            yield f"<circle{_attributes({**where, **_paint(shape.style)})}/>"
+        case Line():
+            drawn = {"d": path(shape.points, closed=shape.closed), **_paint(shape.style)}
+            joins = {"stroke-linejoin": "round", "stroke-linecap": "round"}
+            yield f"<path{_attributes({**drawn, **joins, **_data(shape.data)})}/>"
+        case Text():
+            yield _text(shape)
+        case Group():
+            placed = {"transform": f"translate({number(shape.x)} {number(shape.y)})"}
+            moved = placed if shape.x or shape.y or shape.data else {}
+            faint = {"opacity": number(shape.opacity)} if shape.opacity < 1 else {}
+            yield f"<g{_attributes({**moved, **faint, **_data(shape.data)})}>"
+            if shape.title:
+                yield f"<title>{markup(shape.title)}</title>"
+            for inner in shape.shapes:
+                yield from _shape(inner)
+            yield "</g>"
+
+
+def _text(text: Text) -> str:
+    attributes = {
+        "x": number(text.x),
+        "y": number(text.y),
+        "font-size": number(text.size),
+        "fill": text.colour,
+        "text-anchor": text.anchor,
+        "dy": ".35em",
+        **({"font-weight": "700"} if text.bold else {}),
+    }
+    return f"<text{_attributes(attributes)}>{markup(text.text)}</text>"
+
+
+def _paint(style: Style) -> dict[str, str]:
+    paint = {"fill": style.fill or "none"}
+    if style.stroke is not None:
+        paint |= {"stroke": style.stroke, "stroke-width": number(style.width)}
+        if style.dash:
+            paint["stroke-dasharray"] = " ".join(map(number, style.dash))
+    if style.opacity < 1:
+        paint["opacity"] = number(style.opacity)
+    return paint
+
+
+def _data(data: Mapping[str, str]) -> dict[str, str]:
+    return {f"data-{key}": value for key, value in data.items()}
+
+
+def _attributes(values: Mapping[str, str]) -> str:
+    return "".join(f' {key}="{markup(value)}"' for key, value in values.items())

@@ -1,0 +1,227 @@
+"""Where each place lies on the picture.
+
+Trees, and graphs that are nearly one, become floor plans; other graphs are laid out by networkx.
+"""
+
+import re
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from serendipity.pictures.map.floor_plan import floor_plan
+from serendipity.pictures.map.names import natural
+from serendipity.pictures.map.places import Places
+
+CELL: Final = 100.0
+"""Least side of a cell in the picture's units."""
+_SPREAD: Final = 1.45  # usual distance of the closest places of a graph, in cells
+_APART: Final = 1.2  # their least distance, across or along
+_WAY: Final = 20.0  # between large places, in the picture's units
+_MOST_PASSAGES: Final = 0.1  # connections beyond a tree for each place of a floor plan
+_GRID: Final = 1.25  # distance of neighbouring cells of a grid, in cells
+_MOSTLY: Final = 0.8  # share of the ways that have to join neighbours in a grid
+_GAP: Final = 0.5  # between parts that no way connects, in cells
+_DENSE: Final = 0.7  # share of all pairs of places with ways from which on a ring is clearer
+
+Point = tuple[float, float]
+Size = tuple[float, float]
+"""Width and height."""
+_USUAL: Final = ((3, 115.0), (6, 140.0), (sys.maxsize, 165.0))
+"""Sides of a cell by the most things that can be anywhere, where it is not known how many will be."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A place on the picture: its centre and size, and whether it belongs to a corridor."""
+
+    x: float
+    y: float
+    width: float = CELL
+    height: float = CELL
+    corridor: bool = False
+
+    def moved(self, dx: float, dy: float) -> "Box":
+        """The same box elsewhere."""
+        return Box(self.x + dx, self.y + dy, self.width, self.height, self.corridor)
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """All places, from (0, 0) to (width, height).
+
+    Attributes:
+        boxes: by place.
+        links: pairs of connected places.
+        doors: the links through a wall that both places share (a floor plan); the others
+            are drawn as lines.
+        width, height: in the picture's units.
+    """
+
+    boxes: dict[str, Box]
+    links: tuple[tuple[str, str], ...]
+    doors: frozenset[tuple[str, str]]
+    width: float
+    height: float
+
+    def around(self, places: Iterable[str]) -> "Layout":
+        """The part of the map between some places, for pictures that can't be scrolled."""
+        kept = [self.boxes[place] for place in places]
+        left, right = (pick(box.x for box in kept) for pick in (min, max))
+        top, bottom = (pick(box.y for box in kept) for pick in (min, max))
+        near = {
+            place: box
+            for place, box in self.boxes.items()
+            if left - CELL <= box.x + box.width / 2
+            and box.x - box.width / 2 <= right + CELL
+            and top - CELL <= box.y <= bottom + CELL
+        }
+        x = min(box.x - box.width / 2 for box in near.values())
+        y = min(box.y - box.height / 2 for box in near.values())
+        boxes = {place: box.moved(-x, -y) for place, box in near.items()}
+        links = tuple((a, b) for a, b in self.links if a in near and b in near)
+        return Layout(boxes, links, self.doors.intersection(links), *_extent(boxes.values()))
+
+    def route(self, source: str, target: str) -> tuple[Point, ...]:
+        """The way from the middle of one place to the middle of the other, round the corner."""
+        a, b = self.boxes[source], self.boxes[target]
+        if self.doors.isdisjoint(((source, target), (target, source))):
+            return (a.x, a.y), (b.x, b.y)
+        wide = a if a.width > b.width else b
+        corner = (b.x, a.y) if wide is a else (a.x, b.y)
+        return tuple(dict.fromkeys([(a.x, a.y), corner, (b.x, b.y)]))
+
+
+def lay_out(places: Places, size: Size | None = None) -> Layout:
+    """Lay out a map; parts that no way connects stand side by side.
+
+    Args:
+        places: the map.
+        size: of a cell; a place has at least one. None: by how many things there are.
+    """
+    if size is None:
+        side = next(side for most, side in _USUAL if len(places.objects) <= most)
+        size = (side, side)
+    if places.levels:
+        return _shaft(places.levels, size)
+    graph: nx.Graph[str] = nx.Graph()
+    graph.add_nodes_from(places.names)
+    graph.add_edges_from(places.links)
+    cells = _named_cells(graph)
+    if cells:
+        return _grid(places, cells, size)
+    boxes: dict[str, Box] = {}
+    doors: list[tuple[str, str]] = []
+    right = 0.0
+    for component in sorted(nx.connected_components(graph), key=lambda c: min(map(natural, c))):
+        part = nx.Graph()
+        part.add_nodes_from(sorted(component, key=natural))  # an order that does not depend on hashing
+        part.add_edges_from(link for link in places.links if link[0] in component)
+        plan = len(part.edges) - len(part) + 1 <= len(part) * _MOST_PASSAGES
+        tree = nx.minimum_spanning_tree(part) if plan else part
+        found = _plan_boxes(tree, size) if plan else _graph_boxes(part, size)
+        left = min(box.x - box.width / 2 for box in found.values())
+        top = min(box.y - box.height / 2 for box in found.values())
+        boxes |= {place: box.moved(right - left, -top) for place, box in found.items()}
+        right = max(boxes[place].x + boxes[place].width / 2 for place in found) + _GAP * CELL
+        walls = {frozenset(edge) for edge in tree.edges} if plan else set()
+        doors += [link for link in places.links if frozenset(link) in walls]
+    return Layout(boxes, places.links, frozenset(doors), *_extent(boxes.values()))
+
+
+def _shaft(levels: Sequence[str], size: Size) -> Layout:
+    """Places above one another, as wide as high ones may be; ways go through the floors between them."""
+    width, height = size
+    boxes = {place: Box(width, (i + 0.5) * height, 2 * width, height) for i, place in enumerate(levels)}
+    links = tuple(pairwise(levels))
+    return Layout(boxes, links, frozenset(links), *_extent(boxes.values()))
+
+
+def _extent(boxes: Iterable[Box]) -> Point:
+    corners = [(box.x + box.width / 2, box.y + box.height / 2) for box in boxes]
+    return max((x for x, _ in corners), default=0.0), max((y for _, y in corners), default=0.0)
+
+
+def _plan_boxes(tree: "nx.Graph[str]", size: Size) -> dict[str, Box]:
+    width, height = size
+    return {
+        place: Box(cell.x * width, cell.y * height, cell.width * width, height, cell.corridor)
+        for place, cell in floor_plan(tree).items()
+    }
+
+
+def _graph_boxes(graph: "nx.Graph[str]", size: Size) -> dict[str, Box]:
+    """A spring layout that starts from the graph's spectrum, or a ring; no chance is involved."""
+    if nx.density(graph) >= _DENSE:
+        ring = nx.circular_layout(graph)
+        points = np.array([ring[place] for place in graph])
+    else:
+        start = nx.spectral_layout(graph) if len(graph) > 3 else nx.circular_layout(graph)
+        sprung = nx.spring_layout(graph, pos=start, iterations=200, seed=0, k=None)
+        points = _level(np.array([sprung[place] for place in graph]))
+    spread = _spread(points)
+    step_x, step_y = (max(CELL, (side + _WAY) / _APART) for side in size)
+    return {
+        place: Box(float(x) * step_x, float(y) * step_y, *size)
+        for place, (x, y) in zip(graph, spread, strict=True)
+    }
+
+
+def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> Layout:
+    left, top = (min(axis) for axis in zip(*cells.values(), strict=True))
+    width, height = size
+    boxes = {
+        place: Box(
+            (x - left) * _GRID * width + width / 2, (y - top) * _GRID * height + height / 2, width, height
+        )
+        for place, (x, y) in cells.items()
+    }
+    return Layout(boxes, places.links, frozenset(), *_extent(boxes.values()))
+
+
+def _named_cells(graph: "nx.Graph[str]") -> dict[str, tuple[int, int]]:
+    """Coordinates from names like ``pos2-7``, where ways join neighbours; empty otherwise."""
+    if not graph.edges:
+        return {}
+    found = {place: tuple(map(int, re.findall(r"[0-9]+", place))) for place in graph}
+    if any(len(cell) != 2 for cell in found.values()) or len(set(found.values())) < len(found):
+        return {}
+    cells = {place: (cell[0], cell[1]) for place, cell in found.items()}
+    steps = [abs(cells[a][0] - cells[b][0]) + abs(cells[a][1] - cells[b][1]) == 1 for a, b in graph.edges]
+    if sum(steps) < _MOSTLY * len(steps):
+        return {}
+    xs, ys = zip(*cells.values(), strict=True)
+    if max(xs) - min(xs) >= max(ys) - min(ys):
+        return cells
+    return {place: (y, x) for place, (x, y) in cells.items()}  # screens are wider than high
+
+
+def _level(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points, float64 of shape (n, 2), turned so that their longest axis lies flat."""
+    centred = points - points.mean(axis=0)
+    _, _, axes = np.linalg.svd(centred, full_matrices=False)
+    return np.asarray(centred @ axes.T)
+
+
+def _spread(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points, float64 of shape (n, 2) in cells, scaled and pushed apart until no two boxes overlap."""
+    distances = np.linalg.norm(points[:, None] - points[None], axis=2)
+    np.fill_diagonal(distances, np.inf)
+    points = points * (_SPREAD / max(float(np.median(distances.min(axis=1))), 1e-9))
+    for _ in range(300):
+        apart = points[:, None] - points[None]
+        overlap = np.clip(_APART - np.abs(apart).max(axis=2), 0, None)
+        np.fill_diagonal(overlap, 0)
+        if not overlap.any():
+            break
+        order = np.sign(np.arange(len(points))[:, None] - np.arange(len(points))[None])
+        direction = np.where(apart == 0, order[..., None] * 1e-3, apart)
+        length = np.linalg.norm(direction, axis=2, keepdims=True)
+        length[length == 0] = 1
+        points = points + (direction / length * overlap[..., None]).sum(axis=1) * 0.3
+    return points

@@ -1,0 +1,180 @@
+"""How a result becomes a scene: its plan replayed epoch by epoch, in words and places."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import chain
+from typing import Final
+
+from serendipity.model import GroundAction, InputError, Result, Task
+from serendipity.model.numbers import total
+from serendipity.model.task.execution import shares
+from serendipity.pictures.map.layout import lay_out
+from serendipity.pictures.map.names import parts, verb_and_rest, without
+from serendipity.pictures.map.places import Places, Whereabouts, find_places
+from serendipity.pictures.scene.changes import find_changes
+from serendipity.pictures.scene.crowds import cell_size
+from serendipity.pictures.scene.finder import Finder
+from serendipity.pictures.scene.replay import Moment, replay, replay_former
+from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene
+
+MOST_EPOCHS: Final = 2_000
+"""Epochs of a picture: a second of work, and a page of a megabyte; nobody looks at more."""
+
+
+def build_scene(task: Task, result: Result) -> Scene:
+    """The scene of a result; without a plan, of the human's own plan, or of the initial state.
+
+    Raises:
+        InputError: the plan does not fit the task, or has more than :data:`MOST_EPOCHS` epochs.
+    """
+    epochs = max([step.epoch for step in result.plan or ()] + [len(result.human_plan or ())], default=0)
+    if epochs > MOST_EPOCHS:
+        raise InputError(f"plan: it has {epochs} epochs, and at most {MOST_EPOCHS} are drawn")
+    places = find_places(task)
+    moments, former = replay(task, result), replay_former(task, result)
+    last = max(len(moments), len(former)) - 1
+    builder = _Builder(task, result, places)
+    acts = tuple(chain.from_iterable(builder.acts(moment) for moment in moments))
+    goal = task.goal.positive
+    named = (places.marks.get(f) or places.positions.get(task.human, {}).get(f) for f in goal)
+    hidden = {f for told in places.positions.values() for f in told}
+    hidden |= {f for told in places.objects.values() for f in told}
+    scene = Scene(
+        name=task.name,
+        agents=task.agents,
+        human=task.human,
+        layout=None,
+        goals=tuple(dict.fromkeys(place for place in named if place is not None)),
+        frames=builder.frames(moments, former, last),
+        acts=acts,
+        former_acts=tuple(chain.from_iterable(builder.acts(moment) for moment in former)),
+        meetings=tuple(builder.meetings(moments)),
+        window=result.window,
+        changes=find_changes(task, [moment.state for moment in moments], last, hidden),
+        result=result,
+        vehicles=frozenset() if places.towers else places.vehicles,
+        towers=places.towers,
+    )
+    return replace(scene, layout=lay_out(places, cell_size(scene, places.names))) if places.names else scene
+
+
+class _Builder:
+    """Turns the moments of a replay into frames, acts and meetings."""
+
+    def __init__(self, task: Task, result: Result, places: Places) -> None:
+        self.task = task
+        self.finder = Finder(places)
+        self.window = range(0) if result.window is None else range(result.window.start, result.window.end)
+        own = result.mode != "assistance"  # there nobody's cost is discounted (semantics 7)
+        self.discount = result.options.discount if own else Fraction(0)
+
+    def frames(self, moments: Sequence[Moment], former: Sequence[Moment], last: int) -> tuple[Frame, ...]:
+        frames = []
+        spent = dict.fromkeys(range(len(self.task.agents)), Fraction(0))
+        former_spent = Fraction(0)
+        before = moments[0].state
+        for epoch in range(last + 1):
+            moment = moments[epoch] if epoch < len(moments) else Moment(epoch, (), moments[-1].state)
+            then = former[min(epoch, len(former) - 1)]
+            for agent, share in shares(self.task, moment.actions, self.discount).items():
+                spent[agent] += share
+            if epoch < len(former):
+                former_spent += total(action.cost for action in then.actions)
+            state = moment.state
+            frames.append(
+                Frame(
+                    epoch=epoch,
+                    at=self.finder.agents(state),
+                    objects=self.finder.objects(state),
+                    former_at=self.finder.agents(then.state).get(self.task.human),
+                    made=self._facts(state - before),
+                    undone=self._facts(before - state),
+                    spent=dict(spent),
+                    former_spent=former_spent,
+                    caption=self._caption(moment, ended=epoch >= len(moments)),
+                    in_window=epoch in self.window,
+                )
+            )
+            before = state
+        return tuple(frames)
+
+    def acts(self, moment: Moment) -> list[Act]:
+        """The actions of a moment, the human's first."""
+        human = self.task.human
+        ordered = sorted(moment.actions, key=lambda a: (human not in a.participants, a.participants))
+        return [self._act(moment.epoch, action) for action in ordered]
+
+    def meetings(self, moments: Sequence[Moment]) -> list[Meeting]:
+        """Joint actions, and objects that somebody takes who did not have them last."""
+        found = []
+        holders: dict[str, int] = {}
+        for moment in moments:
+            objects = self.finder.objects(moment.state)
+            joint = [action for action in moment.actions if action.joint]
+            passed: dict[str, int] = {}
+            for name, where in objects.items():
+                if where.holder is not None:
+                    giver = holders.get(name, where.holder)
+                    holders[name] = where.holder
+                    if giver != where.holder:
+                        passed[name] = giver
+                        if not any(where.holder in action.participants for action in joint):
+                            found.append(self._found(moment, name, giver, where.holder))
+            found += [self._joint(moment, action, objects, passed) for action in joint]
+        return found
+
+    def _found(self, moment: Moment, name: str, giver: int, taker: int) -> Meeting:
+        agents = self.task.agents
+        text = f"{agents[taker]} takes {name}, which {agents[giver]} left"
+        return Meeting(moment.epoch, self.finder.agents(moment.state).get(taker), (name,), text)
+
+    def _joint(
+        self, moment: Moment, action: GroundAction, objects: dict[str, Whereabouts], passed: dict[str, int]
+    ) -> Meeting:
+        act = self._act(moment.epoch, action)
+        at = self.finder.agents(moment.state)
+        place = next((at[i] for i in action.participants if i in at), None)
+        agents = self.task.agents
+        mine = tuple(sorted(name for name in passed if objects[name].holder in action.participants))
+        gifts = []
+        for name in mine:
+            taker = objects[name].holder
+            if taker is not None:
+                gifts.append(f"{agents[passed[name]]} gives {name} to {agents[taker]}")
+        who = " and ".join(agents[i] for i in action.participants)
+        text = ", ".join(gifts) or f"{who}: {act.verb} {act.detail}".rstrip()
+        return Meeting(moment.epoch, place, mine, text + (f" in {place}" if gifts and place else ""))
+
+    def _act(self, epoch: int, action: GroundAction) -> Act:
+        verb, detail = verb_and_rest(action.name, [self.task.agents[i] for i in action.participants])
+        if not action.joint:
+            places = self.finder.places_of(action, action.participants[0])
+            reached = [places[f] for f in action.add if f in places]
+            verb, detail = ("go to", reached[0]) if reached else (verb, detail)
+        if verb != "go to":
+            detail = self._without_here(action, detail)
+        return Act(epoch, action.participants, verb, detail, action.name)
+
+    def _without_here(self, action: GroundAction, detail: str) -> str:
+        """A detail without the place and vehicle that participants are in; kept if it is all there is."""
+        here = []
+        for agent in action.participants:
+            places = self.finder.places_of(action, agent)
+            here += [parts(places[f]) for f in action.pre if f in places]
+            here += [parts(vehicle) for vehicle in self.finder.vehicles(action, agent)]
+        return " ".join(without(here, tuple(detail.split()))) or detail
+
+    def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
+        return tuple(self.task.facts[f] for f in sorted(ids))
+
+    def _caption(self, moment: Moment, *, ended: bool) -> str:
+        if moment.epoch == 0:
+            return "Before anybody has done anything."
+        if ended:
+            return "All is done; with the former plan there would still be something to do."
+        lines = []
+        for act in self.acts(moment):
+            who = " and ".join(self.task.agents[i] for i in act.agents)
+            lines.append(f"{who}: {act.verb} {act.detail}".rstrip())
+        return "; ".join(lines) + "." if lines else "Everybody waits."

@@ -1,0 +1,84 @@
+"""Where agents and objects are in a state, in vehicles too."""
+
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Final
+
+from serendipity.model import GroundAction
+from serendipity.model.task.actions import State
+from serendipity.pictures.map.places import Places, Whereabouts
+
+NOWHERE: Final = Whereabouts()
+
+
+class Finder:
+    """Where agents and objects are.
+
+    Args:
+        places: the map of their task.
+    """
+
+    def __init__(self, places: Places) -> None:
+        self._places = places
+
+    def agents(self, state: State) -> dict[int, str]:
+        """The place of each agent that is in one; who rides is where the vehicle is."""
+        found = dict(self._places.stations)
+        for agent in sorted(self._places.positions.keys() | self._places.riding.keys()):
+            places = self._places.positions.get(agent, {})
+            place = next((place for f, place in places.items() if f in state), None)
+            if place is None and agent in self._places.riding:
+                place = self._vehicle_at(self._places.riding[agent], state)
+            if place is not None:
+                found[agent] = place
+        return found
+
+    def _vehicle_at(self, riding: dict[int, str], state: State) -> str | None:
+        told = next((self._places.objects[name] for f, name in riding.items() if f in state), {})
+        return next((where.place for f, where in told.items() if f in state), None)
+
+    def objects(self, state: State) -> dict[str, Whereabouts]:
+        """Where each object is, who rides it, and who holds or rides what carries it."""
+        told = {
+            name: next((where for f, where in of.items() if f in state), self._otherwise(name))
+            for name, of in self._places.objects.items()
+        }
+        riders: dict[str, tuple[int, ...]] = defaultdict(tuple)
+        for agent, riding in self._places.riding.items():
+            vehicle = next((name for f, name in riding.items() if f in state), None)
+            if vehicle is not None:
+                riders[vehicle] += (agent,)
+        return {name: self._resolved(name, told, riders) for name in told}
+
+    def _otherwise(self, name: str) -> Whereabouts:
+        """Where an object is of which nothing is told."""
+        return Whereabouts(self._places.still[name]) if name in self._places.still else NOWHERE
+
+    def _resolved(
+        self, name: str, told: dict[str, Whereabouts], riders: Mapping[str, tuple[int, ...]]
+    ) -> Whereabouts:
+        """Where an object is: what is in a box in a van is where the van is, and with who rides it."""
+        where = told[name]
+        for _ in told:
+            if where.carrier is None or where.carrier not in told:
+                break
+            aboard = riders.get(where.carrier)
+            where = Whereabouts(holder=aboard[0]) if aboard else told[where.carrier]
+        return replace(where, carrier=told[name].carrier, riders=riders.get(name, ()))
+
+    def places_of(self, action: GroundAction, agent: int) -> dict[int, str]:
+        """Facts that tell where an agent is while it acts, with the place."""
+        found = dict(self._places.positions.get(agent, {}))
+        for vehicle in self.vehicles(action, agent):
+            told = self._places.objects[vehicle]
+            found |= {f: where.place for f, where in told.items() if where.place is not None}
+        return found
+
+    def vehicles(self, action: GroundAction, agent: int) -> list[str]:
+        """What an agent is in or on while it acts."""
+        riding = self._places.riding.get(agent, {})
+        still = {riding[f] for f in action.add if f in riding}
+        return [
+            riding[f] for f in action.pre if f in riding and (f not in action.delete or riding[f] in still)
+        ]

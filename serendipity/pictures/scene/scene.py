@@ -1,0 +1,137 @@
+"""The scene: everything that a picture of a plan shows, epoch by epoch, before anything is drawn."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from serendipity.model import Result, Window
+from serendipity.pictures.map.layout import Layout
+from serendipity.pictures.map.places import Whereabouts
+from serendipity.pictures.scene.changes import Change
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """An action of the timeline.
+
+    Attributes:
+        epoch: from 1.
+        agents: ids of the participants, ascending; two or more act jointly.
+        verb, detail: the action in two short lines; a move is "go to" and the place.
+        action: its full name.
+    """
+
+    epoch: int
+    agents: tuple[int, ...]
+    verb: str
+    detail: str
+    action: str
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """Something changes hands, or agents act jointly.
+
+    Attributes:
+        epoch: when.
+        place: where, or None without a map.
+        objects: what changes hands.
+        text: for people.
+    """
+
+    epoch: int
+    place: str | None
+    objects: tuple[str, ...]
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The world after an epoch (0: initially).
+
+    Attributes:
+        epoch: from 0.
+        at: place by agent id, for agents with a position.
+        objects: where each object is.
+        former_at: where the human would be with their former plan, or None without a map.
+        made, undone: names of the facts that became true and false in this epoch.
+        spent: team costs so far by agent id; joint actions are shared equally.
+        former_spent: cost of the human's former plan so far.
+        caption: who does what, for people.
+        in_window: whether the epoch belongs to the window.
+    """
+
+    epoch: int
+    at: dict[int, str]
+    objects: dict[str, Whereabouts]
+    former_at: str | None
+    made: tuple[str, ...]
+    undone: tuple[str, ...]
+    spent: dict[int, Fraction]
+    former_spent: Fraction
+    caption: str
+    in_window: bool
+
+    @property
+    def cost(self) -> Fraction:
+        """The team's cost so far."""
+        return sum(self.spent.values(), Fraction(0))
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A plan ready to be drawn.
+
+    Attributes:
+        name: of the task.
+        agents: names by id; ``human`` is an id.
+        layout: of the map, or None where the task has none.
+        goals: places that the human's goal names.
+        frames: epoch 0, 1, ... to the end of the plan or of the former plan, whichever is later.
+        acts, former_acts: the two plans.
+        window: as in the result.
+        changes: facts that change, for the lanes below the timeline.
+        result: what is shown.
+        vehicles: objects that others can be in or on.
+        towers: whether what is on an object is shown above it.
+    """
+
+    name: str
+    agents: tuple[str, ...]
+    human: int
+    layout: Layout | None
+    goals: tuple[str, ...]
+    frames: tuple[Frame, ...]
+    acts: tuple[Act, ...]
+    former_acts: tuple[Act, ...]
+    meetings: tuple[Meeting, ...]
+    window: Window | None
+    changes: tuple[Change, ...]
+    result: Result
+    vehicles: frozenset[str] = frozenset()
+    towers: bool = False
+
+    @property
+    def lanes(self) -> tuple[int, ...]:
+        """Agent ids as the timeline shows them: the human first."""
+        return (self.human, *(i for i in range(len(self.agents)) if i != self.human))
+
+    @property
+    def deviates(self) -> bool:
+        """Whether the human does anything but their former plan, where that is known."""
+        if not self.former_acts:
+            return False
+        own = [(act.epoch, act.action) for act in self.acts if self.human in act.agents]
+        return own != [(act.epoch, act.action) for act in self.former_acts]
+
+    @property
+    def contains(self) -> bool:
+        """Whether anything ever is in, on or with anything or anybody."""
+        whereabouts = [where for frame in self.frames for where in frame.objects.values()]
+        return any(where.carrier or where.riders or where.holder is not None for where in whereabouts)
+
+    @property
+    def key_epoch(self) -> int:
+        """The epoch that says most: the first meeting, else the window's start, else the end."""
+        if self.meetings:
+            return self.meetings[0].epoch
+        return self.window.start if self.window is not None else self.frames[-1].epoch
