@@ -1,6 +1,8 @@
 # Every target works alone on a fresh clone; `make help` lists them.
 PYTHON ?= python3
 BIN := .venv/bin
+BASE := .venv/.base
+RUNS := .venv/.runs
 INSTALLED := .venv/.installed
 READY := .venv/.ready
 PROBLEMS := $(or $(SERENDIPITY_PROBLEMS),../shared)
@@ -13,28 +15,42 @@ help:  ## list the targets
 
 .venv: $(READY)  ## make the virtual environment (with uv where it is installed, else with pip)
 
-$(READY): $(INSTALLED) $(wildcard search/kernel/*.[ch]) search/kernel/build.py
-	@$(BIN)/python -m search.kernel.build || true  # all works without it
+$(READY): $(INSTALLED) $(RUNS)
 	@touch $@
 
-$(INSTALLED): requirements-dev.txt pyproject.toml
+$(INSTALLED): $(BASE) requirements-dev.txt
+	@echo "Adding to .venv what tests and developers need (requirements-dev.txt) ..."
+	@if command -v uv >/dev/null 2>&1; then \
+	  uv pip install --quiet --compile-bytecode --python $(BIN)/python --require-hashes -r requirements-dev.txt; \
+	else \
+	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.txt; \
+	fi
+	@touch $@
+
+$(RUNS): $(BASE) $(wildcard search/kernel/*.[ch]) search/kernel/build.py
+	@$(BIN)/python -m search.kernel.build || true  # all works without it, more slowly
+	@touch $@
+
+$(BASE): requirements.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 	  || { echo "Python 3.11 or later is needed; set PYTHON=..., for example: make PYTHON=python3.12" >&2; exit 1; }
+	@echo "Making .venv, with what Serendipity needs to run (requirements.txt): half a minute, or as long as the network takes ..."
 	@if command -v uv >/dev/null 2>&1; then \
 	  set -e; \
 	  uv venv --quiet --clear --python "$$(command -v $(PYTHON))" .venv; \
-	  uv pip install --quiet --compile-bytecode --python $(BIN)/python --require-hashes -r requirements-dev.txt; \
+	  uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements.txt; \
 	  uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation -e .; \
 	else \
 	  set -e; \
 	  $(PYTHON) -m venv --clear .venv; \
-	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.txt; \
+	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.txt; \
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .; \
 	fi
-	@$(BIN)/python -m compileall -q serendipity search verify  # as an installed package is: the first start counts
+	@$(BIN)/python -m compileall -q serendipity search verify \
+	  $$($(BIN)/python -c 'import typer, rich; print(*typer.__path__, *rich.__path__)')  # the first start counts
 	@touch $@
 
-demo: $(READY)  ## the paper's example III-C: plan, proof, what the person will really do, picture
+demo: $(RUNS)  ## the paper's example III-C: plan, proof, what the person will really do, picture
 	@mkdir -p build/demo
 	@$(BIN)/serendipity plan --example room2 --discount 0.6
 	@$(BIN)/serendipity plan --example room2 --discount 0.6 --quiet -o build/demo/room2.json
@@ -52,7 +68,7 @@ test: $(READY)  ## run the tests
 	@$(BIN)/python -m pytest
 
 test-browser: browser  ## play the pages of `show` and `play` in a headless Chromium, which it installs where it may
-	@$(BIN)/python -m pytest -m browser -rs tests/show tests/live
+	@$(BIN)/python -m pytest -m browser -rs tests/show tests/live tests/docs
 
 test-robot: robot  ## let figures walk in physics; it installs pybullet where there is a wheel of it
 	@$(BIN)/python -m pytest -rs tests/robot
@@ -85,7 +101,7 @@ check: $(READY)  ## what has to hold before a commit: tests, ruff, mypy, import 
 	@.ci/run
 
 docs: $(READY)  ## build the documentation into build/docs; a broken link or any warning is an error
-	@$(BIN)/python -c 'import material' 2>/dev/null \
+	@$(BIN)/python -c 'import material, mkdocs_jupyter, mkdocstrings_handlers.python' 2>/dev/null \
 	  || { if command -v uv >/dev/null 2>&1; then \
 	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-docs.txt; \
 	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
@@ -127,7 +143,8 @@ fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slo
 	@$(BIN)/serendipity crosscheck --count 1000 --judges search,automata,paper,cbc -o build/disagreement
 	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
 
-PLATFORMS := any manylinux_2_17_x86_64 manylinux_2_17_aarch64 macosx_11_0_x86_64 macosx_11_0_arm64 win_amd64
+PLATFORMS := any manylinux_2_17_x86_64 manylinux_2_17_aarch64 musllinux_1_2_x86_64 musllinux_1_2_aarch64 \
+  macosx_11_0_x86_64 macosx_11_0_arm64 win_amd64 win_arm64
 
 wheels: $(READY)  ## what is released, into dist/: a wheel for each platform, one for any other, and the sources
 	@$(BIN)/python -c 'import ziglang' 2>/dev/null \
@@ -144,7 +161,7 @@ release-check:  ## install wheels and sources in fresh environments, and try the
 
 requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
-	  --no-emit-index-url --upgrade pyproject.toml -o requirements.txt
+	  --no-emit-index-url --upgrade --group build pyproject.toml -o requirements.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	  --no-emit-index-url --extra dev -c requirements.txt pyproject.toml -o requirements-dev.txt
 	@uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
@@ -159,5 +176,5 @@ requirements: pyproject.toml  ## pin the dependencies again (needs uv)
 	  --no-emit-index-url --extra wheels -c requirements-dev.txt pyproject.toml -o requirements-wheels.txt
 
 clean:  ## remove the environment and all caches
-	@rm -rf .venv .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache build dist *.egg-info search/kernel/_kernel*
+	@rm -rf .venv .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache build dist *.egg-info search/kernel/_kernel*
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

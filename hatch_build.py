@@ -17,9 +17,12 @@ from packaging.tags import platform_tags
 TARGETS: Final = {
     "manylinux_2_17_x86_64": ("x86_64-linux-gnu.2.17", ".so"),
     "manylinux_2_17_aarch64": ("aarch64-linux-gnu.2.17", ".so"),
+    "musllinux_1_2_x86_64": ("x86_64-linux-musl", ".so"),
+    "musllinux_1_2_aarch64": ("aarch64-linux-musl", ".so"),
     "macosx_11_0_x86_64": ("x86_64-macos.11.0", ".dylib"),
     "macosx_11_0_arm64": ("aarch64-macos.11.0", ".dylib"),
     "win_amd64": ("x86_64-windows-gnu", ".dll"),
+    "win_arm64": ("aarch64-windows-gnu", ".dll"),
 }
 """By platform tag what zig calls the platform, and how libraries end there."""
 

@@ -189,7 +189,7 @@ def installed(folder: Path, python: str, wheel: Path) -> Path:
 
 def demo(own: Path, home: Path) -> str:
     """What `make demo` runs, with what is installed."""
-    return run("make", "-f", ROOT / "Makefile", "demo", "READY=", f"BIN={own.parent}", cwd=home)
+    return run("make", "-f", ROOT / "Makefile", "demo", "RUNS=", f"BIN={own.parent}", cwd=home)
 
 
 def readme(own: Path, home: Path) -> None:

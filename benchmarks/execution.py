@@ -5,7 +5,7 @@
 
 ``people``: the 200 buildings, with people who follow the canonical one of their optimal plans, or any.
 *Alone* is for ``noisy`` what the same person, with the same dice, pays where robots do nothing.
-``domains``: three domains of CoDMAP 2015, each problem with two of its goals, drawn again and again.
+``domains``: five domains of CoDMAP 2015, each problem with two of its goals, drawn again and again.
 With ``--stride 3 --seeds 7`` that is about 1,000 runs of each person whose plans are drawn, in half an
 hour of one core.
 ``goals``: the buildings, where robots do not know in which of 2 to 5 rooms triage is to be conducted.
@@ -34,8 +34,8 @@ from serendipity.execution import Run
 from serendipity.model import Condition
 
 DISCOUNT = "0.9"
-PEOPLE = ("observant", "local", "noisy:0.1")
-DOMAINS = ("blocksworld", "rovers", "satellites")
+PEOPLE = ("observant", "local", "noisy:0.1", "omniscient")
+DOMAINS = ("blocksworld", "driverlog", "rovers", "satellites", "zenotravel")
 MOST_GOALS = 5
 
 
@@ -54,8 +54,8 @@ class Tally:
 
     @property
     def saved(self) -> float:
-        """What the team saved."""
-        return sum((row.alone or 0) - row.cost for row in self.rows)
+        """What the team saved, where the person got there."""
+        return sum((row.alone or 0) - row.cost for row in self.rows if row.reached)
 
     @property
     def in_time(self) -> str:
@@ -97,15 +97,15 @@ HEAD = (
 
 
 def _less(row: Run) -> bool:
-    return row.human_cost < (row.alone or 0)
+    return row.reached and row.human_cost < (row.alone or 0)
 
 
 def _same(row: Run) -> bool:
-    return row.human_cost == row.alone
+    return row.reached and row.human_cost == row.alone
 
 
 def _more(row: Run) -> bool:
-    return row.human_cost > (row.alone or 0)
+    return row.reached and row.human_cost > (row.alone or 0)
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ class Job:
 
 def done(job: Job) -> tuple[Job, dict[str, Any] | None]:
     """The paper's saving on the task, and a row a run; None where the person has no plan alone."""
-    task, promised = _task(job.source), _promised(job.source)
+    task, promised = task_of(job.source), _promised(job.source)
     if promised is None:
         return job, None
     candidates = _candidates(task, job.goals) if job.goals > 1 else None
@@ -159,11 +159,12 @@ def done(job: Job) -> tuple[Job, dict[str, Any] | None]:
 @lru_cache(maxsize=1)
 def _promised(source: Path | tuple[Problem, Roles, int]) -> float | None:
     """What the paper's plan saves on a task; None where the person has no plan alone, or nobody knows."""
-    result = serendipity.plan(_task(source), discount=DISCOUNT, time_limit=2)
+    result = serendipity.plan(task_of(source), discount=DISCOUNT, time_limit=2)
     return None if result.human_plan is None else result.saving
 
 
-def _task(source: Path | tuple[Problem, Roles, int]) -> Task:
+def task_of(source: Path | tuple[Problem, Roles, int]) -> Task:
+    """A building; or a problem with its roles, and two of its goals."""
     if isinstance(source, Path):
         return serendipity.load(source, human="commx")
     problem, who, seed = source
@@ -187,24 +188,24 @@ def people(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
     """Who the person is, over the buildings."""
     for human in PEOPLE:
         for ties, runs in (("fixed", seeds if human.startswith("noisy") else 1), ("drawn", seeds)):
-            for folder in _buildings(stride):
+            for folder in buildings(stride):
                 yield Job((human, ties), folder, human, ties, runs, 1, deadline)
 
 
 def domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
-    """Three other domains."""
+    """Other domains."""
     suite = PROBLEMS / "codmap15"
     if not suite.is_dir():
         return
     known = {}
     for name in DOMAINS:
         small = sorted(problems(suite, [name]), key=lambda p: (len(p.name), p.name))[:SMALLEST]
-        known[name] = [(problem, who) for problem in small if (who := _who(problem)) is not None]
+        known[name] = [(problem, able) for problem in small if (able := who(problem)) is not None]
     for number, name in product(range(0, DRAWS, stride), filter(known.get, DOMAINS)):
-        problem, who = known[name][number // stride % len(known[name])]
+        problem, able = known[name][number // stride % len(known[name])]
         for human in PEOPLE:
             for ties, runs in (("fixed", 1), ("drawn", seeds)):
-                yield Job((name, human, ties), (problem, who, number), human, ties, runs, 1, deadline)
+                yield Job((name, human, ties), (problem, able, number), human, ties, runs, 1, deadline)
 
 
 SMALLEST = 3
@@ -214,12 +215,12 @@ DRAWS = 200
 """Draws of two goals in each domain, problem after problem."""
 
 
-def _who(problem: Problem) -> Roles | None:
+def who(problem: Problem) -> Roles | None:
     """The human who can do it alone, with two of its goals, and two robots."""
 
     def can_alone(problem: Problem, who: Roles) -> bool:
         try:
-            task = _task((problem, who, 0))
+            task = task_of((problem, who, 0))
             return serendipity.plan(task, mode="individual", time_limit=60).cost is not None
         except (SerendipityError, ValueError):
             return False
@@ -231,7 +232,7 @@ def _who(problem: Problem) -> Roles | None:
 def goals(stride: int, _seeds: int, deadline: float) -> Iterator[Job]:
     """How many goals are possible, over the buildings."""
     for count in range(1, MOST_GOALS + 1):
-        for folder in _buildings(stride):
+        for folder in buildings(stride):
             yield Job((str(count),), folder, "observant", "fixed", 1, count, deadline)
 
 
@@ -239,7 +240,8 @@ TABLES = {"people": people, "domains": domains, "goals": goals}
 HEADS = {"people": ("person", "plans"), "domains": ("domain", "person", "plans"), "goals": ("goals",)}
 
 
-def _buildings(stride: int) -> list[Path]:
+def buildings(stride: int) -> list[Path]:
+    """Every so many of the 200."""
     suite = PROBLEMS / "usar200"
     named = [path for path in suite.iterdir() if path.is_dir()] if suite.is_dir() else []
     return sorted(named, key=lambda path: (len(path.name), path.name))[::stride]
@@ -252,7 +254,7 @@ def main() -> None:
     for name in arguments.tables.split(","):
         jobs = list(TABLES[name](arguments.stride, arguments.seeds, arguments.deadline))
         if not arguments.only_print:
-            clock = _on_processor_time if arguments.processor_time else None
+            clock = on_processor_time if arguments.processor_time else None
             open_jobs = [job for job in jobs if job.key not in record]
             for job, found in _worked_on(open_jobs, arguments.jobs, clock):
                 record.add(job.key, found)
@@ -271,7 +273,7 @@ def _tallied(jobs: Sequence[Job], record: Record) -> dict[tuple[str, ...], Tally
     return tallies
 
 
-def _on_processor_time() -> None:
+def on_processor_time() -> None:
     """Have deadlines of this process read another clock."""
     time.perf_counter = time.process_time
 

@@ -15,7 +15,7 @@ from serendipity.cli.on_demand import Commands
 from serendipity.cli.options import settings
 from serendipity.cli.streams import output
 from serendipity.cli.streams.stderr import tell
-from serendipity.model.errors import LimitReachedError, SerendipityError, limit_words
+from serendipity.model.errors import REPORT, LimitReachedError, SerendipityError, limit_words, told
 
 app = typer.Typer(
     name="serendipity",
@@ -30,7 +30,9 @@ app = typer.Typer(
 
 def _show_version(wanted: bool) -> None:
     if wanted:
-        output.say(f"serendipity {__version__}\n")
+        from search.kernel.library import state
+
+        output.say(f"serendipity {__version__}, kernel: {state()}\n")
         raise typer.Exit
 
 
@@ -38,7 +40,8 @@ def _show_version(wanted: bool) -> None:
 def _root(
     context: typer.Context,
     version: Annotated[  # noqa: ARG001 - its callback prints it
-        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version.")
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Print version and kernel."),
     ] = False,
     no_settings: Annotated[
         bool, typer.Option("--no-settings", help="Heed no serendipity.toml and no [tool.serendipity].")
@@ -85,6 +88,12 @@ def _run(argv: Sequence[str]) -> int:
         return _fail(f"{where} can't be written: {error.strerror}")
     except SystemExit as left:  # typer's way out where the reader of its help has stopped, and of completion
         return ExitCode.ANSWERED if left.code == 1 else int(left.code or 0)
+    except typer.Abort:
+        raise
+    except Exception as error:  # a fault of ours
+        output.log_origin()
+        _fail(f"{told(error)}: {REPORT}")
+        return ExitCode.UNEXPECTED
     return code
 
 

@@ -13,6 +13,9 @@ from serendipity.cli.process.signals import SIGNALS
 INTERRUPTED = 130
 """``ExitCode.INTERRUPTED``, which is not loaded yet."""
 
+WRONG_INPUT = 2
+"""``ExitCode.WRONG_INPUT``."""
+
 _OBJECTS = 50_000
 """Objects that are made between two garbage collections: loading makes many, and hardly any garbage."""
 
@@ -22,6 +25,7 @@ def run() -> None:
     _on_signals(_leave)
     _fill_closed_streams()
     gc.set_threshold(_OBJECTS)
+    _refuse_strangers()
     from serendipity.cli.app import main
     from serendipity.cli.process.interrupts import interrupt
     from serendipity.cli.process.leaving import leave
@@ -30,6 +34,17 @@ def run() -> None:
     code = main()
     _on_signals(signal.SIG_DFL)  # all is said and done
     leave(code)
+
+
+def _refuse_strangers() -> None:
+    """End where others have put files among ours: what is imported below may be theirs."""
+    from serendipity._siblings import require_siblings
+
+    try:
+        require_siblings("search", "verify")
+    except ImportError as error:
+        os.write(2, f"Error: {error}\n".encode(errors="backslashreplace"))
+        os._exit(WRONG_INPUT)
 
 
 def _fill_closed_streams() -> None:

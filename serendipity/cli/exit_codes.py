@@ -10,13 +10,16 @@ class ExitCode(IntEnum):
     ANSWERED = 0
     """An answer: an opportunity, a proof that there is none, a certificate that holds."""
     REFUTED = 1
-    """Something is refuted: a certificate, a result (``--strict``), a task that can't be right."""
+    """Something is refuted: a certificate, a result (``--strict``), a task that can't be right,
+    that a person gets there (``execute``)."""
     WRONG_INPUT = 2
-    """Wrong usage or input: one line on stderr says what was expected."""
+    """Wrong usage or input: one line on stderr says what was expected; tasks of a suite are broken."""
     INFEASIBLE = 3
     """Proved: there is no plan at all."""
     UNDECIDED = 4
     """The limit came before any answer, or a certificate is undecided."""
+    UNEXPECTED = 70
+    """A fault of the program: one line on stderr says what to report; ``-vv`` adds the traceback."""
     INTERRUPTED = 130
     """Interrupted; the best plan found so far is still written."""
 

@@ -40,8 +40,16 @@ SERVERS: Final = (
 )
 """They go on until somebody stops them, so the tests ask them for a port that there can't be."""
 
+_FIRST: Final = ("examples", "plan", "explain", "generate", "play")
+"""Commands that whoever knows none of them begins with."""
+
 
 def epilog(command: str = "") -> str:
-    """The examples of one command (all without one), as the closing lines of its help."""
-    chosen = [text for text in (*EXAMPLES, *SERVERS) if not command or text.split()[1] == command]
+    """The examples of one command (without one, the first of some), as the closing lines of its help."""
+    every = (*EXAMPLES, *SERVERS)
+    if command:
+        chosen = [text for text in every if text.split()[1] == command]
+    else:
+        chosen = [next(text for text in every if text.split()[1] == name) for name in _FIRST]
+        chosen.append("serendipity COMMAND --help")
     return "\n".join(["\b", "Examples:", *(f"  {text}" for text in chosen)])

@@ -109,5 +109,5 @@ def _names(expression: Expression) -> Iterator[str]:
         case FunctionValue():
             yield expression.key[0]
         case Operation():
-            yield from _names(expression.left)
-            yield from _names(expression.right)
+            for value in expression.values:
+                yield from _names(value)

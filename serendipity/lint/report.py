@@ -1,7 +1,10 @@
 """What is found about a task, and its JSON form (schema ``serendipity.task-report/1``)."""
 
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any, Final
+
+from serendipity.model.telling import Grid, Line, Told, json_of
 
 SCHEMA: Final = "serendipity.task-report/1"
 LEVELS: Final = ("error", "warning", "note")
@@ -23,8 +26,8 @@ class Finding:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class TaskReport:
+@dataclass(frozen=True, slots=True, repr=False)
+class TaskReport(Told):
     """How large a task is, and what is found about it.
 
     Attributes:
@@ -54,3 +57,28 @@ class TaskReport:
         """The JSON object."""
         values = asdict(self)
         return {"schema": SCHEMA, **values, "findings": [asdict(finding) for finding in self.findings]}
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+    def told(self) -> Iterator[Line | Grid]:
+        """What ``check-task`` prints."""
+        yield Line(f"{self.task}: human {self.human}; {self.facts} facts in {self.variables} variables")
+        yield Line()
+        counts = [(name, str(count)) for name, count in self.actions.items()]
+        yield Grid(("action", "ground actions"), [*counts, ("all", str(sum(self.actions.values())))])
+        yield Line()
+        yield Grid(("agent", "takes part in"), [(name, str(count)) for name, count in self.agents.items()])
+        yield Line()
+        styles = {"error": "bold red", "warning": "yellow", "note": ""}
+        for finding in self.findings:
+            yield Line(f"{finding.level}: {finding.text} ({finding.rule})", styles[finding.level])
+        if not self.findings:
+            yield Line("nothing wrong was found", "green")
+
+    def _in_short(self) -> Iterator[str]:
+        """What stands between the brackets of its ``repr``."""
+        yield repr(self.task)
+        for level in LEVELS:
+            yield f"{sum(finding.level == level for finding in self.findings)} {level}s"

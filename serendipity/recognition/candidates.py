@@ -8,6 +8,7 @@ from typing import Any
 
 from serendipity.model import Condition, InputError, Task, UsageError, exact
 from serendipity.model.arguments import LIST, Kind, expect
+from serendipity.model.task.names import no_fact
 from serendipity.model.task.task import canonical_name, several
 from serendipity.pddl.parsing.lists import Entry
 from serendipity.recognition.files import read_goals, read_observed
@@ -108,7 +109,7 @@ def _candidate(entry: Entry, number: int, ids: Mapping[str, int], file: object) 
     signed = [_literal(text) for text in literals]
     for fact, _ in signed:
         if fact not in ids:
-            raise wrong(f"there is no fact '{fact}' in the task")
+            raise wrong(no_fact(fact, ids))
     name = item.get("name", ", ".join(_shown(*pair) for pair in signed))
     if not isinstance(name, str):
         raise wrong(f"name: expected a text, got {name!r}")

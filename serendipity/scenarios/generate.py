@@ -2,7 +2,7 @@
 
 from pathlib import Path
 from random import Random
-from typing import Final
+from typing import Final, Literal
 
 from serendipity.model.arguments import PATH, TEXT, WHOLE, expect, expect_or_none
 from serendipity.model.errors import UsageError
@@ -129,8 +129,8 @@ def generate_usar(
     seed: int = 0,
     extra_edges: int = 0,
     corridors: int | None = None,
-    preset: str | None = None,
-    layout: str = "agents",
+    preset: Literal["figure2", "room2", "room5", "room7"] | None = None,
+    layout: Literal["agents", "pair"] = "agents",
 ) -> tuple[Path, ...]:
     """Write a seeded search-and-rescue task as PDDL; see :func:`make_usar` for the numbers.
 

@@ -1,5 +1,6 @@
 """Results as answers of an engine: statuses, plans, figures."""
 
+import json
 from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
@@ -43,21 +44,25 @@ class Answers:
         self._limits = limits_from(timeout, None)
         self._messages = [_message(LogLevel.WARNING, f"{name}: not used") for name in ignored]
 
-    def all(self) -> Iterator[PlanGenerationResult]:
+    def all(self, *, any_plan: bool = False) -> Iterator[PlanGenerationResult]:
         """The answers; the last is final, and says so if the problem is not supported.
+
+        Args:
+            any_plan: the first plan is the last answer where neither the problem nor a mode says of one that
+                it is better.
 
         Raises:
             UPUsageError: a parameter is wrong; it says which.
         """
         try:
-            yield from self._planned()
+            yield from self._planned(any_plan and self._call.modeless and not with_metric(self._problem))
         except LimitReachedError as error:
             status = Status.MEMOUT if error.reason == "memory-limit" else Status.TIMEOUT
             yield self._result(status, None, str(error))
         except SerendipityError as error:
             raise UPUsageError(f"{ENGINE}: {error}") from None
 
-    def _planned(self) -> Iterator[PlanGenerationResult]:
+    def _planned(self, first: bool) -> Iterator[PlanGenerationResult]:
         options = self._call.options
         limits = limits_from(options.time_limit, options.memory_limit, self._limits)
         try:
@@ -69,6 +74,9 @@ class Answers:
         known: float | None = None
         last: Result | None = None
         for result in plan_anytime(reading.task, human_plan=names, deadline=limits, **_keywords(self._call)):
+            if first and result.cost is not None:
+                yield self._answer(result, reading, self._status(result, reading))
+                return
             if last is not None and last.cost is not None and (known is None or last.cost < known):
                 known = last.cost
                 yield self._answer(last, reading, Status.INTERMEDIATE)
@@ -88,7 +96,7 @@ class Answers:
         match result.status:
             case "optimal" if whole and with_metric(self._problem):
                 return Status.SOLVED_OPTIMALLY
-            case "optimal":
+            case "optimal" | "feasible":
                 return Status.SOLVED_SATISFICING
             case "infeasible":
                 return Status.UNSOLVABLE_PROVEN if whole else Status.UNSOLVABLE_INCOMPLETELY
@@ -104,7 +112,7 @@ class Answers:
                 status = Status.UNSOLVABLE_INCOMPLETELY
             return self._result(status, None, str(error))
         figures = result.to_dict()
-        metrics = {name: str(figures[name]) for name in _FIGURES if figures[name] not in (None, {})}
+        metrics = {name: _text(figures[name]) for name in _FIGURES if figures[name] not in (None, {})}
         metrics["engine_internal_time"] = str(self._limits.elapsed())
         notes = [*reading.task.warnings, *([] if result.reason is None else [result.reason])]
         return self._result(status, plan, *notes, metrics=metrics)
@@ -122,6 +130,11 @@ class Answers:
 
 def _message(level: LogLevel, text: str) -> LogMessage:
     return LogMessage(level, text)
+
+
+def _text(figure: object) -> str:
+    """A figure as text; one of several parts as JSON."""
+    return json.dumps(figure) if isinstance(figure, dict) else str(figure)
 
 
 def _keywords(call: Asked) -> dict[str, Any]:

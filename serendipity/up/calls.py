@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from unified_planning.model import AbstractProblem
+from unified_planning.model import AbstractProblem, Problem
 from unified_planning.model.multi_agent import MultiAgentProblem
 from unified_planning.plans import Plan
 
@@ -12,6 +12,7 @@ from serendipity.facade.call import options_from
 from serendipity.model import Options, UsageError
 from serendipity.model.options import INFINITE
 
+_HELP: Final = ("serendipity", "communication", "assistance")
 _OWN: Final = ("human", "robots", "human_plan", "predict_with")
 
 
@@ -56,8 +57,20 @@ class Asked:
         """Whether an optimal plan is one of the problem."""
         return self.inexact is None
 
+    @property
+    def modeless(self) -> bool:
+        """Whether nobody has asked for the best answer in a mode: any plan of the problem will do."""
+        return self.exact and "mode" not in dict(self.given)
+
     def who(self, problem: AbstractProblem) -> tuple[Any, Any]:
-        """Human and robots: where it makes no difference to the answer, anybody is the human."""
+        """Human and robots: where it makes no difference to the answer, anybody is the human.
+
+        Raises:
+            UsageError: it is help that is asked for, and nobody said for whom.
+        """
+        mode = self.options.mode
+        if self.human is None and self.robots is None and isinstance(problem, Problem) and mode in _HELP:
+            raise UsageError(f"human: mode '{mode}' is help for somebody: expected an object")
         if self.human is None and self.exact and isinstance(problem, MultiAgentProblem) and problem.agents:
             return problem.agents[0].name, None
         return self.human, self.robots

@@ -12,7 +12,7 @@ from unified_planning.exceptions import UPUsageError
 from unified_planning.model import AbstractProblem, ProblemKind
 from unified_planning.plans import Plan, PlanKind
 
-from serendipity.model import SerendipityError
+from serendipity.model import SerendipityError, UsageError
 from serendipity.up.answers import Answers
 from serendipity.up.calls import Asked, asked
 from serendipity.up.kinds import PLANS, supported_kind, with_metric
@@ -40,14 +40,17 @@ class SerendipityEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanVa
             with ``horizon="inf"``, and without an interference it is ``strict``.
 
     Raises:
-        UsageError: a parameter is unknown or has no legal value.
+        UPUsageError: a parameter is unknown or has no legal value.
     """
 
     def __init__(self, **parameters: Any) -> None:
         Engine.__init__(self)
         OneshotPlannerMixin.__init__(self)
         AnytimePlannerMixin.__init__(self)
-        self._asked: Asked = asked(parameters)
+        try:
+            self._asked: Asked = asked(parameters)
+        except UsageError as error:
+            raise UPUsageError(f"{ENGINE}: {error}") from None
 
     @property
     def name(self) -> str:
@@ -85,7 +88,7 @@ class SerendipityEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanVa
         return bool(anytime_guarantee == AnytimeGuarantee.INCREASING_QUALITY)
 
     def _solve(self, problem: AbstractProblem, *given: Any, **more: Any) -> PlanGenerationResult:
-        *_, last = self._answers(problem, *given, **more).all()
+        *_, last = self._answers(problem, *given, **more).all(any_plan=not self.optimality_metric_required)
         return last
 
     def _solve_with_params(self, problem: AbstractProblem, **more: Any) -> PlanGenerationResult:

@@ -38,6 +38,16 @@ PLANS: Final = (PlanKind.SEQUENTIAL_PLAN, PlanKind.PARTIAL_ORDER_PLAN)
 """Kinds of plans that are written and validated."""
 
 
+_HELPED: Final = {
+    "STATE_INVARIANTS": "the compiler STATE_INVARIANTS_REMOVING",
+    "TRAJECTORY_CONSTRAINTS": "the compiler TRAJECTORY_CONSTRAINTS_REMOVING",
+    "OVERSUBSCRIPTION": "the engine oversubscription[serendipity]",
+    "TIMED_EFFECTS": "the compiler TIMED_TO_SEQUENTIAL",
+    "CONTINUOUS_TIME": "the compiler TIMED_TO_SEQUENTIAL",
+}
+"""What of unified-planning itself turns problems that have a feature into problems without it."""
+
+
 def supported_kind() -> ProblemKind:
     """All that a problem may have."""
     return ProblemKind(_FEATURES, version=LATEST_PROBLEM_KIND_VERSION)
@@ -52,7 +62,9 @@ def require_supported(problem: AbstractProblem) -> None:
     kind = problem.kind
     if not kind <= supported_kind():
         beyond = sorted(f for f in kind.features if f not in _FEATURES)
-        raise refusal(problem, f"{', '.join(beyond)}: not supported")
+        helps = dict.fromkeys(_HELPED[feature] for feature in beyond if feature in _HELPED)
+        hint = f"; {' and '.join(helps)} of unified-planning may help" if helps else ""
+        raise refusal(problem, f"{', '.join(beyond)}: not supported{hint}")
 
 
 def refusal(problem: AbstractProblem, message: str) -> InputError:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from unified_planning.engines import CompilationKind, PlanGenerationResultStatus
+from unified_planning.engines.factory import DEFAULT_ENGINES
 from unified_planning.environment import get_environment
 from unified_planning.exceptions import UPException
 from unified_planning.model import Problem, ProblemKind
@@ -107,6 +108,9 @@ def counts_actions_only(engine: str) -> bool:
 
 def _known(engine: str) -> str:
     engines = get_environment().factory.engines
+    package = DEFAULT_ENGINES.get(engine, ("", ""))[0].partition(".")[0].replace("_", "-")
+    if engine not in engines and package.startswith("up-"):
+        raise UsageError(f"engine '{engine}' is not installed: `pip install {package}`")
     if engine not in engines:
         raise UsageError(f"engine '{engine}': expected one of {', '.join(sorted(engines))}")
     return engine

@@ -200,10 +200,7 @@ class _Writer:
             return FunctionValue((node.fluent().name, *(word for term in terms for word in term.words)))
         for test, operator in _OPERATORS:
             if getattr(node, test)():
-                first, *others = map(self._number, node.args)
-                for other in others:
-                    first = Operation(operator, first, other)
-                return first
+                return Operation(operator, tuple(map(self._number, node.args)))
         raise refusal(self.problem, f"'{node}' is not supported as a cost")
 
 

@@ -81,6 +81,13 @@ def test_no_human(tmp_path: Path, run: Callable[[str], Run]) -> None:
     assert_one_line(run("plan task"), "human")
 
 
+def test_who_could_be_the_human_is_said(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+    assert_one_line(run("plan domain.pddl problem.pddl"), "--human", "--robot")
+    delivery = Path(__file__).parents[1] / "pddl" / "data" / "delivery"
+    words = ["its agents: v, w, x", "--human H"]
+    assert_one_line(run(f"plan {delivery / 'domain.pddl'} {delivery / 'problem.pddl'}"), *words)
+
+
 def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
     serendipity.generate_usar(tmp_path / "task", preset="room2")
     spoil(tmp_path / "task/robot/problem.pddl", "(:goal (and))", "(:goal (at robot room1))")
@@ -118,7 +125,6 @@ def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
         (f"plan {'long' * 200}", ["can't be read: File name too long"]),
         (f"reproduce {'long' * 200}", ["can't be read: File name too long"]),
         ("plan a b c", ["3 paths"]),
-        ("plan a b", ["--human", "--robot"]),
         ("plan --agent commx", ["--agent"]),
         ("plan --agent commx=a", ["DOMAIN,PROBLEM"]),
         ("plan --agent commx=a,b --agent commx=a,b", ["each name once"]),

@@ -7,7 +7,7 @@ import pytest
 from serendipity.cli.on_demand import NAMES
 from serendipity.cli.streams.output import FORMATS
 from serendipity.cli.streams.progress import STYLES
-from serendipity.model.options import CHOICES
+from serendipity.model.keywords import CHOICES
 from serendipity.scenarios.examples import EXAMPLES
 from tests.cli.conftest import Run
 

@@ -33,6 +33,11 @@ def test_json_and_csv_hold_a_row_a_run(run: Callable[[str], Run]) -> None:
     )
 
 
+def test_who_does_not_arrive_is_no_answer(run: Callable[[str], Run]) -> None:
+    told = run(f"{CALL} --epochs 2")
+    assert told.code == 1 and "not reached in 1 of 1 run, so nothing is saved" in told.out.splitlines()
+
+
 def test_a_log_is_played_again(run: Callable[[str], Run]) -> None:
     assert run(f"{CALL} --runs 2 --faults fail=0.2,drop=0.05 --log runs.jsonl").code == 0
     again = run("execute --example room2 --replay runs.jsonl")

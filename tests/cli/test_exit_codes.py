@@ -38,6 +38,7 @@ def test_codes_are_the_documented_ones() -> None:
         "WRONG_INPUT": 2,
         "INFEASIBLE": 3,
         "UNDECIDED": 4,
+        "UNEXPECTED": 70,
         "INTERRUPTED": 130,
     }
     assert set(OF_STATUS) == set(STATUSES)
@@ -125,3 +126,19 @@ def test_a_doctored_result_is_1(run: Callable[[str], Run]) -> None:
     certificate = json.loads(run("verify --example room2 answer.json --format json").out)
     assert certificate["verdict"] == "refuted"
     assert any(claim["verdict"] == "refuted" and claim["reason"] for claim in certificate["claims"])
+
+
+@pytest.mark.parametrize("option", ["", "-vv"])
+def test_a_fault_of_ours_is_70(
+    option: str, run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(task: Task, **options: Any) -> Iterator[Result]:
+        raise AssertionError("never\nso")
+        yield
+
+    monkeypatch.setattr(serendipity, "plan_anytime", broken)
+    done = run(f"plan --example room2 {option}")
+    assert (done.code, done.out) == (70, "")
+    *before, last = done.err.splitlines()
+    assert last.startswith("Error: unexpected AssertionError: never so: a fault of Serendipity; please")
+    assert any("Traceback" in line for line in before) == bool(option)

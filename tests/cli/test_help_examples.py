@@ -1,5 +1,6 @@
 """Every example that --help shows runs, in the order shown."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -29,7 +30,7 @@ def test_examples_of_servers_are_right_but_for_the_port(run: Callable[[str], Run
     assert [path.name for path in tmp_path.iterdir()] == []  # no record of what was not played
 
 
-@pytest.mark.parametrize("command", ["", *(name for name in NAMES if name != "generate"), "generate usar"])
+@pytest.mark.parametrize("command", [*(name for name in NAMES if name != "generate"), "generate usar"])
 def test_help_shows_its_examples(command: str, run: Callable[[str], Run]) -> None:
     done = run(f"{command} --help")
     shown = [text for text in (*EXAMPLES, *SERVERS) if text.startswith(f"serendipity {command}".rstrip())]
@@ -39,9 +40,19 @@ def test_help_shows_its_examples(command: str, run: Callable[[str], Run]) -> Non
         assert text in done.out
 
 
+def test_help_fits_a_terminal(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    shown = run("--help").out.splitlines()
+    assert all(len(line) <= 80 and not line.endswith("...") for line in shown[1:])
+    named = [line.split()[0] for line in shown if re.match(r"  [a-z]", line)]
+    assert set(NAMES) <= set(named)
+    examples = [line.strip() for line in shown if line.startswith("    serendipity ")]
+    assert len(examples) < 10 and set(examples) <= {*EXAMPLES, *SERVERS, "serendipity COMMAND --help"}
+
+
 @pytest.mark.parametrize("option", ["mode", "suffix", "preservation", "interference", "human_model", "ties"])
 def test_help_names_the_choices_of_the_registry(option: str, run: Callable[[str], Run]) -> None:
-    from serendipity.model.options import CHOICES
+    from serendipity.model.keywords import CHOICES
 
     shown = "".join(run("plan --help").out.split())
     assert f"--{option.replace('_', '-')}{'|'.join(CHOICES[option])}" in shown
@@ -49,5 +60,6 @@ def test_help_names_the_choices_of_the_registry(option: str, run: Callable[[str]
 
 def test_version(run: Callable[[str], Run]) -> None:
     import serendipity
+    from search.kernel.library import state
 
-    assert run("--version").out == f"serendipity {serendipity.__version__}\n"
+    assert run("--version").out == f"serendipity {serendipity.__version__}, kernel: {state()}\n"

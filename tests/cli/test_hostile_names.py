@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import serendipity
+from serendipity.model.printable import LONGEST, message, printable, printable_json
 from serendipity.writing.csv_text import as_csv
-from serendipity.writing.printable import LONGEST, message, printable, printable_json
 from tests.cli.conftest import Run, assert_one_line
 
 Runs = Callable[[str], Run]

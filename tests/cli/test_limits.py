@@ -171,7 +171,8 @@ def test_what_is_loaded_in_the_middle_is_loaded_first_under_a_time_limit() -> No
     modules = {"verify.certificate.certify", *limits.PLANNING, *limits.CHECKING}
     code = f"import sys\nfor name in {sorted(modules)}: __import__(name)\nprint(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert late - {*loaded.split()} == {"pulp"}  # only who asks for CBC needs it
+    asked_for = {"pulp", "logging", "multiprocessing"}  # by who wants CBC, or has no kernel
+    assert late - {*loaded.split()} <= asked_for
 
 
 def imported_in_functions(room: Path) -> Iterator[str]:

@@ -36,7 +36,7 @@ def test_it_is_written_beside_the_answer(run: Runs, tmp_path: Path) -> None:
     done = run("plan --example room2 --discount 0.6 -o help.json --save-plan help.plan")
     assert (done.code, done.out, done.err) == (0, "", "")
     lines = (tmp_path / "help.plan").read_text().splitlines()
-    assert lines[0] == "; usar-room2: human commx, robots robot"
+    assert lines[0] == "; usar-room2: human commx, robot robot"
     assert lines[-1] == "; cost = 12.6 (general cost)"
     at = lines.index("(hand_over robot commx mk2 hall4)")
     assert lines[at - 1] == "; epoch 6"

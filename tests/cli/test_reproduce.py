@@ -3,6 +3,7 @@
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -31,9 +32,10 @@ def test_formats_say_the_same(run: Runs, suite: Path) -> None:
     data = json.loads(run(f"reproduce suite {SHORT} --format json").out)
     assert data["schema"] == "serendipity.reproduction/1"
     for line, row in zip(rows[1:], data["rows"], strict=True):
-        cells = line.split(",")[:-1]
-        assert cells == ["" if row[name] is None else str(row[name]) for name in rows[0].split(",")[:-1]]
-        assert any(text.split()[:4] == cells[:4] for text in shown.out.splitlines())
+        cells = dict(zip(rows[0].split(","), line.split(","), strict=True))
+        assert cells.pop("seconds") != ""
+        assert cells == {name: "" if row[name] is None else str(row[name]) for name in cells}
+        assert any(text.split()[:4] == list(cells.values())[:4] for text in shown.out.splitlines())
     assert "Table I:" in shown.out
     assert "Table II:" in shown.out
 
@@ -107,3 +109,23 @@ def test_a_single_task_is_not_a_folder_of_tasks(run: Runs, suite: Path) -> None:
 
 def test_no_scheduler(run: Runs, suite: Path) -> None:
     assert_one_line(run(f"reproduce suite {SHORT} --dask nonsense://x --quiet"), "--dask", "nonsense://x")
+
+
+def test_a_broken_task_is_told_when_all_others_are_done(run: Runs, suite: Path, tmp_path: Path) -> None:
+    problem = suite / "test1" / "commx" / "problem.pddl"
+    good = problem.read_text()
+    problem.write_text("(define (problem")
+    done = run(f"reproduce suite {SHORT} -o rows.csv")
+    assert (done.code, done.out) == (2, "")
+    assert re.fullmatch(r"Error: 1: .*problem\.pddl:1: .*\n", done.err)
+    table = [line.split(",")[:9] for line in (tmp_path / "rows.csv").read_text().splitlines()]
+    assert [(row[0], row[8]) for row in table[1:]] == [("1", "error")] * 2 + [("2", "optimal")] * 2
+    problem.write_text(good)
+    assert (tmp_path / "rows.csv.journal").exists(), "the answer does not hold all of it"
+    assert run(f"reproduce suite {SHORT} -o rows.csv").code == 0
+    assert not (tmp_path / "rows.csv.journal").exists()
+    problem.write_text("(define (problem")
+    assert run("bench suite --modes composite --discounts 0.9 --contenders search -o times.csv").code == 2
+    *_, last = (tmp_path / "times.csv").read_text().splitlines()
+    assert last.startswith("test1,,,,")
+    assert "problem.pddl:1" in last

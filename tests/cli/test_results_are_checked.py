@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from serendipity.show.scene.building import MOST_EPOCHS
+from serendipity.pictures.scene.building import MOST_EPOCHS
 from tests.cli.conftest import Run, assert_one_line
 
 Runs = Callable[[str], Run]

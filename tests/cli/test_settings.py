@@ -105,6 +105,7 @@ def test_options_go_where_they_mean_the_same(run: Runs) -> None:
         ('agents = {a = "domain.pddl"}', ('agents.a: expected ["DOMAIN", "PROBLEM"], got',)),
         ('team = ["d", "p"]', ("team: expected agents beside it",)),
         ("discount = \nmode", ("expected TOML", "line 1")),
+        ("discount = " + "[" * 2000 + "]" * 2000, ("expected TOML", "nested too deeply")),
     ],
 )
 @pytest.mark.parametrize("name", ["serendipity.toml", "pyproject.toml"])

@@ -2,10 +2,12 @@
 
 import subprocess
 import sys
+from collections.abc import Callable
 
 import pytest
 
 from serendipity.cli.on_demand import NAMES
+from tests.cli.conftest import Run
 
 SOLVERS = ("pulp", "highspy")
 
@@ -37,6 +39,7 @@ def test_only_the_command_that_is_called_loads() -> None:
 def test_a_signal_is_listened_to_before_anything_loads() -> None:
     loaded = modules_after("import serendipity.cli.entry")
     assert not {name for name in loaded if name.startswith(("serendipity.", "typing", "typer"))} - {
+        "serendipity._version",
         "serendipity.cli",
         "serendipity.cli.entry",
         "serendipity.cli.process",
@@ -55,6 +58,16 @@ def test_a_signal_is_listened_to_before_anything_loads() -> None:
 def test_nothing_heavy_loads_for(command: list[str]) -> None:
     loaded = loaded_after(f"from serendipity.cli.app import main\nassert main({command!r}) == 0")
     assert not loaded & {*SOLVERS, "networkx", "numpy", "rich", "pydantic"}
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_a_missing_kernel_is_one_line(
+    quiet: bool, process: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SERENDIPITY_KERNEL", "off")
+    done = process(f"plan --example room2 --format json {'--quiet' if quiet else ''}")
+    assert '"kernel": "none (SERENDIPITY_KERNEL=off)"' in done.out
+    assert done.err.count("\n") == done.err.count("no compiled kernel (SERENDIPITY_KERNEL=off)") == 1 - quiet
 
 
 def test_importing_the_package_imports_nothing_else() -> None:

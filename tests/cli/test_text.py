@@ -9,12 +9,13 @@ import pytest
 import serendipity
 from serendipity.cli.on_demand import NAMES
 from serendipity.cli.text.answers import plan_report
-from serendipity.cli.text.render import Grid, Line, rendered
+from serendipity.cli.text.render import rendered
 from serendipity.model import Options, Result, Window
+from serendipity.model.keywords import CHOICES
 from serendipity.model.numbers import plain
-from serendipity.model.options import CHOICES
-from serendipity.show import build_scene
-from serendipity.show.scene.headline import headline
+from serendipity.model.telling import Grid, Line
+from serendipity.pictures import build_scene
+from serendipity.pictures.scene.headline import headline
 from serendipity.testing.builders import task
 from tests.cli.conftest import Run
 
@@ -89,6 +90,17 @@ def test_a_terminal_gets_the_same_words_in_colour() -> None:
     bare = re.sub(r"\x1b\[[0-9;]*m", "", coloured)
     assert coloured != bare
     assert bare.split() == plain.split()
+
+
+@pytest.mark.parametrize("width", [40, 80, 120])
+def test_nothing_is_cut_on_a_narrow_terminal(width: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    task = serendipity.example("room2")
+    report = serendipity.interruptions(task, discount=0.6)
+    for shown in (report, serendipity.verify(task, answer()), answer()):
+        words = re.sub(r"\x1b\[[0-9;]*m", "", rendered(shown.told(), terminal=True))
+        assert "\N{HORIZONTAL ELLIPSIS}" not in words
+        assert set(str(shown).split()) == set(words.split())
 
 
 def answer(**changes: object) -> Result:

@@ -1,5 +1,6 @@
 """The notebooks run from the top, and print what they show."""
 
+import ast
 import contextlib
 import io
 import json
@@ -33,7 +34,16 @@ def test_cells_print_what_is_shown(path: Path) -> None:
             continue
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
-            exec(compile("".join(cell["source"]), str(path), "exec"), names)
-        shown = [out for out in cell["outputs"] if out["output_type"] == "stream"]
-        assert all(out["output_type"] in ("stream", "execute_result") for out in cell["outputs"])
-        assert printed.getvalue() == "".join("".join(out["text"]) for out in shown)
+            value = _executed("".join(cell["source"]), names)
+        shown = "".join("".join(out["text"]) for out in cell["outputs"] if out["output_type"] == "stream")
+        assert printed.getvalue() == shown
+        results = [out["data"] for out in cell["outputs"] if out["output_type"] == "execute_result"]
+        assert results == [] if value is None else [repr(value)] == results[0]["text/plain"]
+
+
+def _executed(source: str, names: dict[str, Any]) -> object:
+    """The value of a cell's last line, where that is an expression."""
+    body = ast.parse(source).body
+    last = body.pop() if isinstance(body[-1], ast.Expr) else None
+    exec(compile(ast.Module(body, []), source, "exec"), names)
+    return None if last is None else eval(compile(ast.Expression(last.value), source, "eval"), names)

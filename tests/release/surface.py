@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, get_origin
 
 from typer.main import get_command
 
@@ -17,7 +17,14 @@ from serendipity.cli.exit_codes import ExitCode
 
 ROOT = Path(__file__).resolve().parents[2]
 WRITTEN = Path(__file__).parent / "surface.txt"
-MODULES = ("serendipity", "serendipity.up", "serendipity.testing")
+MODULES = (
+    "serendipity",
+    "serendipity.aio",
+    "serendipity.execution",
+    "serendipity.robot",
+    "serendipity.up",
+    "serendipity.testing",
+)
 
 PARTS = {"serendipity.Deadline": {"check", "elapsed", "left", "reached", "within"}}
 """Classes of which only these methods are public; the others are for loops and tables of our own."""
@@ -25,6 +32,11 @@ PARTS = {"serendipity.Deadline": {"check", "elapsed", "left", "reached", "within
 _SCHEMA = re.compile(r'"(serendipity\.[a-z-]+/[0-9]+)"')
 _MOVED = (("pathlib._local.", "pathlib."), ("collections.abc.", ""), ("fractions.", ""), ("typing.", ""))
 """What signatures say otherwise in other versions of Python, or at greater length than is needed."""
+
+_INNER = r"\[((?:[^][]|\[[^][]*\])*)\]"
+_OPTIONAL, _UNION = re.compile(f"Optional{_INNER}"), re.compile(f"Union{_INNER}")
+_COMMA = re.compile(r", (?![^[]*\])")
+"""Unions as Python 3.14 writes them; commas within brackets stay."""
 
 
 def surface() -> str:
@@ -38,6 +50,8 @@ def _names() -> Iterator[str]:
             value = getattr(module, name)
             if inspect.isclass(value):
                 yield from _class(f"{module.__name__}.{name}", value)
+            elif get_origin(value) is not None:  # a type by another name
+                yield f"{module.__name__}.{name} = {_annotation(value)}"
             elif callable(value):
                 yield f"{module.__name__}.{name}{_signature(value)}"
             else:
@@ -73,7 +87,8 @@ def _annotation(value: Any) -> str:
 def _plain(text: str) -> str:
     for old, new in _MOVED:
         text = text.replace(old, new)
-    text = re.sub(r"Optional\[((?:[^][]|\[[^][]*\])*)\]", r"\1 | None", text)  # as Python 3.14 has it
+    text = _UNION.sub(lambda found: _COMMA.sub(" | ", found[1]), _OPTIONAL.sub(r"\1 | None", text))
+    text = text.replace("NoneType", "None").replace(" = Ellipsis", " = ...")
     return re.sub(r"serendipity(\.\w+)+\.(?=\w)", "", text)
 
 

@@ -4,9 +4,23 @@ Where a line is marked as wrong, it is; a checker in strict mode complains if it
 """
 
 from collections.abc import Sequence
+from typing import Unpack
 
 import serendipity
-from serendipity import Certificate, Execution, PlanStep, Result, Session, Task, UsageError, Window
+from serendipity import (
+    Certificate,
+    Execution,
+    Mode,
+    Options,
+    PlanOptions,
+    PlanStep,
+    Result,
+    Session,
+    Status,
+    Task,
+    UsageError,
+    Window,
+)
 
 
 def helped(task: Task, discount: float) -> Result:
@@ -24,7 +38,7 @@ def by_robot(steps: Sequence[PlanStep], robot: str) -> float:
 
 def epochs(task: Task) -> int:
     """How long it takes where everybody does as planned, and nobody is in a hurry."""
-    session = Session(task, discount=0.6)
+    session = told(discount=0.6, max_cost="human", horizon=task.name.count("-") + 20)
     answer = session.plan()
     run = Execution(task, discount=0.6)
     for name in answer.human_plan or ():
@@ -33,8 +47,29 @@ def epochs(task: Task) -> int:
     return len(run.passed)
 
 
+def asked(mode: Mode) -> Options:
+    """A mode, handed on."""
+    return Options(mode=mode)
+
+
+def told(**options: Unpack[PlanOptions]) -> Session:
+    """Options, handed on."""
+    return Session(serendipity.example("room2"), **options)
+
+
 def wrong(result: Result, task: Task) -> None:
     """What a type checker has to see."""
+    serendipity.plan(task, discont=0.6)  # type: ignore[call-arg]
+    serendipity.plan(task, discount=[1])  # type: ignore[arg-type]
+    serendipity.plan(task, mode="serendpity")  # type: ignore[arg-type]
+    serendipity.interruptions(task, ties="robust")  # type: ignore[call-arg]
+    serendipity.explain(task, mode="help")  # type: ignore[arg-type]
+    serendipity.execute(task, disount=0.6)  # type: ignore[call-arg]
+    serendipity.verify(task, result, solver="glpk")  # type: ignore[arg-type]
+    Session(task, discont=0.6).plan(human_modell="local")  # type: ignore[call-arg]
+    Options(discont=0.6)  # type: ignore[call-arg]
+    status: Status = "optimum"  # type: ignore[assignment]
+    assert result.status == status
     result.cost = 1.0  # type: ignore[misc]
     serendipity.plan(task.name)  # type: ignore[arg-type]
     len(result.window)  # type: ignore[arg-type]
@@ -52,7 +87,7 @@ def main() -> None:
     again = Result.from_dict(result.to_dict())
     assert again == result
     try:
-        serendipity.plan(task, mode="sideways")
+        asked("sideways")  # type: ignore[arg-type]
     except UsageError as error:
         print(error)
 

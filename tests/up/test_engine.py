@@ -1,5 +1,10 @@
 """The engine: who is picked, what is refused, what statuses promise."""
 
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
 import pytest
 from unified_planning.engines import PlanGenerationResult, PlanGenerationResultStatus
 from unified_planning.engines.mixins.anytime_planner import AnytimeGuarantee
@@ -8,11 +13,20 @@ from unified_planning.environment import get_environment
 from unified_planning.exceptions import UPNoSuitableEngineAvailableException, UPUsageError
 from unified_planning.model import AbstractProblem, DurativeAction, Fluent, Problem, Timing
 from unified_planning.plans import PartialOrderPlan, SequentialPlan
-from unified_planning.shortcuts import BoolType, IntType, StartTiming
+from unified_planning.shortcuts import (
+    Always,
+    BoolType,
+    InstantaneousAction,
+    IntType,
+    MinimizeSequentialPlanLength,
+    Not,
+    StartTiming,
+)
 from unified_planning.test.examples.multi_agent import get_example_problems
 
 import serendipity.up
-from serendipity.model import UsageError
+from serendipity.model import Result, Task, UsageError
+from serendipity.up import answers
 from serendipity.up.engine import SerendipityEngine
 from tests.up.problems import corridor, costs, kitchen
 
@@ -120,6 +134,80 @@ def test_a_limit_that_comes_first_is_told() -> None:
     assert result.log_messages[0].message == "heuristic: not used"
 
 
+def without_metric(length: int) -> Problem:
+    """A corridor; who walks it may take three steps at once."""
+    problem = Problem("walk")
+    at = [
+        problem.add_fluent(Fluent(f"at{i}", BoolType()), default_initial_value=not i) for i in range(length)
+    ]
+    steps = [(i, j) for i in range(length) for j in (i + 1, i + 3) if j < length]
+    for i, j in steps:
+        step = InstantaneousAction(f"step{i}_{j}")
+        step.add_precondition(at[i])
+        step.add_effect(at[i], False)
+        step.add_effect(at[j], True)
+        problem.add_action(step)
+    problem.add_goal(at[-1])
+    return problem
+
+
+class _NeverBetter:
+    """Stands for a search that has a plan, and would go on for it to be better."""
+
+    def __init__(self, asked: list[str]) -> None:
+        self.asked = asked
+
+    def __call__(self, task: Task, **options: Any) -> Iterator[Result]:
+        options.pop("deadline")
+        best = serendipity.plan(task, **options)
+        self.asked.append("first")
+        yield replace(best, status="feasible", lower_bound=0.0)
+        self.asked.append("better")
+        yield best
+
+
+@pytest.mark.parametrize("metric", [False, True])
+def test_the_first_plan_is_enough_unless_one_is_better(metric: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[str] = []
+    monkeypatch.setattr(answers, "plan_anytime", _NeverBetter(asked))
+    problem = without_metric(9)
+    if metric:
+        problem.add_quality_metric(MinimizeSequentialPlanLength())
+    result = solve(problem)
+    assert asked == ["first", "better"][: 1 + metric]
+    assert result.status is (Status.SOLVED_OPTIMALLY if metric else Status.SOLVED_SATISFICING)
+    with FACTORY.PlanValidator(problem_kind=problem.kind, plan_kind=result.plan.kind) as validator:
+        assert validator.validate(problem, result.plan)
+    *_, last = SerendipityEngine().get_solutions(without_metric(9))
+    assert asked[-1] == "better", "an anytime planner goes on"
+    assert len(last.plan.actions) == 4
+
+
+def test_a_plan_is_an_answer_whatever_limit_came(monkeypatch: pytest.MonkeyPatch) -> None:
+    def cut(task: Task, **options: Any) -> Iterator[Result]:
+        options.pop("deadline")
+        yield replace(serendipity.plan(task, **options), status="feasible", reason="time-limit")
+
+    monkeypatch.setattr(answers, "plan_anytime", cut)
+    result = solve(kitchen())
+    assert result.status is Status.SOLVED_SATISFICING
+    assert result.plan is not None
+    assert "time-limit" in [message.message for message in result.log_messages]
+
+
+def test_metrics_of_several_parts_are_json() -> None:
+    metrics = solve(kitchen(), **HELP).metrics
+    assert json.loads(metrics["window"]).keys() == {"start", "end"}
+    assert set(json.loads(metrics["realised"]).values()) <= {True, False}
+
+
+def test_a_refusal_names_what_helps() -> None:
+    problem = without_metric(3)
+    problem.add_trajectory_constraint(Always(Not(problem.fluent("at1")())))
+    with pytest.raises(serendipity.InputError, match="not supported; the compiler STATE_INVARIANTS_REM"):
+        serendipity.up.from_problem(problem)
+
+
 def test_answers_get_better() -> None:
     with FACTORY.AnytimePlanner(name="serendipity", params=HELP) as planner:
         *before, last = planner.get_solutions(kitchen())
@@ -139,13 +227,17 @@ def test_answers_get_better() -> None:
     ],
 )
 def test_wrong_parameters_are_told(parameters: dict[str, object], message: str) -> None:
-    with pytest.raises(UsageError, match=message):
+    with pytest.raises(UPUsageError, match=message):
         SerendipityEngine(**parameters)
 
 
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
+        (
+            {"mode": "serendipity"},
+            "mode 'serendipity' is help for somebody: expected an object",
+        ),
         ({"human": "Bob"}, "agent 'Bob': there is no such object"),
         ({"human": "Ann"}, "no other object of type 'Person"),
         ({"human": "Place", "robots": "Robot"}, "human: expected one object, got 5"),

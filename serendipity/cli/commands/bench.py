@@ -11,10 +11,12 @@ from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.render import Grid, Line, as_markdown, rendered
+from serendipity.cli.streams.broken_tasks import broken_tasks
+from serendipity.cli.text.render import as_markdown, rendered
 from serendipity.model import InputError, Task, UsageError
 from serendipity.model.errors import DisagreementError
 from serendipity.model.table import table_of
+from serendipity.model.telling import Grid, Line
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
 
@@ -105,8 +107,10 @@ def bench(
     ] = None,
     markdown: Annotated[bool, typer.Option("--markdown", help="A suite's tables as Markdown.")] = False,
     quiet: output.Quiet = False,
+    verbose: output.Verbose = 0,
 ) -> int:
-    """Measure the search beside integer programs and Fast Downward; -o writes every timing."""
+    """Measure the search beside integer programs and others. -o writes every timing."""
+    output.start_logging(verbose)
     _check_files(output_file, plot)
     if scaling is not None:
         if folder is not None:
@@ -124,11 +128,12 @@ def bench(
         code = _covered(rows, where, output_file, plot, markdown=markdown, quiet=quiet)
         return code if complete else ExitCode.INTERRUPTED
     chosen, absent = _present(_listed(contenders, _CONTENDERS), benchmark.CONTENDERS)
+    errors: dict[str, Exception] = {}
     with tempfile.TemporaryDirectory() as scratch:
         if folder is None:
             tasks = list(_generated(Path(scratch), rooms, medkits, robots or 1, seeds or 10))
         else:
-            tasks = list(_loaded(folder, stride))
+            tasks = list(_loaded(folder, stride, errors))
     timings: list[Timing] = []
     found = benchmark.measure(
         tasks,
@@ -153,13 +158,16 @@ def bench(
     if ratios:
         parts += [Grid(benchmark.RATIOS_HEADER, ratios), Line()]
     parts.append(Grid(benchmark.TIMES_HEADER, benchmark.times(timings)))
-    answers = [output.Answer(rendered(parts), None), *_as_rows(benchmark.Timing, timings, output_file)]
+    broken = [benchmark.broken(task, error) for task, error in errors.items()]
+    every = _as_rows(benchmark.Timing, [*timings, *broken], output_file)
+    answers = [output.Answer(rendered(parts), None), *every]
     if plot is not None:
         from serendipity.evaluation.benchmark.plot import side_by_side
 
         answers.append(output.Answer(side_by_side(timings, plot.suffix), plot, "--plot"))
     output.write_answers(answers)
-    return ExitCode.ANSWERED
+    reasons = {timing.task: timing.reason or "" for timing in broken}
+    return broken_tasks(reasons) if reasons else ExitCode.ANSWERED
 
 
 def _suite(
@@ -227,7 +235,8 @@ def _covered(
     differing = coverage.disagreements(rows)
     if differing:
         raise DisagreementError("; ".join(differing))
-    return ExitCode.ANSWERED
+    errors = coverage.errors(rows)
+    return broken_tasks(errors) if errors else ExitCode.ANSWERED
 
 
 def _scaling(
@@ -303,7 +312,12 @@ def _form(output_file: Path | None) -> str:
     return output.choose_format(None, output_file, ROWS)
 
 
-def _loaded(folder: Path, stride: int) -> Iterator[Task]:
+def _loaded(folder: Path, stride: int, errors: dict[str, Exception]) -> Iterator[Task]:
+    """The tasks of a folder; those that can't be read are ``errors`` by name.
+
+    Raises:
+        InputError: there is none that can be read.
+    """
     from serendipity.pddl import read_folder
 
     if not folder.is_dir():
@@ -312,7 +326,12 @@ def _loaded(folder: Path, stride: int) -> Iterator[Task]:
     if not found:
         raise InputError("expected a folder for each task in it", folder)
     for path in found[::stride]:
-        yield read_folder(path)
+        try:
+            yield read_folder(path)
+        except Exception as error:  # one broken task does not end a suite
+            errors[path.name] = error
+    if len(errors) == len(found[::stride]):
+        raise next(iter(errors.values()))
 
 
 def _generated(scratch: Path, rooms: int, medkits: int, robots: int, seeds: int) -> Iterator[Task]:

@@ -10,12 +10,10 @@ from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.reading import read_result
 from serendipity.cli.options import limits, naming
 from serendipity.cli.streams import output, progress
-from serendipity.model import InputError, ProofCheck, Result, Task, UsageError
+from serendipity.model import InputError, Result, Task, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from serendipity.cli.text.render import Grid, Line
+    pass
 
 _Files = Annotated[
     list[Path],
@@ -41,7 +39,7 @@ def check_proof(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Check a proof with integers only, without a solver; with a task and a result, that it is theirs."""
+    """Check a proof with integers only, without a solver. With a task and a result: that it is theirs."""
     form = output.prepare(format, output_file, verbose)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.facade.proofs")
     proof, *others = files
@@ -63,26 +61,5 @@ def check_proof(
     else:
         from serendipity.cli.text.render import rendered
 
-        output.write_answer(rendered(list(_text(found))), output_file)
+        output.write_answer(rendered(found.told()), output_file)
     return ExitCode.ANSWERED if found.accepted else ExitCode.REFUTED
-
-
-def _text(found: ProofCheck) -> "Iterator[Line | Grid]":
-    from serendipity.cli.text.render import Grid, Line
-
-    if found.programs:
-        rows = [
-            (
-                program.name,
-                f"{program.columns:,}",
-                f"{program.rows:,}",
-                f"{program.leaves:,}",
-                "nothing at all" if program.limit is None else f"nothing up to {program.limit}",
-                "" if program.optimum is None else str(program.optimum),
-            )
-            for program in found.programs
-        ]
-        yield Grid(("program", "columns", "rows", "leaves", "refuted", "solution"), rows)
-        yield Line()
-    style = "green" if found.accepted else "bold red"
-    yield Line(f"{found.verdict}, {found.claim}: {found.reason}", style)

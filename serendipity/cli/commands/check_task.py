@@ -1,6 +1,5 @@
 """``serendipity check-task``: is a task what its author meant?"""
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,8 +9,7 @@ from serendipity.cli.options import limits, naming
 from serendipity.cli.streams import output, progress
 
 if TYPE_CHECKING:
-    from serendipity.cli.text.render import Grid, Line
-    from serendipity.lint import TaskReport
+    pass
 
 
 def check_task(
@@ -28,7 +26,7 @@ def check_task(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Look at a task before planning: its size, goals out of reach, and what is declared and not used."""
+    """Look at a task before planning. Its size, goals out of reach, and what is declared and not used."""
     form = output.prepare(format, output_file, verbose)
     name = naming.task_name(files, human, robot, agent, team, example)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.lint")
@@ -41,7 +39,7 @@ def check_task(
     else:
         from serendipity.cli.text.render import rendered
 
-        output.write_answer(rendered(_text(report)), output_file)
+        output.write_answer(rendered(report.told()), output_file)
     return ExitCode.ANSWERED if report.right else ExitCode.REFUTED
 
 
@@ -62,20 +60,3 @@ def _files(name: naming.TaskName) -> list[tuple[Path, Path]]:
     folders = sorted(folder for folder in name.files[0].iterdir() if folder.is_dir())
     pairs = ((folder / "domain.pddl", folder / "problem.pddl") for folder in folders)
     return [(domain, problem) for domain, problem in pairs if domain.exists() and problem.exists()]
-
-
-def _text(report: "TaskReport") -> "Iterator[Line | Grid]":
-    from serendipity.cli.text.render import Grid, Line
-
-    yield Line(f"{report.task}: human {report.human}; {report.facts} facts in {report.variables} variables")
-    yield Line()
-    counts = [(name, str(count)) for name, count in report.actions.items()]
-    yield Grid(("action", "ground actions"), [*counts, ("all", str(sum(report.actions.values())))])
-    yield Line()
-    yield Grid(("agent", "takes part in"), [(name, str(count)) for name, count in report.agents.items()])
-    yield Line()
-    styles = {"error": "bold red", "warning": "yellow", "note": ""}
-    for finding in report.findings:
-        yield Line(f"{finding.level}: {finding.text} ({finding.rule})", styles[finding.level])
-    if not report.findings:
-        yield Line("nothing wrong was found", "green")

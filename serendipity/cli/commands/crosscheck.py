@@ -1,7 +1,7 @@
 """``serendipity crosscheck``: search, integer programs, certificates and laws on the same calls."""
 
 import secrets
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
@@ -33,7 +33,7 @@ def crosscheck(
         str,
         typer.Option(
             metavar="NAME,...",
-            help="Who answers: search, automata, paper, cbc, program, exhaustive.",
+            help="Who answers: search, automata, paper, cbc, program, exhaustive; or false-certificates.",
         ),
     ] = "search,automata,paper",
     judge: Annotated[
@@ -65,18 +65,25 @@ def crosscheck(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Check that independent methods agree: on random tasks, or on one task in every mode.
+    """Check that independent methods agree. On random tasks, or on one task in every mode.
 
     The search must also answer alike, and claim no more than is so, however it is asked: under limits,
     on the way to its answer, after other calls, in a session; that takes long, and is left out where
     a limit is set.
+
+    With the judge false-certificates, answers to other tasks and calls are presented with each task, fitted
+    to it and doctored, some hundred of them; those that brute force knows to be false must not be proved.
 
     Judges from outside are asked for the best plan of all agents: where there are any, every call is
     one in composite mode without a horizon.
     """
     output.start_logging(verbose)
     from serendipity.evaluation.crosscheck import (
+        FALSE_CERTIFICATES,
         JUDGES,
+        Disagreement,
+        FalseCertificates,
+        Judge,
         PlanCall,
         compare,
         random_call,
@@ -86,16 +93,23 @@ def crosscheck(
     )
     from serendipity.testing.judges import by_command, by_name
 
-    chosen = {}
-    for name in judges.split(","):
-        if name not in JUDGES:
-            raise UsageError(f"judges: expected some of {', '.join(JUDGES)}, got '{name}'")
-        chosen[name] = JUDGES[name]
+    chosen: dict[str, Judge] = {}
+    for name in (names := judges.split(",")):
+        if name not in (*JUDGES, FALSE_CERTIFICATES):
+            known = ", ".join((*JUDGES, FALSE_CERTIFICATES))
+            raise UsageError(f"judges: expected some of {known}, got '{name}'")
+        chosen |= {name: JUDGES[name]} if name in JUDGES else {}
+    forged = FalseCertificates(time_limit) if FALSE_CERTIFICATES in names else None
 
     outside = [*map(by_name, judge or ()), *map(by_command, judge_command or ())]
-    judged = partial(
+    compared = partial(
         compare, judges=chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
     )
+
+    def judged(call: PlanCall) -> Disagreement | None:
+        found = compared(call) if chosen or outside else None
+        return found or (forged(call) if forged else None)
+
     calls: Iterable[PlanCall]
     if not files and not agent and example is None:
         first = seed
@@ -114,18 +128,22 @@ def crosscheck(
             on_progress(checked, total)
             found = judged(call)
             if found is not None:
-                again = shows_it_too(
-                    found, chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
-                )
-                smallest = shrink(found.call, again)
-                found = judged(smallest) or found
                 break
         else:
-            names = ", ".join([*chosen, *(stranger.name for stranger in outside)])
-            output.say(f"{total} calls, {names}: 0 disagreements\n")
+            names += [stranger.name for stranger in outside]
+            output.say(f"{total} calls, {', '.join(names)}: 0 disagreements\n")
+            output.say("".join(f"{line}\n" for line in forged.lines()) if forged else "")
             return ExitCode.ANSWERED
+    again: Callable[[PlanCall], bool] = FalseCertificates(time_limit).shows
+    if found.law != FALSE_CERTIFICATES:
+        again = shows_it_too(found, chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit)
+    with progress.working("shrinking", quiet=quiet) as on_news:
+        smallest = shrink(found.call, again, on_try=lambda tried: on_news(f"{tried} calls"))
+    found = judged(smallest) or found
     words = [word for name in judge or () for word in ("--judge", name)]
     words += [word for text in judge_command or () for word in ("--judge-command", text)]
+    words += ["--judges", FALSE_CERTIFICATES] if found.law == FALSE_CERTIFICATES else []
     commands = write_case(found, folder, words)
-    output.say(f"after {checked} calls without, a disagreement: {found}\nreproduce: {commands}\n")
+    plans = "".join(f"{whose}: {steps}\n" for whose, steps in found.plans.items())
+    output.say(f"after {checked} calls without, a disagreement: {found}\n{plans}reproduce: {commands}\n")
     return ExitCode.REFUTED

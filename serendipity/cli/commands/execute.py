@@ -2,7 +2,7 @@
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -115,7 +115,7 @@ def execute(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Let a person do as they like while robots watch, decide in each epoch, and help where it pays."""
+    """Let a person do as they like while robots watch and help. They decide in each epoch anew."""
     form = output.prepare(format, output_file, verbose, output.DATA)
     output.check_output(log, "--log")
     output.check_output(clip, "--clip")
@@ -124,19 +124,24 @@ def execute(
     task = naming.load(named, person, robot, agent, team, example, quiet=quiet)
     if replay is not None:
         return _replayed(task, replay, output_file)
-    given = plan_options.given(mode=mode, discount=discount, interference=interference, beta=beta)
+    given = plan_options.given(
+        mode=mode,
+        discount=discount,
+        interference=interference,
+        beta=beta,
+        ties=ties,
+        human_model=human_model,
+    )
     with progress.counting("runs", quiet=quiet) as on_progress:
         found = serendipity.execute(
             task,
             policy,
             runs=runs,
             seed=seed,
-            ties=ties,
             faults=faults,
             adapter=adapter if film is None else partial(_filmed, film, epoch_seconds),
             durations=durations,
             epoch_seconds=_seconds("epoch_seconds", epoch_seconds),
-            human_model=human_model,
             goals=goals,
             epochs=epochs,
             jobs=jobs,
@@ -152,7 +157,7 @@ def execute(
     if clip is not None and film is not None:
         answers.append(output.Answer(film.clip(clip.suffix, found.logs[0]), clip, "--clip"))
     output.write_answers(answers)
-    return ExitCode.ANSWERED
+    return ExitCode.ANSWERED if all(row.reached for row in found.rows) else ExitCode.REFUTED
 
 
 def _film(clip: Path, adapter: str | None, runs: int) -> "Film":
@@ -190,8 +195,9 @@ def _recorded(files: list[Path] | None, human: str) -> tuple[list[Path] | None, 
 
 
 def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> int:
-    from serendipity.cli.text.render import Line, rendered
+    from serendipity.cli.text.render import rendered
     from serendipity.execution import read_logs, replay
+    from serendipity.model.telling import Line
 
     lines, code = [], ExitCode.ANSWERED
     for number, log in enumerate(read_logs(file), start=1):
@@ -212,22 +218,6 @@ def _answer(form: str, found: "Runs") -> str | bytes:
         return output.as_json(found.to_dict())
     if form in ROWS:
         return written(found.table(), form)
-    return _text(found, [row.to_dict() for row in found.rows])
+    from serendipity.cli.text.render import rendered
 
-
-def _text(found: "Runs", rows: list[dict[str, Any]]) -> str:
-    from serendipity.cli.text.render import Grid, Line, rendered
-
-    parts: list[Line | Grid] = [Line(line) for line in found.story()] if len(rows) == 1 else []
-    parts += [Line()] if parts else []
-    parts.append(Grid(list(rows[0]), [[_cell(value) for value in row.values()] for row in rows]))
-    parts += [Line(), *(Line(line) for line in found.summary_lines())]
-    return rendered(parts)
-
-
-def _cell(value: object) -> str:
-    if value is None:
-        return "-"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return rendered(found.told())

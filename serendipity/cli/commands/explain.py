@@ -1,8 +1,7 @@
 """``serendipity explain``: why this help, or why none."""
 
-from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -50,7 +49,7 @@ def explain(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Explain an answer: what changes, why then, from which discount on; or what stands in the way."""
+    """Explain an answer. What changes, why then, from which discount on; or what stands in the way."""
     arguments = locals()
     form = output.prepare(format, output_file, verbose)
     modules = ("serendipity.explanation", "serendipity.facade.certify", "serendipity.cli.text.render")
@@ -84,11 +83,6 @@ def _read(task: Task, path: Path, deadline: Deadline) -> Result:
 def _shown(found: "Explanation", form: str) -> str:
     if form == "json":
         return output.as_json(found.to_dict())
-    from serendipity.cli.text.render import Grid, Line, rendered
+    from serendipity.cli.text.render import rendered
 
-    parts: list[Any] = []
-    for topic, several in groupby(found.sentences, key=lambda sentence: sentence[0]):
-        parts += [Line()] if parts else []
-        parts += [Line(topic, "bold"), *(Line(f"  {text}") for _, text in several)]
-    grids: list[Line | Grid] = parts
-    return rendered(grids)
+    return rendered(found.told())

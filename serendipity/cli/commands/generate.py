@@ -1,14 +1,14 @@
 """``serendipity generate``: seeded tasks of any size."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from serendipity.cli.choices import choices
 from serendipity.cli.help_examples import epilog
 from serendipity.cli.streams.output import say
-from serendipity.writing.printable import printable
+from serendipity.model.printable import printable
 
 app = typer.Typer(
     name="generate",
@@ -57,6 +57,7 @@ def usar(
     """Write a search-and-rescue building: a human, robots, medkits and a place for triage."""
     from serendipity.scenarios.generate import generate_usar
 
+    named: dict[str, Any] = {"preset": preset, "layout": layout}
     written = generate_usar(
         output,
         rooms=rooms,
@@ -65,7 +66,6 @@ def usar(
         seed=seed,
         extra_edges=extra_edges,
         corridors=corridors,
-        preset=preset,
-        layout=layout,
+        **named,
     )
     say("".join(f"{printable(str(path))}\n" for path in written))

@@ -1,6 +1,5 @@
 """``serendipity interruptions``: in which windows the human could be helped, and by how much."""
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -12,8 +11,6 @@ from serendipity.cli.files.human_plan import read_human_plan
 from serendipity.cli.options import limits, naming, plan_options
 from serendipity.cli.streams import output, progress
 from serendipity.model import UsageError
-from serendipity.model.errors import limit_words
-from serendipity.model.numbers import plain
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
 
@@ -23,7 +20,6 @@ _WRITE_SHARE: Final = {"json": 0.4} | dict.fromkeys(("text", *ROWS), 0.05)
 """What of the time limit is kept for writing: thousands of windows, in JSON each with its plan."""
 
 if TYPE_CHECKING:
-    from serendipity.cli.text.render import Grid, Line
     from serendipity.facade.interruptibility import InterruptionReport
 
 
@@ -53,7 +49,7 @@ def interruptions(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """In which windows the human, or the team, could pay less, and what would change then."""
+    """Say in which windows help would pay. What the human, or the team, could save, and what would change."""
     arguments = locals()
     form = output.prepare(format, output_file, verbose, output.DATA)
     output.check_output(heat_map, "--heat-map")
@@ -70,7 +66,9 @@ def interruptions(
         report = serendipity.interruptions(task, on_progress=on_progress, deadline=early, **options)
     answers = [output.Answer(_shown(report, form, every=every), output_file)]
     if heat_map is not None:
-        answers.append(output.Answer(_drawn(report, heat_map.suffix), heat_map, "--heat-map"))
+        from serendipity.pictures import draw_windows
+
+        answers.append(output.Answer(draw_windows(report, heat_map.suffix), heat_map, "--heat-map"))
     output.write_answers(answers)
     return _code(report)
 
@@ -88,51 +86,4 @@ def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str | byt
         return written(report.table(), form)
     from serendipity.cli.text.render import rendered
 
-    return rendered(_text(report, every=every))
-
-
-def _drawn(report: "InterruptionReport", suffix: str) -> str | bytes:
-    from serendipity.explanation.heat_map import heat_map
-
-    picture = heat_map(report)
-    if suffix == ".png":
-        from serendipity.show.formats.png import png
-
-        return png(picture)
-    from serendipity.show.formats.svg import svg
-
-    return svg(picture) + "\n"
-
-
-def _text(report: "InterruptionReport", *, every: bool) -> "Iterator[Line | Grid]":
-    from serendipity.cli.text.render import Grid, Line
-
-    if report.human_plan is None:
-        yield Line(f"{report.human} can't reach the goal alone: there is no plan to interrupt")
-        return
-    verdicts = {True: "can be", False: "can't be", None: "may or may not be"}
-    yield Line(
-        f"{report.human}'s plan ({len(report.human_plan)} actions, cost {plain(report.human_cost)}) "
-        f"{verdicts[report.interruptible]} interrupted to {report.human}'s advantage"
-    )
-    if report.limit is not None:
-        yield Line(f"{limit_words(report.limit)}: only these windows were examined", "yellow")
-    shown = [entry for entry in report.windows if every or entry.informative]
-    if len(shown) < len(report.windows):
-        less = f"{len(shown)} of {len(report.windows)} windows save more than every window within them"
-        yield Line(f"{less}; --all shows the others, too")
-    if not shown:
-        return
-    yield Line()
-    who = report.human
-    header = ("window", f"{who} pays", "team pays", f"{who} saves", "team saves", "removed", "instead")
-    rows = []
-    for entry in shown:
-        gone = entry.removal
-        removed = f"{gone.first}..{gone.last}" if gone is not None and gone.removed else ""
-        window = f"[{entry.window.start}, {entry.window.end})"
-        costs = (entry.human_cost, entry.team_cost, entry.human_saving, entry.team_saving)
-        instead = "" if gone is None else "; ".join(gone.replacement)
-        rows.append((window, *map(plain, costs), removed, instead))
-    helpful = (i for i, entry in enumerate(shown) if entry.human_saving and entry.human_saving > 0)
-    yield Grid(header, rows, frozenset(helpful), numbered=True)
+    return rendered(report.told(every=every))

@@ -58,7 +58,7 @@ def plan(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Find the best plan in which robots help the human, and prove that none is better."""
+    """Find the best help for a person, with a proof."""
     arguments = locals()
     form = output.prepare(format, output_file, verbose)
     output.check_output(save_plan, "--save-plan")
@@ -127,7 +127,7 @@ def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, c
         return output.as_json(result.to_dict() | certified)
     from serendipity.cli.text.answers import plan_report
 
-    return plan_report(task, result, certificate, claims=claims)
+    return plan_report(task, result, certificate, each_claim=claims)
 
 
 def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str]:
@@ -152,12 +152,12 @@ def _for_goals(result: Result, certificate: Certificate | None, form: str, outpu
         answer = result.to_dict() | ({} if certificate is None else {"certificate": certificate.to_dict()})
         output.write_answer(output.as_json(answer), output_file)
     else:
-        from serendipity.cli.text.answers import certificate_report
         from serendipity.cli.text.render import rendered
+        from serendipity.model.answers.words import for_goals
 
-        text = rendered(goal_options.plan_text(result))
+        text = rendered(for_goals(result))
         if certificate is not None:
-            text += f"\n{certificate_report(certificate)}"
+            text += f"\n{rendered(certificate.told())}"
         output.write_answer(text, output_file)
     refuted = certificate is not None and certificate.verdict == "refuted"
     return ExitCode.REFUTED if refuted else OF_STATUS[result.status]

@@ -1,7 +1,8 @@
 """``serendipity play``: a page on which a person plays the human."""
 
+from contextlib import nullcontext
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
@@ -9,14 +10,20 @@ from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import naming
 from serendipity.cli.streams import output, progress
+from serendipity.cli.streams.stderr import tell
 from serendipity.cli.text import goals as goal_options
 from serendipity.model import UsageError
 from serendipity.model.numbers import exact
 from serendipity.model.options import limit_of
 
+if TYPE_CHECKING:
+    from serendipity.live.play.application import Host
+
 _EXAMPLE: Final = "room2"
 _VIEWS: Final = ("observant", "local")
 _CONDITIONS: Final = ("none", "silent", "announced")
+_USUAL: Final = {"view": "observant", "discount": "0.6", "deadline": "2"}
+_RECORDS: Final = Path("serendipity-play")
 
 
 def play(
@@ -27,77 +34,172 @@ def play(
     team: naming.Team = None,
     example: naming.Example = None,
     discount: Annotated[
-        str, typer.Option("--discount", metavar="D", help="Taken off the cost of robots' actions, 0 to 1.")
-    ] = "0.6",
-    view: Annotated[
-        str,
+        str | None,
         typer.Option(
-            "--view", help="Whether you see everything, or what is where you are.", **choices(*_VIEWS)
+            "--discount", metavar="D", help="Taken off the cost of robots' actions, 0 to 1; by default 0.6."
         ),
-    ] = "observant",
+    ] = None,
+    view: Annotated[
+        str | None,
+        typer.Option(
+            "--view",
+            help="Whether you see everything (the default), or what is where you are.",
+            **choices(*_VIEWS),
+        ),
+    ] = None,
     robots: Annotated[
-        str,
-        typer.Option("--robots-are", help="Whether robots help, and say so.", **choices(*_CONDITIONS)),
-    ] = "silent",
+        str | None,
+        typer.Option(
+            "--robots-are",
+            help="Whether robots help, and say so; by default silent.",
+            **choices(*_CONDITIONS),
+        ),
+    ] = None,
     goals: goal_options.Goals = None,
     deadline: Annotated[
-        str, typer.Option("--deadline", metavar="SECONDS", help="For each decision of the robots.")
-    ] = "2",
+        str | None,
+        typer.Option("--deadline", metavar="SECONDS", help="For each decision of the robots; by default 2."),
+    ] = None,
+    labels: Annotated[
+        Path | None,
+        typer.Option("--labels", metavar="FILE", help="Sentences for the actions and goals of the domain."),
+    ] = None,
     study: Annotated[
         Path | None,
-        typer.Option("--study", metavar="FOLDER", help="Run a study; records go to the folder."),
-    ] = None,
-    records: Annotated[
-        Path,
         typer.Option(
-            "--records", metavar="FOLDER", help="Where every event is written down, unless --study."
+            "--study", metavar="FOLDER", help="Run a study, or go on with it; records go to the folder."
         ),
-    ] = Path("serendipity-play"),
+    ] = None,
+    report: Annotated[
+        bool, typer.Option("--report", help="Say what the conditions of the study come to, and end.")
+    ] = False,
+    records: Annotated[
+        Path | None,
+        typer.Option(
+            "--records",
+            metavar="PLACE",
+            help="A folder for records, by default serendipity-play; or a record, to go on with it.",
+        ),
+    ] = None,
     rounds: Annotated[
-        int, typer.Option("--rounds", metavar="N", help="Scenarios of a study without a task.")
-    ] = 4,
+        int | None, typer.Option("--rounds", metavar="N", help="Scenarios of a study; by default 4.")
+    ] = None,
     seed: Annotated[
-        int, typer.Option("--seed", metavar="S", help="Of a study: scenarios and conditions.")
-    ] = 1,
+        int | None,
+        typer.Option("--seed", metavar="S", help="Of a study: scenarios and conditions; by default drawn."),
+    ] = None,
+    host: Annotated[
+        str, typer.Option("--host", metavar="ADDRESS", help="Where a study listens.")
+    ] = "127.0.0.1",
     port: Annotated[int, typer.Option("--port", metavar="N", help="0 for any that is free.")] = 8124,
+    allow_host: Annotated[
+        list[str] | None,
+        typer.Option("--allow-host", metavar="NAME", help="Another name under which it may be asked."),
+    ] = None,
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Play the human yourself, on a page of this machine; needs serendipity-planner[live]."""
+    """Play the human yourself, on a page of this machine. It needs serendipity-planner[live]."""
     output.start_logging(verbose)
-    for option, value, known in (("--view", view, _VIEWS), ("--robots-are", robots, _CONDITIONS)):
-        if value not in known:
-            raise UsageError(f"{option}: expected one of {', '.join(known)}, got '{value}'")
-    if not 1 <= rounds <= 50:
-        raise UsageError(f"--rounds: expected a number from 1 to 50, got {rounds}")
-    share = exact(discount, "discount")
-    if not 0 <= share <= 1:
-        raise UsageError(f"discount: expected a number in [0, 1], got {discount}")
-    seconds = limit_of("deadline", deadline, "seconds")
+    given = {"view": view, "discount": discount, "deadline": deadline}
+    how = _checked(given, robots)
     named = bool(files or agent or example)
-    if study is not None and named:
-        raise UsageError("--study: has scenarios of its own, name no task beside it")
+    _fits(
+        study is not None,
+        beside={
+            "a task": named,
+            "--robots-are": robots is not None,
+            "--goals": goals is not None,
+            "--records": records is not None,
+        },
+        only={
+            "--report": report,
+            "--rounds": rounds is not None,
+            "--seed": seed is not None,
+            "--host": host != "127.0.0.1",
+        },
+    )
+    if rounds is not None and not 1 <= rounds <= 50:
+        raise UsageError(f"--rounds: expected a number from 1 to 50, got {rounds}")
     try:
         from serendipity.live.guards import addresses
-        from serendipity.live.play.application import Host, application
-        from serendipity.live.play.opening import open_study, open_table, record_in
+        from serendipity.live.play.application import application
         from serendipity.live.server import serve as run
     except ImportError as missing:
         raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
-    how = {"discount": share, "view": view, "goals": goals, "deadline": seconds}
-    host: Host
+    opened: Host
+    if study is not None:
+        from serendipity.live.study.design import open_design
+        from serendipity.live.study.study import Study
+
+        settings = _settings(given, rounds, seed)
+        with nullcontext() if report else addresses.listening(host, port) as listener:
+            with progress.working("playing scenarios", quiet=quiet):
+                design = open_design(study, labels, **settings)
+            if listener is None:
+                output.say(design.report)
+                return ExitCode.ANSWERED
+            opened = Study(design, study)
+            url = addresses.url(listener)
+            _say(
+                f"Participants join on {url}; Ctrl-C stops it. Recorded in {study}.\n"
+                f"For whoever runs it: {url}/experimenter/{design.secret}/\n{design.report}",
+                quiet=quiet,
+            )
+            for fault in opened.faults:
+                tell(f"Warning: {fault}")
+            run(application(opened, addresses.hosts(host, allow_host or ())), listener)
+        return ExitCode.ANSWERED
+    from serendipity.live.play.opening import open_table, record_in
+
     shown = example if named else _EXAMPLE
-    task = None if study is not None else naming.load(files, human, robot, agent, team, shown, quiet=quiet)
-    with addresses.listening("127.0.0.1", port) as listener:  # first, or a port in use leaves an empty record
-        if task is None:
-            assert study is not None
-            with progress.working("drawing scenarios", quiet=quiet):
-                where, host = study, open_study(study, rounds, seed, **how)
-        else:
-            with progress.working("getting ready", quiet=quiet):
-                where = record_in(records)
-                host = open_table(shown or task.name, task, where, condition=robots, **how)
-        if not quiet:
-            output.say(f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n")
-        run(application(host, addresses.hosts("127.0.0.1")), listener)
+    task = naming.load(files, human, robot, agent, team, shown, quiet=quiet)
+    with addresses.listening(host, port) as listener:  # first, or a port in use leaves an empty record
+        with progress.working("getting ready", quiet=quiet):
+            where = record_in(records or _RECORDS)
+            condition = robots or "silent"
+            opened = open_table(
+                shown or task.name, task, where, labels, condition=condition, goals=goals, **how
+            )
+        _say(
+            f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n"
+            f"To go on with this round another time: --records {where}\n",
+            quiet=quiet,
+        )
+        run(application(opened, addresses.hosts(host)), listener)
     return ExitCode.ANSWERED
+
+
+def _say(text: str, *, quiet: bool) -> None:
+    if not quiet:
+        output.say(text)
+
+
+def _checked(given: dict[str, str | None], robots: str | None) -> dict[str, Any]:
+    """How a round is played, by what is given or usual."""
+    for option, value, known in (("--view", given["view"], _VIEWS), ("--robots-are", robots, _CONDITIONS)):
+        if value is not None and value not in known:
+            raise UsageError(f"{option}: expected one of {', '.join(known)}, got '{value}'")
+    told = {name: given[name] or usual for name, usual in _USUAL.items()}
+    share = exact(told["discount"], "discount")
+    if not 0 <= share <= 1:
+        raise UsageError(f"discount: expected a number in [0, 1], got {told['discount']}")
+    seconds = limit_of("deadline", told["deadline"], "seconds")
+    return {"view": told["view"], "discount": share, "deadline": seconds}
+
+
+def _fits(study: bool, *, beside: dict[str, bool], only: dict[str, bool]) -> None:
+    """Refuse what does not go with a study, or only with one."""
+    wrong = next((option for option, given in (beside if study else only).items() if given), None)
+    if wrong is not None and study:
+        raise UsageError(f"--study: has scenarios, conditions and records of its own: leave out {wrong}")
+    if wrong is not None:
+        raise UsageError(f"{wrong}: goes with --study")
+
+
+def _settings(given: dict[str, str | None], rounds: int | None, seed: int | None) -> dict[str, Any]:
+    """What a study is asked to be; None where it is as it was begun."""
+    seconds = None if given["deadline"] is None else limit_of("deadline", given["deadline"], "seconds")
+    share = given["discount"]
+    discount = None if share is None else str(exact(share, "discount"))
+    return {"rounds": rounds, "seed": seed, "view": given["view"], "discount": discount, "deadline": seconds}

@@ -39,7 +39,7 @@ def recognise(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """How probable each goal is, given what the human has done so far."""
+    """Say how probable each goal is after what was done."""
     form = output.prepare(format, output_file, verbose, output.DATA)
     deadline = limits.begin(time_limit, memory_limit, "serendipity.recognition")
     task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=deadline)
@@ -53,5 +53,5 @@ def recognise(
     else:
         from serendipity.cli.text.render import rendered
 
-        output.write_answer(rendered(goal_options.recognition_text(found)), output_file)
+        output.write_answer(rendered(found.told()), output_file)
     return ExitCode.ANSWERED

@@ -3,16 +3,17 @@
 import logging
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.streams import output
+from serendipity.cli.streams.broken_tasks import broken_tasks
 from serendipity.cli.streams.stderr import is_terminal, tell
 from serendipity.model.options import limit_of
-from serendipity.writing.printable import message
+from serendipity.model.printable import message
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
 
@@ -81,7 +82,7 @@ def reproduce(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Run a folder of tasks through modes and discounts; a run that was killed goes on where it was."""
+    """Run a folder of tasks through modes and discounts. A run that was killed goes on where it was."""
     form = output.prepare(format, output_file, verbose, _FORMATS)
     for option, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
         output.check_output(file, option)
@@ -110,9 +111,11 @@ def reproduce(
         *_extras(report, tables, run, entries, times, answers),
     ]
     output.write_answers(written)
-    if journal is None and kept is not None:
+    if journal is None and kept is not None and not run.errors:
         kept.unlink(missing_ok=True)  # the answer holds all of it
     _tell([answer.file for answer in written if answer.file is not None], quiet=quiet)
+    if run.errors:
+        return broken_tasks(run.errors)
     known = any(row.status != "unknown" for row in run.rows)
     return ExitCode.ANSWERED if known else ExitCode.UNDECIDED
 
@@ -126,7 +129,7 @@ def _tell(written: list[Path], *, quiet: bool) -> None:
             log.info("wrote %s", message(str(path)))
 
 
-def _listed(text: str) -> list[str]:
+def _listed(text: str) -> list[Any]:
     return [part for part in text.replace(",", " ").split() if part]
 
 
@@ -154,11 +157,12 @@ def _text(
     times: "tuple[Times, ...]",
     answers: "tuple[ExampleAnswer, ...]",
 ) -> str:
-    from serendipity.cli.text.render import Grid, Line, rendered
-    from serendipity.evaluation.reproduction import COLUMNS
+    from serendipity.cli.text.render import rendered
     from serendipity.evaluation.reproduction.report import examples_grid, table_1_grid, table_2_grid
+    from serendipity.evaluation.reproduction.rows import COLUMNS, SHORT
+    from serendipity.model.telling import Grid, Line
 
-    parts: list[Line | Grid] = [Grid(COLUMNS, [row.cells() for row in run.rows])]
+    parts: list[Line | Grid] = [Grid(COLUMNS[:SHORT], [row.cells()[:SHORT] for row in run.rows])]
     if run.unproved:
         late = f"{run.unproved} of {len(run.rows)} rows are not proved: a limit came first"
         parts.append(Line(late, "yellow"))

@@ -44,7 +44,7 @@ def serve(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Answer requests over HTTP: plan, verify, sessions; needs serendipity-planner[live]."""
+    """Answer requests over HTTP: plan, verify, sessions. It needs serendipity-planner[live]."""
     output.start_logging(verbose)
     for option, number, least in (("--workers", workers, 1), ("--queue", queue, 0)):
         if number is not None and number < least:

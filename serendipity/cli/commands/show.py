@@ -36,7 +36,7 @@ def show(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Show who is where when, and what changes hands: a page that plays the plan, or a still."""
+    """Show a plan: a page that plays it, or a still. Who is where when, and what changes hands."""
     output.start_logging(verbose)
     if output_file is None or output_file.suffix not in SUFFIXES:
         got = "none" if output_file is None else str(output_file)
@@ -50,7 +50,7 @@ def show(
     if wrong is not None and strict:
         tell(f"Error: {wrong}")
         return ExitCode.REFUTED
-    from serendipity.show import build_scene, draw
+    from serendipity.pictures import build_scene, draw
 
     try:
         with progress.working("drawing", quiet=quiet):

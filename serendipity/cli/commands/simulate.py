@@ -8,7 +8,7 @@ import serendipity
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.reading import Strict, broken_rule, read_result
-from serendipity.cli.options import limits, naming
+from serendipity.cli.options import limits, naming, plan_options
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.stderr import tell
 from serendipity.model import InputError
@@ -35,7 +35,7 @@ def simulate(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Play a plan, epoch by epoch, against a human who looks up and replans."""
+    """Play a plan against a human who looks up and replans."""
     form = output.prepare(format, output_file, verbose)
     modules = ("serendipity.facade.simulation", "serendipity.facade.certify", "serendipity.cli.text.render")
     deadline = limits.begin(time_limit, memory_limit, *modules, *limits.PLANNING)
@@ -47,7 +47,9 @@ def simulate(
         return ExitCode.REFUTED
     try:
         with progress.working("simulating", quiet=quiet), limits.during("playing the first epoch"):
-            trace = serendipity.simulate(task, result, human_model, deadline=deadline)
+            trace = serendipity.simulate(
+                task, result, deadline=deadline, **plan_options.given(human_model=human_model)
+            )
     except InputError as error:
         raise InputError(error.message, answer) from None
     if wrong is not None:
@@ -55,7 +57,7 @@ def simulate(
     if form == "json":
         output.write_answer(output.as_json(trace.to_dict()), output_file)
     else:
-        from serendipity.cli.text.render import Line, rendered
+        from serendipity.cli.text.render import rendered
 
-        output.write_answer(rendered(map(Line, trace.lines())), output_file)
+        output.write_answer(rendered(trace.told()), output_file)
     return ExitCode.ANSWERED

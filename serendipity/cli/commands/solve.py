@@ -42,7 +42,7 @@ def solve(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Answer as `plan` does, by integer programming alone: slower, and independent of the search."""
+    """Answer as `plan` does, by integer programming alone. It is slower, and independent of the search."""
     arguments = locals()
     from serendipity.facade.call import options_from
     from verify.calls.solve import solve as by_program
@@ -62,5 +62,5 @@ def solve(
     else:
         from serendipity.cli.text.answers import plan_report
 
-        output.write_answer(plan_report(task, result, certificate, claims=False), output_file)
+        output.write_answer(plan_report(task, result, certificate), output_file)
     return ExitCode.REFUTED if certificate.verdict == "refuted" else OF_STATUS[result.status]

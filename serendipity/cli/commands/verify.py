@@ -3,7 +3,7 @@
 import serendipity
 from serendipity.cli.exit_codes import OF_VERDICT
 from serendipity.cli.files.reading import read_result
-from serendipity.cli.options import limits, naming, program_options
+from serendipity.cli.options import limits, naming, plan_options, program_options
 from serendipity.cli.streams import output, progress
 from serendipity.model import InputError
 
@@ -26,7 +26,7 @@ def verify(
     quiet: output.Quiet = False,
     verbose: output.Verbose = 0,
 ) -> int:
-    """Check a result of `plan --format json` claim by claim, independently of the search."""
+    """Check a result claim by claim. It is one of `plan --format json`; the search has no part in it."""
     form = output.prepare(format, output_file, verbose)
     output.check_output(proof, "--proof")
     modules = ("serendipity.facade.certify", "verify.certificate.certify", "serendipity.cli.text.answers")
@@ -38,11 +38,9 @@ def verify(
             certificate = serendipity.verify(
                 task,
                 result,
-                solver=solver,
-                encoding=encoding,
-                method=method,
                 proof=proof,
                 deadline=deadline,
+                **plan_options.given(solver=solver, encoding=encoding, method=method),
             )
     except InputError as error:
         raise InputError(error.message, answer) from None
@@ -51,7 +49,7 @@ def verify(
     if form == "json":
         output.write_answer(output.as_json(certificate.to_dict()), output_file)
     else:
-        from serendipity.cli.text.answers import certificate_report
+        from serendipity.cli.text.render import rendered
 
-        output.write_answer(certificate_report(certificate), output_file)
+        output.write_answer(rendered(certificate.told()), output_file)
     return OF_VERDICT[certificate.verdict]

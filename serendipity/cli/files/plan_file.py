@@ -5,8 +5,9 @@ from itertools import groupby
 
 from serendipity.model import GroundAction, PlanStep, Result, Task
 from serendipity.model.numbers import plain
+from serendipity.model.printable import printable
 from serendipity.model.task.actions import disables
-from serendipity.writing.printable import printable
+from serendipity.model.telling import team
 
 
 def plan_file(task: Task, result: Result) -> str:
@@ -23,8 +24,8 @@ def plan_file(task: Task, result: Result) -> str:
 
 
 def _lines(task: Task, result: Result) -> Iterator[str]:
-    robots = ", ".join(task.agents[i] for i in task.robots)
-    yield f"; {printable(task.name)}: human {printable(result.human)}, robots {printable(robots) or 'none'}"
+    robots = [task.agents[i] for i in task.robots]
+    yield f"; {printable(f'{task.name}: {team(result.human, robots)}')}"
     steps = sorted(result.plan or (), key=lambda step: step.epoch)
     for epoch, group in groupby(steps, key=lambda step: step.epoch):
         yield f"; epoch {epoch}"

@@ -11,9 +11,9 @@ import typer
 from serendipity.cli.options import limits, settings
 from serendipity.cli.streams import output, progress
 from serendipity.model.errors import UsageError
+from serendipity.model.printable import message
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
-from serendipity.writing.printable import message
 
 Files = Annotated[
     list[Path] | None,
@@ -175,11 +175,12 @@ class TaskName:
         domain, problem, *more = self.files
         if more:
             raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(self.files)} paths")
-        if self.human is None:
-            raise UsageError(
-                "task: with DOMAIN PROBLEM, name the agents: --human H --robot R ..., in MA-PDDL --human H"
-            )
-        return read_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
+        try:
+            return read_pddl(domain, problem, human=self.human or "", robots=self.robots, deadline=deadline)
+        except UsageError as error:
+            if self.human is not None:
+                raise
+            raise UsageError(f"{error}; name --human H --robot R ..., in MA-PDDL --human H") from None
 
 
 def _pair(text: str, where: str) -> tuple[Path, Path]:

@@ -12,7 +12,8 @@ from typing import Annotated, Any, Final
 import typer
 
 from serendipity.cli.choices import choices
-from serendipity.model.options import CHOICES, Options
+from serendipity.model.keywords import CHOICES
+from serendipity.model.options import Options
 
 _DEFAULTS: Final = {field.name: getattr(Options(), field.name) for field in fields(Options)}
 _LIMITS: Final = ("time_limit", "memory_limit")

@@ -213,3 +213,5 @@ def _parsed(file: Path) -> dict[str, Any]:
         return tomllib.loads(_text(file))
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"expected TOML: {error}", file) from None
+    except RecursionError:
+        raise InputError("expected TOML: it is nested too deeply", file) from None

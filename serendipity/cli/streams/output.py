@@ -28,7 +28,21 @@ DataFormat = Annotated[
     typer.Option("--format", help="By default after -o's name, else text.", **choices(*DATA)),
 ]
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the answer here.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No warnings and no progress on stderr.")]
+
+
+def _silence(quiet: bool) -> bool:
+    """``--quiet`` goes for what is logged of a missing kernel, too."""
+    if quiet or "logging" in sys.modules:
+        import logging
+
+        logging.getLogger("search.kernel").setLevel(logging.ERROR if quiet else logging.NOTSET)
+    return quiet
+
+
+Quiet = Annotated[
+    bool,
+    typer.Option("--quiet", "-q", callback=_silence, help="No warnings and no progress on stderr."),
+]
 Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Log to stderr; -vv logs more.")]
 
 
@@ -100,10 +114,9 @@ def check_output(output: Path | None, option: str = "-o") -> None:
 
 def as_json(value: dict[str, Any]) -> str:
     """A JSON object as text, indented; characters that can't be seen are escaped."""
-    from serendipity.writing.json_text import json_text
-    from serendipity.writing.printable import printable_json
+    from serendipity.model.telling import json_of
 
-    return printable_json(json_text(value)) + "\n"
+    return json_of(value)
 
 
 def write_answer(answer: str | bytes, output: Path | None, option: str = "-o") -> None:

@@ -2,7 +2,7 @@
 
 import sys
 
-from serendipity.writing.printable import message
+from serendipity.model.printable import message
 
 
 def tell(text: str) -> None:

@@ -3,18 +3,6 @@
 from collections.abc import Iterator
 
 from serendipity.model import Result, Task
-from serendipity.model.numbers import plain
-
-
-def totals_line(result: Result) -> str:
-    """Both totals of semantics 7, and what the human pays alone."""
-    unknown = result.status == "feasible" and result.human_plan is None  # what the human pays alone
-    idle = result.plan is None and result.policy is not None and not result.policy.decisions
-    pays = "pays at most" if unknown and idle else "pays"
-    paid = ", ".join(f"{agent} {pays} {plain(cost)}" for agent, cost in result.agent_costs.items())
-    mean = " on average" if result.options.ties == "expected" else ""
-    alone = "" if result.human_cost is None else f"; alone {result.human} pays {plain(result.human_cost)}"
-    return f"{paid}{mean}{alone}"
 
 
 def policy_lines(task: Task, result: Result) -> Iterator[str]:
