@@ -13,7 +13,7 @@ from typing import Any
 from PIL import Image
 
 import serendipity
-from serendipity.show import build_scene, draw
+from serendipity.pictures import build_scene, draw
 from tests.live.server import serving
 from tests.show.browser import chromium, chromium_path
 
@@ -52,6 +52,7 @@ def main() -> int:
             for place in WALK:
                 page.click(f'.reach[data-place="{place}"]')
                 page.wait_for_selector(f'.reach[data-place="{place}"]', state="detached")
+            page.evaluate("scrollTo(0, 0)")
             photograph(page, "play-epoch-6.png", whole=False)
     return 0
 
