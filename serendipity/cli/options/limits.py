@@ -26,6 +26,7 @@ PLANNING: Final = (
     "search.timetable.all_together",
     "search.classical.canonical",
     "search.classical.team",
+    "search.kernel.signatures",
     "search.human.own_problem",
     "search.abstractions.bound",
     "search.abstractions.reachability",
