@@ -44,7 +44,7 @@ class Thread:
         offered = any(step.action == expected for step in last.offers)
         if missed:
             self._cause = Cause("missed", last.epoch, missed[0].action)
-        elif his != expected:
+        elif last.plan is not None and his != expected:
             kind = "missed" if his is None and offered else "elsewhere"
             self._cause = Cause(kind, last.epoch, expected or "wait")
 
@@ -72,7 +72,7 @@ class Thread:
             elif self._begun:
                 verdict = "stopped"
             why = replace(why, cause=cause)
-        else:
+        elif decided.plan is not None:  # else what was begun is finished, and nothing else is known yet
             cause = None
         self._cause = cause
         reason = why.text(self._human, verdict)

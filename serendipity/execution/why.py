@@ -32,7 +32,7 @@ WHYS: Final = {
 
 CAUSES: Final = {
     "missed": "{what} did not take place in epoch {epoch}",
-    "slow": "{what} takes longer than epoch {epoch}",
+    "slow": "{what} took longer than epoch {epoch}",
     "elsewhere": "{human} did not {what} in epoch {epoch}",
     "out-of-order": "{what} is out of order",
     "changed": "something has changed after epoch {epoch}",
@@ -47,7 +47,7 @@ class Cause:
     Attributes:
         kind: a key of ``CAUSES``.
         epoch: in which, or after which.
-        what: the action that did not take place or takes longer, what the person was expected to do, or
+        what: the action that did not take place or took longer, what the person was expected to do, or
             who is out of order.
     """
 

@@ -193,7 +193,8 @@ class _Seen:
         if found is None:
             return
         cost, saving = found.cost or 0, found.saving or 0
-        if not (isclose(cost, why["cost"]) and isclose(cost + saving, why["alone"])):
+        possible = cost <= why["cost"] + 1e-9 and why["cost"] < why["alone"]  # the plan found in the time
+        if not (possible and isclose(cost + saving, why["alone"])):
             yield f"it would cost {found.cost} and save {found.saving}"
 
     def _no_safe_help(self, *_: Any) -> Iterator[str]:
@@ -244,10 +245,13 @@ class _Seen:
             yield "there was no help to come between"
         if kind in ("missed", "slow") and (cause["what"] not in meant or cause["what"] in took_place):
             yield f"{cause['what']} was not meant to take place, or did"
-        if kind == "slow" and cause["what"] not in [step["action"] for step in self.running]:
-            yield f"{cause['what']} is over"
+        begun = [step["action"] for step in event["unfinished"] if step["why"] == "running"]
+        if kind == "slow" and cause["what"] not in begun:
+            yield f"{cause['what']} was not begun in epoch {cause['epoch']}, or was over with it"
         if kind == "elsewhere":
             expected = event["decision"]["expected"]
+            if event["decision"]["plan"] is None:
+                yield "nothing was expected of them"
             if event["human"] == (expected and expected["action"]) and not event["in_vain"]:
                 yield "that is what they were expected to do"
         if kind == "out-of-order" and not set(cause["what"].split(", ")) <= self.gone:

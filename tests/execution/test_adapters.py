@@ -56,6 +56,17 @@ def test_a_late_robot_is_noticed_and_the_person_gets_there(room2: Task) -> None:
     assert [missed.why for missed in first.unfinished] == ["running"]
     assert first.lines("commx")[1].endswith("(it takes longer): 5 s, the door is stuck")
     assert run.human_cost == 13, "it is too late to meet him"
+
+
+def test_what_took_longer_is_the_reason_once_it_is_over(room2: Task) -> None:
+    late = Scripted(*[Report("running")] * 3)
+    run = live(room2, late)
+    assert [passed.decided.verdict for passed in run.passed[1:6]] == ["helps"] * 4 + ["stopped"]
+    assert all(
+        passed.decided.reason
+        == "stopped because move_reverse robot room4 room3 took longer than epoch 4: no help pays"
+        for passed in run.passed[5:]
+    )
     assert "helps" not in {passed.decided.verdict for passed in run.passed[7:]}
 
 
