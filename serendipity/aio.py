@@ -8,6 +8,7 @@ Whoever is cancelled goes on only once the thread has ended, some hundredths of 
 import asyncio
 import threading
 from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Literal, TypeVar, Unpack
@@ -197,7 +198,9 @@ async def _threaded(work: Callable[[], T], stop: threading.Event) -> T:
         return await asyncio.shield(working)
     except asyncio.CancelledError:
         stop.set()
-        await asyncio.wait([working])
+        while not working.done():
+            with suppress(asyncio.CancelledError):  # whoever is cancelled again waits as well
+                await asyncio.wait([working])
         if not working.cancelled():
             working.exception()  # nobody asks for it any more
         raise

@@ -1,6 +1,7 @@
 """``serendipity.aio``: the same answers, awaited; whoever is cancelled has ended the search."""
 
 import asyncio
+import threading
 import time
 from collections.abc import Awaitable, Callable
 from typing import Any
@@ -9,7 +10,7 @@ import pytest
 
 import serendipity
 import serendipity.aio
-from serendipity import Task
+from serendipity import Result, Task
 from serendipity.testing.cases import case_1
 from tests.facade.endless import ENDLESS, endless_task
 
@@ -71,3 +72,24 @@ def test_cancelling_ends_the_search(endless: Task, call: str) -> None:
         return taken
 
     assert asyncio.run(cancelled()) < 0.5
+
+
+def test_who_is_cancelled_again_still_waits_for_the_thread() -> None:
+    begun, over = threading.Event(), threading.Event()
+
+    def dawdle(_: Result) -> None:
+        begun.set()
+        time.sleep(0.3)
+        over.set()
+
+    async def cancelled() -> None:
+        asked = asyncio.ensure_future(serendipity.aio.plan(case_1(), on_improvement=dawdle))
+        await asyncio.to_thread(begun.wait, 10)
+        for _ in range(3):
+            asked.cancel()
+            await asyncio.sleep(0.02)
+        with pytest.raises(asyncio.CancelledError):
+            await asked
+        assert over.is_set()
+
+    asyncio.run(cancelled())
