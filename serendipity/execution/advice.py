@@ -6,10 +6,8 @@ from fractions import Fraction
 from typing import Protocol
 
 from serendipity.execution.guard import Following
-from serendipity.model.numbers import figure
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.execution import participants
-from serendipity.model.task.plans import PlanStep, Step, Window
+from serendipity.model.task.plans import PlanStep, Window
 from serendipity.model.task.task import Task
 
 Allows = Callable[[Sequence[int]], bool]
@@ -66,14 +64,6 @@ def without(task: Task, removed: frozenset[int]) -> Task:
         return task
     kept = tuple(action for i, action in enumerate(task.actions) if i not in removed)
     return replace(task, actions=kept, known_variables=task.variables)
-
-
-def written(task: Task, step: Step, discount: Fraction) -> PlanStep:
-    """A step as plans write it."""
-    action = task.actions[step.action]
-    return PlanStep(
-        step.epoch, participants(task, action), action.name, figure(task.team_cost(action, discount))
-    )
 
 
 class Adviser(Protocol):

@@ -13,12 +13,13 @@ from search import PreparedTask
 from search.packed.cost_vector import INFINITE_KEY
 from search.simulation.companion import Companion
 from search.simulation.space import Start
-from serendipity.execution.advice import Advice, Adviser, Question, written
-from serendipity.model.numbers import figure
+from serendipity.execution.advice import Advice, Adviser, Question
+from serendipity.facade.results import named_steps
+from serendipity.model.numbers import total
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
-from serendipity.model.task.execution import actions_named
+from serendipity.model.task.execution import actions_of, steps_named
 from serendipity.model.task.task import Task
 
 
@@ -95,12 +96,9 @@ class Amends:
         advice = self._selfless.advise(question, deadline)
         if advice is None or not advice.pays:
             return None
-        plan, cost = [], Fraction(0)
-        for step in advice.plan:
-            same = self._task.actions[actions_named(self._task, step.action, step.agents)[0]]
-            cost += self._task.team_cost(same, self._discount)
-            plan.append(replace(step, cost=figure(self._task.team_cost(same, self._discount))))
-        return replace(advice, plan=tuple(plan), cost=cost)
+        steps = steps_named(self._task, advice.plan)
+        cost = total(self._task.team_cost(a, self._discount) for a in actions_of(self._task, steps))
+        return replace(advice, plan=named_steps(self._task, self._discount, steps), cost=cost)
 
 
 class Selfless:
@@ -135,5 +133,5 @@ class Selfless:
         course = self._companion.course(same, [question.barred], deadline, begins=question.allows)
         if course is None:
             return None
-        plan = tuple(written(self._task, step, self._options.discount) for step in course.steps)
+        plan = named_steps(self._task, self._options.discount, course.steps)
         return Advice(plan, None, course.cost, course.pays, course.proved)

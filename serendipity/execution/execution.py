@@ -10,6 +10,7 @@ from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
 from serendipity.execution.outlook import Outlook, Robots
 from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
+from serendipity.facade.results import named_steps
 from serendipity.model.arguments import BY_NAME, TASK, TEXT, expect, expect_or_none
 from serendipity.model.errors import LIMITS, UsageError
 from serendipity.model.keywords import HumanModel, Interference
@@ -19,7 +20,7 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import PlanStep
+from serendipity.model.task.plans import PlanStep, Step
 from serendipity.model.task.task import Task, canonical_name, several
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
@@ -218,7 +219,9 @@ class Execution(Tabular):
             decided=decided,
             human=None if action is None else canonical_name(action),
             in_vain=in_vain,
-            steps=tuple(self._world.step(decided.epoch, i) for i in happened.executed),
+            steps=named_steps(
+                self.task, self.options.discount, (Step(decided.epoch, i) for i in happened.executed)
+            ),
             unfinished=happened.unfinished,
             reports=self._reports,
             changes=self._world.changes(before),

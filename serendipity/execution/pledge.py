@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from serendipity.execution.advice import Advice, Question
-from serendipity.model.numbers import as_written
+from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import apply
-from serendipity.model.task.execution import actions_named
+from serendipity.model.task.execution import actions_named, variant_named
 from serendipity.model.task.plans import PlanStep, Window
 from serendipity.model.task.task import Task
 
@@ -54,7 +54,7 @@ class Pledge:
         if not mend:
             return None
         missed = tuple(step for step in self.now if not _done(task, step, question.state))
-        if not missed or not any(len(step.agents) > 1 or step.agents[0] != _human(task) for step in missed):
+        if not missed or not any(step.agents != (task.agents[task.human],) for step in missed):
             return None
         plan = (*missed, *_moved(self.later.plan, by=1))
         if not self._goes(task, question, plan):
@@ -77,17 +77,12 @@ class Pledge:
         return state is not None and task.goal.holds(state) and content
 
 
-def _human(task: Task) -> str:
-    return task.agents[task.human]
-
-
 def _after(task: Task, state: frozenset[int], steps: Iterable[PlanStep]) -> frozenset[int] | None:
     """The state after the steps of an epoch; None where one of them is not possible."""
     chosen = []
     for step in steps:
-        same = (task.actions[i] for i in actions_named(task, step.action, step.agents))
-        action = next((action for action in same if action.applicable(state)), None)
-        if action is None:
+        action = task.actions[variant_named(task, step.action, step.agents, state)]
+        if not action.applicable(state):
             return None
         chosen.append(action)
     return apply(state, *chosen)
@@ -104,4 +99,4 @@ def _moved(steps: Iterable[PlanStep], by: int = -1) -> Iterator[PlanStep]:
 
 
 def _cost(steps: Iterable[PlanStep]) -> Fraction:
-    return sum((as_written(step.cost) for step in steps), Fraction(0))
+    return total(as_written(step.cost) for step in steps)

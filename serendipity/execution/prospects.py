@@ -7,8 +7,8 @@ from fractions import Fraction
 from serendipity.execution.advice import Advice
 from serendipity.execution.imagined import Imagined
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import PlanStep, Step
+from serendipity.model.task.execution import steps_named
+from serendipity.model.task.plans import PlanStep
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ def _mean(
 ) -> Fraction | None:
     """The mean cost of a prospect's robots' part, as far as it is below ``least``; None: a goal is missed."""
     task = chosen.imagined.task
-    steps = [Step(step.epoch, actions_named(task, step.action, step.agents)[0]) for step in chosen.plan]
+    steps = steps_named(task, chosen.plan)
     total = Fraction(0)
     for other in prospects:
         played = other.imagined.companion.played(other.imagined.following.start, steps, deadline)

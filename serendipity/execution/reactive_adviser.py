@@ -7,8 +7,9 @@ from fractions import Fraction
 from typing import Final
 
 from search.simulation.companion import Companion
-from serendipity.execution.advice import Advice, Question, written
+from serendipity.execution.advice import Advice, Question
 from serendipity.execution.guard import Hands
+from serendipity.facade.results import named_steps
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
 from serendipity.model.task.plans import Step
@@ -134,5 +135,5 @@ class ReactiveAdviser:
             pays,
             proved,
         )
-        plan = tuple(written(self._task, step, self._discount) for step in steps)
+        plan = named_steps(self._task, self._discount, steps)
         return Advice(plan, None, cost, pays, proved)

@@ -3,7 +3,6 @@
 from collections import OrderedDict
 from copy import copy
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.execution.advice import Advice, Question, without
@@ -12,12 +11,11 @@ from serendipity.execution.pledge import Pledge
 from serendipity.facade.session import Session
 from serendipity.model.answers.result import Result
 from serendipity.model.errors import LIMITS, LimitReachedError
-from serendipity.model.numbers import as_written
+from serendipity.model.numbers import as_written, total
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
-from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import PlanStep
+from serendipity.model.task.execution import variant_named
 from serendipity.model.task.task import Task
 
 _MOST: Final = 3
@@ -64,7 +62,8 @@ class SessionAdviser:
             advice = self._best(question, removed, deadline)
             if advice is None:
                 return None
-            now = [self._ids(step, question.state) for step in advice.plan if step.epoch == 1]
+            first = (step for step in advice.plan if step.epoch == 1)
+            now = [variant_named(self._task, step.action, step.agents, question.state) for step in first]
             robots = [i for i in now if self._task.actions[i].participants != (self._task.human,)]
             if question.allows(robots):
                 return advice
@@ -125,15 +124,10 @@ class SessionAdviser:
             if result.status == "unknown":
                 raise LimitReachedError("time-limit")
             return None
-        cost = sum((as_written(step.cost) for step in result.plan), Fraction(0))
+        cost = total(as_written(step.cost) for step in result.plan)
         return Advice(
             result.plan, result.window, cost, hopeless or result.opportunity, result.status == "optimal"
         )
-
-    def _ids(self, step: PlanStep, state: frozenset[int]) -> int:
-        """The action of a step of the first epoch, in the variant that is applicable."""
-        ids = actions_named(self._task, step.action, step.agents)
-        return next(i for i in ids if self._task.actions[i].applicable(state))
 
     def _session(self, removed: frozenset[int], *, hopeless: bool) -> Session:
         key = (removed, hopeless)

@@ -6,9 +6,8 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model.errors import UsageError
-from serendipity.model.numbers import figure
 from serendipity.model.task.actions import apply, conflicting
-from serendipity.model.task.execution import actions_named, participants
+from serendipity.model.task.execution import actions_named, variant_named
 from serendipity.model.task.names import no_fact
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task, canonical_name
@@ -70,21 +69,14 @@ class World:
         Raises:
             UsageError: the human has no such action alone.
         """
-        ids = actions_named(self.task, canonical_name(name), [self.task.agents[self.task.human]])
-        if not ids:
-            human = self.task.agents[self.task.human]
+        human = self.task.agents[self.task.human]
+        if not actions_named(self.task, canonical_name(name), [human]):
             raise UsageError(f"there is no action '{name}' that {human} can do alone")
-        return self._applicable(ids)
+        return variant_named(self.task, canonical_name(name), [human], self.state)
 
     def of(self, step: PlanStep) -> int:
         """The action of a step, in the variant that is applicable where one is."""
-        return self._applicable(actions_named(self.task, step.action, step.agents))
-
-    def step(self, epoch: int, action: int) -> PlanStep:
-        """An action as plans write it."""
-        ground = self.task.actions[action]
-        cost = self.task.team_cost(ground, self._discount)
-        return PlanStep(epoch, participants(self.task, ground), ground.name, figure(cost))
+        return variant_named(self.task, step.action, step.agents, self.state)
 
     def applicable(self, action: int) -> bool:
         """Whether an action is possible now."""
@@ -156,9 +148,6 @@ class World:
         if not self.applicable(action):
             return "inapplicable"
         return "conflict" if any(self.conflict(action, other) for other in executed) else None
-
-    def _applicable(self, ids: Sequence[int]) -> int:
-        return next((i for i in ids if self.applicable(i)), ids[0])
 
     def _fact(self, name: str) -> int:
         if self._facts is None:

@@ -13,7 +13,7 @@ from serendipity.live.play.setting import Setting
 from serendipity.live.play.stage import Stage
 from serendipity.live.play.words import Words
 from serendipity.model import GroundAction, InputError, UsageError
-from serendipity.model.task.execution import actions_named
+from serendipity.model.task.execution import variant_named
 from serendipity.model.task.plans import PlanStep
 from serendipity.pictures.map.places import find_places
 
@@ -173,9 +173,8 @@ class Game:
 
     def _ground(self, step: PlanStep, state: frozenset[int]) -> GroundAction:
         """The action of a step, in the variant that is possible in a state where one is."""
-        actions = self.setting.task.actions
-        same = [actions[i] for i in actions_named(self.setting.task, step.action, step.agents)]
-        return next((action for action in same if action.applicable(state)), same[0])
+        task = self.setting.task
+        return task.actions[variant_named(task, step.action, step.agents, state)]
 
     def _facts(self) -> list[str]:
         """What the person knows to be true, where there is no map."""

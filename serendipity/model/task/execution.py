@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
 from serendipity.model.numbers import total
-from serendipity.model.task.actions import GroundAction
-from serendipity.model.task.plans import Step
+from serendipity.model.task.actions import GroundAction, State
+from serendipity.model.task.plans import PlanStep, Step
 from serendipity.model.task.task import Task
 
 
@@ -27,6 +27,21 @@ def actions_named(task: Task, name: str, agents: Iterable[str]) -> tuple[int, ..
         for i in task.named.get(name, ())
         if sorted(task.agents[agent] for agent in task.actions[i].participants) == wanted
     )
+
+
+def variant_named(task: Task, name: str, agents: Iterable[str], state: State) -> int:
+    """Of the actions of that name the first that is applicable in a state; where none is, the first.
+
+    Raises:
+        IndexError: there is no such action.
+    """
+    ids = actions_named(task, name, agents)
+    return next((i for i in ids if task.actions[i].applicable(state)), ids[0])
+
+
+def steps_named(task: Task, steps: Iterable[PlanStep]) -> list[Step]:
+    """The steps of a plan by action ids; of variants the first."""
+    return [Step(step.epoch, actions_named(task, step.action, step.agents)[0]) for step in steps]
 
 
 def participants(task: Task, action: GroundAction) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from typing import Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.task.actions import GroundAction, apply
-from serendipity.model.task.execution import actions_named
+from serendipity.model.task.execution import variant_named
 from serendipity.model.task.task import Task
 from serendipity.pictures.map.layout import lay_out
 from serendipity.pictures.map.places import Whereabouts, find_places
@@ -118,9 +118,7 @@ class Stage:
         return self._errand(Order((self._task.agents[self._task.human],), name), state)
 
     def _errand(self, order: Order, state: frozenset[int]) -> "_Errand":
-        ids = actions_named(self._task, order.action, order.agents)
-        actions = [self._task.actions[i] for i in ids]
-        action = next((each for each in actions if each.applicable(state)), actions[0])
+        action = self._task.actions[variant_named(self._task, order.action, order.agents, state)]
         agents = frozenset(agent for agent in action.participants if agent in self._figures)
         return _Errand(agents, in_turn(self._deeds(action, state)))
 
