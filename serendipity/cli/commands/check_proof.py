@@ -1,7 +1,7 @@
 """``serendipity check-proof``: does a proof file hold, and is it that of a result?"""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -11,9 +11,6 @@ from serendipity.cli.files.reading import read_result
 from serendipity.cli.options import limits, naming
 from serendipity.cli.streams import output, progress
 from serendipity.model import InputError, Result, Task, UsageError
-
-if TYPE_CHECKING:
-    pass
 
 _Files = Annotated[
     list[Path],
@@ -57,7 +54,7 @@ def check_proof(
     except InputError as error:
         raise InputError(error.message, error.file or answer) from None
     if form == "json":
-        output.write_answer(output.as_json(found.to_dict()), output_file)
+        output.write_answer(found.to_json(), output_file)
     else:
         from serendipity.cli.text.render import rendered
 

@@ -1,15 +1,11 @@
 """``serendipity check-task``: is a task what its author meant?"""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import serendipity
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import limits, naming
 from serendipity.cli.streams import output, progress
-
-if TYPE_CHECKING:
-    pass
 
 
 def check_task(
@@ -35,7 +31,7 @@ def check_task(
     with progress.working("checking", quiet=quiet), limits.during("checking the task"):
         report = serendipity.check_task(task, _files(name), deadline=deadline)
     if form == "json":
-        output.write_answer(output.as_json(report.to_dict()), output_file)
+        output.write_answer(report.to_json(), output_file)
     else:
         from serendipity.cli.text.render import rendered
 

@@ -215,7 +215,7 @@ def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> i
 
 def _answer(form: str, found: "Runs") -> str | bytes:
     if form == "json":
-        return output.as_json(found.to_dict())
+        return found.to_json()
     if form in ROWS:
         return written(found.table(), form)
     from serendipity.cli.text.render import rendered

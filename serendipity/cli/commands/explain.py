@@ -82,7 +82,7 @@ def _read(task: Task, path: Path, deadline: Deadline) -> Result:
 
 def _shown(found: "Explanation", form: str) -> str:
     if form == "json":
-        return output.as_json(found.to_dict())
+        return found.to_json()
     from serendipity.cli.text.render import rendered
 
     return rendered(found.told())

@@ -81,7 +81,7 @@ def _code(report: "InterruptionReport") -> ExitCode:
 
 def _shown(report: "InterruptionReport", form: str, *, every: bool) -> str | bytes:
     if form == "json":
-        return output.as_json(report.to_dict())
+        return report.to_json()
     if form in ROWS:
         return written(report.table(), form)
     from serendipity.cli.text.render import rendered

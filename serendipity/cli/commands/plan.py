@@ -15,6 +15,7 @@ from serendipity.cli.streams import output, progress
 from serendipity.cli.text import goals as goal_options
 from serendipity.model import Certificate, Deadline, Result, Task, UsageError
 from serendipity.model.numbers import plain
+from serendipity.model.telling import json_of
 
 _CHECK_SHARE: Final = 0.05
 """What of the time limit is kept for checking the answer."""
@@ -124,7 +125,7 @@ def _certificate(
 def _shown(task: Task, result: Result, certificate: Certificate, form: str, *, claims: bool) -> str:
     if form == "json":
         certified = {"certificate": certificate.to_dict()} if claims else {}
-        return output.as_json(result.to_dict() | certified)
+        return json_of(result.to_dict() | certified)
     from serendipity.cli.text.answers import plan_report
 
     return plan_report(task, result, certificate, each_claim=claims)
@@ -150,7 +151,7 @@ def _for_goals(result: Result, certificate: Certificate | None, form: str, outpu
     """Write the answer where the goal is not known."""
     if form == "json":
         answer = result.to_dict() | ({} if certificate is None else {"certificate": certificate.to_dict()})
-        output.write_answer(output.as_json(answer), output_file)
+        output.write_answer(json_of(answer), output_file)
     else:
         from serendipity.cli.text.render import rendered
         from serendipity.model.answers.words import for_goals

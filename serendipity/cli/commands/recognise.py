@@ -47,7 +47,7 @@ def recognise(
     with progress.working("recognising", quiet=quiet), limits.during("weighing the goals"):
         found = serendipity.recognise(task, goals, **given, deadline=deadline)
     if form == "json":
-        output.write_answer(output.as_json(found.to_dict()), output_file)
+        output.write_answer(found.to_json(), output_file)
     elif form in ROWS:
         output.write_answer(written(found.table(), form), output_file)
     else:

@@ -14,6 +14,7 @@ from serendipity.cli.streams.broken_tasks import broken_tasks
 from serendipity.cli.streams.stderr import is_terminal, tell
 from serendipity.model.options import limit_of
 from serendipity.model.printable import message
+from serendipity.model.telling import json_of
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
 
@@ -145,7 +146,7 @@ def _answer(
     if form == "csv":
         return formats.rows_as_csv(run)
     if form == "json":
-        return output.as_json(formats.as_json(run, entries, times, answers))
+        return json_of(formats.as_json(run, entries, times, answers))
     if form in ROWS:
         return written(run.table(), form)
     return _text(run, entries, times, answers)

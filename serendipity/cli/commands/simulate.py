@@ -55,7 +55,7 @@ def simulate(
     if wrong is not None:
         output.warn((wrong,), quiet=quiet)
     if form == "json":
-        output.write_answer(output.as_json(trace.to_dict()), output_file)
+        output.write_answer(trace.to_json(), output_file)
     else:
         from serendipity.cli.text.render import rendered
 

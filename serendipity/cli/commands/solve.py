@@ -58,7 +58,7 @@ def solve(
         )
     certificate = serendipity.check(task, result, deadline=deadline.sooner(-_CHECK_SHARE))
     if form == "json":
-        output.write_answer(output.as_json(result.to_dict()), output_file)
+        output.write_answer(result.to_json(), output_file)
     else:
         from serendipity.cli.text.answers import plan_report
 

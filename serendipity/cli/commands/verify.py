@@ -47,7 +47,7 @@ def verify(
     if proof is not None and certificate.verdict != "proved":
         output.warn((f"--proof: {proof} is not written: there is no proof",), quiet=quiet)
     if form == "json":
-        output.write_answer(output.as_json(certificate.to_dict()), output_file)
+        output.write_answer(certificate.to_json(), output_file)
     else:
         from serendipity.cli.text.render import rendered
 

@@ -112,13 +112,6 @@ def check_output(output: Path | None, option: str = "-o") -> None:
         raise UsageError(f"{option}: the folder {output.parent} can't be written to")
 
 
-def as_json(value: dict[str, Any]) -> str:
-    """A JSON object as text, indented; characters that can't be seen are escaped."""
-    from serendipity.model.telling import json_of
-
-    return json_of(value)
-
-
 def write_answer(answer: str | bytes, output: Path | None, option: str = "-o") -> None:
     """Write an answer to ``output``; a text to stdout where that is None.
 
