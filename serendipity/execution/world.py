@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model.errors import UsageError
-from serendipity.model.task.actions import apply, conflicting
+from serendipity.model.task.actions import apply, conflicting, fitted
 from serendipity.model.task.execution import actions_named, variant_named
 from serendipity.model.task.names import no_fact
 from serendipity.model.task.plans import PlanStep
@@ -130,8 +130,7 @@ class World:
         for name, true in facts:
             fact = self._fact(name)
             state.add(fact) if true else state.discard(fact)
-        held = {d.fact for d in self.task.disjunctions if d.holds(frozenset(state))}
-        self.state = frozenset(state.difference([d.fact for d in self.task.disjunctions]) | held)
+        self.state = fitted(frozenset(state), self.task.disjunctions)
 
     def cost(self, actions: Iterable[int]) -> tuple[Fraction, Fraction]:
         """What actions cost the human, undiscounted, and the team."""

@@ -220,7 +220,7 @@ class Session:
     def _move(self, state: frozenset[int], *, epochs: int) -> None:
         before = self.task
         self._prepared = self._prepared.at(state)
-        self._memory.moved(before, state, epochs=epochs)
+        self._memory.moved(before, self.task.init, epochs=epochs)
 
     def _follow(self, his: list[GroundAction]) -> None:
         known = self.human_plan

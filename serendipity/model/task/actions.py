@@ -1,5 +1,6 @@
 """Conditions and ground actions over integer fact ids."""
 
+from collections.abc import Collection
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -47,6 +48,12 @@ class Disjunction:
     def holds(self, state: State) -> bool:
         """Whether one of the literals is true in ``state``."""
         return any((fact in state) == positive for fact, positive in self.literals)
+
+
+def fitted(state: frozenset[int], disjunctions: Collection[Disjunction]) -> frozenset[int]:
+    """A state whose facts that stand for disjunctions say what the others make of them."""
+    held = {d.fact for d in disjunctions if d.holds(state)}
+    return state.difference([d.fact for d in disjunctions]) | held
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from functools import cached_property
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.numbers import total
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply
+from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply, fitted
 from serendipity.model.task.names import ActionNames
 from serendipity.model.task.variables import Variable, find_variables
 from serendipity.model.telling import Grid, Line, Told, team
@@ -234,8 +234,7 @@ class Task(Told):
         """
         if not isinstance(state, frozenset):
             raise UsageError(f"state: expected a frozenset of ids of facts, got {state!r:.50}")
-        held = {d.fact for d in self.disjunctions if d.holds(state)}
-        state = state.difference([d.fact for d in self.disjunctions]) | held
+        state = fitted(state, self.disjunctions)
         if self.fits(state):
             variables = self.variables  # what would be found, or better
         else:
