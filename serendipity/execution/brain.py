@@ -210,19 +210,19 @@ class Brain:
     ) -> Decided | None:
         """Robots make up for what they have done, if somebody pays more for it and there is a way."""
         for prospect in prospects:
-            amends = prospect.imagined.amends
-            if owed := self._owed(asked.state, prospect):
+            imagined = prospect.imagined
+            if owed := self._owed(asked.state, imagined):
                 try:
-                    advice = amends.advise(asked.of(prospect.imagined), deadline.part(_TIME_TO_TELL))
+                    advice = imagined.amends.advise(asked.of(imagined), deadline.part(_TIME_TO_TELL))
                 except LIMITS:
                     continue
                 if advice is not None:
                     return self._following(outlook, replace(prospect, advice=advice), (), float(owed))
         return None
 
-    def _owed(self, state: frozenset[int], prospect: Prospect) -> Fraction:
+    def _owed(self, state: frozenset[int], imagined: Imagined) -> Fraction:
         """How much dearer the person's way is by what robots have done."""
-        return prospect.imagined.amends.owed(self._untouched.state, state)
+        return imagined.amends.owed(self._untouched.state, state)
 
     def _weights(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:
         """The goals that the person may have, with their probabilities, the most probable first."""
@@ -282,7 +282,7 @@ class Brain:
         self, asked: "_Asked", decided: Decided, prospects: Sequence[Prospect], deadline: Deadline
     ) -> Why:
         """Why nothing is done, whatever the goal is, and what the person pays more by what was done."""
-        owed = float(max(self._owed(asked.state, prospect) for prospect in prospects))
+        owed = float(max(self._owed(asked.state, prospect.imagined) for prospect in prospects))
         why = decided.because
         if why is None or why.kind != "done":
             why = self._no_help(asked, prospects, deadline)
@@ -318,8 +318,7 @@ class Brain:
         """Nobody is left who could do anything."""
         if not goals:
             return Why("out-of-reach")
-        known = [Prospect(goal, self._promises.to(goal), None, Fraction(0)) for goal in goals]
-        owed = float(max(self._owed(state, prospect) for prospect in known))
+        owed = float(max(self._owed(state, self._promises.to(goal)) for goal in goals))
         gone = tuple(self._task.agents[i] for i in sorted(self._gone))
         if len(gone) < len(self._task.robots):
             return Why("all-failed", owed=owed)
