@@ -1,9 +1,11 @@
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.live.server import Server, serving
+from tests.live.studies import PLAIN
 from tests.show.browser import chromium, chromium_path
 
 Opened = Callable[..., Any]
@@ -24,6 +26,13 @@ def browser() -> Iterator[Any]:
     pytest.importorskip("playwright", reason="no playwright: `make test-browser` installs it")
     with chromium(path) as running:
         yield running
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Of a study of two scenarios of its own, which are there at once."""
+    (tmp_path / "study.toml").write_text(PLAIN)
+    return tmp_path
 
 
 @pytest.fixture

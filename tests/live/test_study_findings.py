@@ -1,0 +1,59 @@
+"""What comes out of a study, and for whom."""
+
+from collections import Counter
+from pathlib import Path
+
+from serendipity.live.play.setting import CONDITIONS
+from serendipity.live.study import analysis
+from serendipity.live.study.design import open_design
+from tests.live.studies import finish, join, opened, say
+
+
+def test_only_who_has_the_secret_sees_and_saves(folder: Path) -> None:
+    study, design = opened(folder), open_design(folder)
+    join(study, address={"id": "<b>x</b>"})
+    start = f"experimenter/{design.secret}/"
+    for name in ("", "events.json", "events.csv", "rounds.csv", "codebook.csv"):
+        assert study.file(start + name) is not None
+        assert study.file(f"experimenter/{'x' * len(design.secret)}/{name}") is None
+    assert study.file(start + "study.json") is None
+    assert study.file("export.json") is None
+    page = study.file(start)
+    assert page is not None
+    assert "&lt;b&gt;x" in page.text
+    assert not any(f">{name}<" in page.text for name in CONDITIONS)
+
+
+def test_the_table_of_rounds_is_read_back(folder: Path, capsys) -> None:
+    study, design = opened(folder, seed=1), open_design(folder)
+    for _ in range(4):
+        finish(join(study), design)
+    say(join(study), "go on")
+    say(join(study), "withdraw")
+    start = f"experimenter/{design.secret}/"
+    table, book = study.file(start + "rounds.csv"), study.file(start + "codebook.csv")
+    assert table is not None
+    assert book is not None
+    head = table.text.splitlines()[0].split(",")
+    assert [line.split(",")[0] for line in book.text.splitlines()[1:]] == head
+    (folder / "rounds.csv").write_text(table.text)
+    rows = analysis.read_rounds(folder / "rounds.csv")
+    assert Counter(row["condition"] for row in rows) == {"none": 4, "silent": 4}
+    assert {row["answer_1"] for row in rows} == {"6"}
+    assert analysis.main([str(folder / "rounds.csv")]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("4 finished participants, 8 rounds\n")
+    assert "answer_1\n  none       n = 2   6 ± 0" in said
+    (folder / "rounds.csv").write_text("a,b\n1,2\n")
+    assert analysis.main([str(folder / "rounds.csv")]) == 2
+
+
+def test_means_have_the_intervals_of_the_textbook() -> None:
+    """Student's t: 4.303 for two degrees of freedom, 2.262 for nine."""
+    found = analysis.estimate([1.0, 2.0, 3.0])
+    assert (found.mean, round(found.half_width or 0, 3)) == (2.0, round(4.3027 / 3**0.5, 3))
+    assert round(analysis.estimate([float(i % 2) for i in range(10)]).half_width or 0, 4) == round(
+        2.26216 * (10 / 36) ** 0.5 / 10**0.5, 4
+    )
+    assert analysis.difference([3.0, 5.0], [1.0, 1.0]).mean == 3.0
+    assert analysis.estimate([1.0]).half_width is None

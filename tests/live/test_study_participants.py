@@ -1,0 +1,231 @@
+"""Those who take part in a study: their places, their way through it, what outlives a server."""
+
+import json
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+import serendipity
+from serendipity.live.play.setting import CONDITIONS
+from serendipity.live.study.design import open_design
+from serendipity.live.study.participant import Participant
+from serendipity.live.study.study import Study
+from serendipity.model import UsageError
+from tests.live.server import serving
+from tests.live.studies import PLAIN, act_along, finish, join, opened, say
+
+
+def test_who_withdraws_gives_their_place_back(folder: Path) -> None:
+    study = opened(folder, seed=3)
+    people = [join(study) for _ in range(3)]
+    assert [p.joined["place"] for p in people] == [0, 1, 2]
+    assert say(people[1], "withdraw")["stage"] == "withdrawn"
+    assert [join(study).joined["place"] for _ in range(2)] == [1, 3]
+    assert study.state(people[1]) == "withdrawn"
+
+
+def test_who_is_not_heard_of_for_long_gives_their_place_back_and_may_come_back(folder: Path) -> None:
+    (folder / "study.toml").write_text("lost_after_minutes = 60\n" + PLAIN)
+    study = opened(folder)
+    lost = join(study)
+    say(lost, "go on")
+    file = folder / "P001.jsonl"
+    file.write_text(file.read_text().replace(lost.joined["time"][:10], "2020-01-01"))
+    study = opened(folder)
+    again = study.room(lost.joined["token"])
+    assert isinstance(again, Participant)
+    assert study.state(again) == "lost"
+    assert join(study).joined["place"] == lost.joined["place"]
+    again.do({"do": "hello", "page": {"browser": "Lynx"}})
+    assert study.state(again) == "under way"
+    assert again.view()["stage"] == "play"
+
+
+# -- on the way
+
+
+def test_a_participant_from_consent_to_the_end(folder: Path) -> None:
+    study, design = opened(folder), open_design(folder)
+    lobby = study.room("")
+    assert lobby is not None
+    with pytest.raises(UsageError, match="consent"):
+        lobby.do({"do": "join"})
+    room = join(study, page={"browser": "Lynx", "screen": "80x24", "more": 1})
+    assert "pick one up" in " ".join(room.view()["study"]["text"]), "of the domain"
+    say(room, "go on")
+    for number in (1, 2):
+        with pytest.raises(UsageError):
+            say(room, "go on")
+        act_along(room, design)
+        assert say(room, "go on")["stage"] == "questions"
+        for wrong in (None, [1], [0, ""], [8, ""], [True, ""], ["1", ""], [1.5, ""], [1, 3]):
+            with pytest.raises(UsageError, match="answers"):
+                say(room, "answer", answers=wrong)
+        say(room, "answer", answers=[number, ""], times=[700, None])
+    assert room.view()["stage"] == "closing"
+    with pytest.raises(UsageError, match="expected one of me, you"):
+        say(room, "answer", answers=["they"])
+    assert say(room, "answer", answers=["you"])["study"]["code"] == design.code
+    events = room.events()
+    assert [json.loads(line) for line in (folder / "P001.jsonl").read_text().splitlines()] == events
+    joined = events[0]
+    assert (joined["browser"], joined["screen"], joined["version"]) == (
+        "Lynx",
+        "80x24",
+        serendipity.__version__,
+    )
+    assert joined["consent"] == design.texts.consent
+    assert joined["study"] == design.mark
+    kinds = Counter(event["event"] for event in events)
+    assert (kinds["asked"], kinds["answers"], kinds["begun"], kinds["end"]) == (3, 3, 2, 1)
+    told = next(event for event in events if event["event"] == "answers")
+    assert told["answers"][0] == {"question": "Was it good?", "answer": 1, "page_seconds": 0.7}
+    assert all(event["page_seconds"] == 1.5 for event in events if event["event"] == "epoch")
+
+
+def test_practice_comes_first_and_says_what_would_have_been_best(tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text('conditions = ["none", "silent"]')
+    design = open_design(tmp_path, rounds=1, seed=1)
+    room = join(Study(design, tmp_path))
+    assert "practice" in room.view()["study"]["text"][-1]
+    assert say(room, "go on")["round"] == 0
+    assert design.practice is not None
+    for action in serendipity.plan(design.practice.task, mode="individual").human_plan or ():
+        view = say(room, "act", action=action)
+    assert view["end"]["alone"] == view["end"]["paid"]
+    assert say(room, "go on")["round"] == 1, "without questions"
+
+
+def test_a_page_in_a_study_is_told_nothing_of_conditions_and_of_what_robots_think(folder: Path) -> None:
+    study, design = opened(folder), open_design(folder)
+    for _ in range(2):
+        room = join(study)
+        say(room, "go on")
+        shown = [room.view()]
+        act_along(room, design)
+        shown.append(room.view())
+        text = json.dumps([{**view, "map": None} for view in shown])
+        for word in (*CONDITIONS, "thinking", "reason", "alone", "team", "discount", "window", "handed over"):
+            assert f'"{word}"' not in text
+
+
+def test_what_comes_twice_or_too_late_is_kept_once(folder: Path) -> None:
+    study, design = opened(folder), open_design(folder)
+    lobby = study.room("")
+    assert lobby is not None
+    sent = {"do": "join", "agree": True, "visit": "0.5"}
+    assert lobby.do(sent) == lobby.do(sent)
+    room = join(study)
+    first = {"do": "go on", "moment": room.view()["moment"]}
+    assert room.do(first) is None
+    assert room.do(first) == {}
+    act_along(room, design)
+    say(room, "go on")
+    answer = {"do": "answer", "moment": room.view()["moment"], "answers": [3, ""]}
+    assert room.do(answer) is None
+    assert room.do(answer) == {}
+    assert Counter(event["event"] for event in room.events())["answers"] == 1
+
+
+def test_a_link_from_elsewhere_leads_to_the_same_person(folder: Path) -> None:
+    study = opened(folder)
+    one = join(study, address={"PROLIFIC_PID": "abc", "x": "y"})
+    assert join(study, address={"PROLIFIC_PID": "abc"}) is one
+    assert join(study, address={"PROLIFIC_PID": "abd"}) is not one
+    assert join(study) is not join(study)
+    assert study.room("abc") is None
+
+
+def test_a_round_that_has_no_end_ends(folder: Path) -> None:
+    (folder / "study.toml").write_text("most_epochs = 20\n" + PLAIN)
+    room = join(opened(folder))
+    say(room, "go on")
+    for _ in range(20):
+        view = say(room, "act", action=None)
+    assert (view["done"], view["end"]["reached"]) == (True, False)
+    assert say(room, "go on")["stage"] == "questions"
+
+
+def test_several_take_part_at_once(folder: Path) -> None:
+    study, design = opened(folder), open_design(folder)
+    with ThreadPoolExecutor(6) as pool:
+        rooms = list(pool.map(lambda _: join(study), range(6)))
+        list(pool.map(lambda room: finish(room, design), rooms))
+    assert sorted(room.joined["place"] for room in rooms) == list(range(6))
+    assert len({room.name for room in rooms}) == 6
+    assert all(room.stage == "end" for room in rooms)
+
+
+def test_whatever_a_page_sends_it_is_answered_and_can_be_saved(folder: Path) -> None:
+    """Halves of characters, which no file takes, and links of nobody."""
+    (folder / "study.toml").write_text(PLAIN[: PLAIN.rindex("[[scenarios]]")])
+    study, design = opened(folder), open_design(folder)
+    room = join(study)
+    say(room, "go on")
+    act_along(room, design)
+    say(room, "go on")
+    with serving("--study", str(folder), command="play") as server:
+        live = server.url.replace("http", "ws") + "/live/"
+        with connect(live + room.joined["token"]) as page:
+            moment = json.loads(page.recv())["moment"]
+            for text in ("[" * 20_000, "3", json.dumps({"do": "\ud800", "moment": moment})):
+                page.send(text)
+                assert json.loads(page.recv())["kind"] == "refused"
+            page.send(json.dumps({"do": "answer", "moment": moment, "answers": [3, "a\ud800b"]}))
+            assert json.loads(page.recv())["stage"] == "closing"
+        saved = server.client.get(f"/experimenter/{design.secret}/events.json").json()
+        told = next(event for event in saved if event["event"] == "answers")
+        assert told["answers"][1]["answer"] == "a?b"
+        assert server.client.get("/s/nobody").status_code == 404
+        with pytest.raises(InvalidStatus):
+            connect(live + "nobody")
+
+
+# -- restarts
+
+
+def test_a_study_goes_on_where_it_was_when_the_server_comes_back(folder: Path) -> None:
+    design = open_design(folder)
+    rooms = [join(opened(folder)) for _ in range(3)]
+    for room, epochs in zip(rooms, (0, 6, None), strict=True):
+        say(room, "go on")
+        act_along(room, design, epochs)
+    say(rooms[2], "go on")
+    study = opened(folder)
+    for before in rooms:
+        after = study.room(before.joined["token"])
+        assert isinstance(after, Participant)
+        assert after.view() == before.view()
+        finish(after, design)
+        assert after.stage == "end"
+
+
+def test_whatever_was_written_last_the_study_goes_on(folder: Path) -> None:
+    """The machine fails after any line."""
+    (folder / "study.toml").write_text(PLAIN[: PLAIN.rindex("[[scenarios]]")])
+    room = join(opened(folder))
+    finish(room, open_design(folder))
+    whole = (folder / "P001.jsonl").read_text().splitlines(keepends=True)
+    for count in range(1, len(whole)):
+        if '"epoch"' in whole[count - 1] and count % 5:
+            continue
+        (folder / "P001.jsonl").write_text("".join(whole[:count]) + '{"event": "ep')
+        again = opened(folder).room(room.joined["token"])
+        assert isinstance(again, Participant)
+        finish(again, open_design(folder))
+        kinds = Counter(event["event"] for event in again.events())
+        assert (kinds["begun"], kinds["answers"], kinds["end"]) == (1, 2, 1)
+
+
+def test_a_record_that_is_none_harms_nobody_else(folder: Path) -> None:
+    room = join(opened(folder))
+    (folder / "P002.jsonl").write_bytes(b'{"event": "joined", "participant": "P002"}\n\xff\nnonsense\n')
+    study = opened(folder)
+    assert [fault.split(": ")[0] for fault in study.faults] == ["P002.jsonl:2", "P002.jsonl:3", "P002.jsonl"]
+    assert study.room(room.joined["token"]) is not None
+    assert {event["participant"] for event in study.events()} == {"P001", "P002"}
+    assert join(study).name == "P003"
