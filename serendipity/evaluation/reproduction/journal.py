@@ -6,7 +6,6 @@ dropped when the journal is opened again; its task is simply done again.
 
 import json
 import os
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -15,6 +14,7 @@ from serendipity.evaluation.reproduction.work import TaskRows
 from serendipity.model import InputError, UsageError
 from serendipity.model.numbers import unrounded
 from serendipity.model.schemas import schema_fault
+from serendipity.writing.lines import append
 
 SCHEMA: Final = "serendipity.journal/1"
 """Of each line; lines of the first versions have none."""
@@ -59,26 +59,12 @@ class Journal:
         Raises:
             UsageError: the file can't be written; it is then as it was before.
         """
-        before = self.path.stat().st_size if self.path.exists() else None
         rows = [row.to_dict() | {"discount": unrounded(row.discount)} for row in record.rows]
         told = {"schema": SCHEMA, "test": record.test, "fingerprint": record.fingerprint, "rows": rows}
-        line = json.dumps(told)
         try:
-            with self.path.open("ab") as file:
-                file.write(line.encode() + b"\n")
-                file.flush()
-                os.fsync(file.fileno())
+            append(self.path, json.dumps(told))
         except OSError as error:
-            self._cut(before)
             raise UsageError(f"journal: {self.path} can't be written: {error.strerror}") from None
-
-    def _cut(self, size: int | None) -> None:
-        """Take away what has been written beyond a size; the whole file where that is None."""
-        with suppress(OSError):
-            if size is None:
-                self.path.unlink(missing_ok=True)
-            elif self.path.is_file():
-                os.truncate(self.path, size)
 
     def _record(self, line: bytes, number: int) -> TaskRows:
         try:

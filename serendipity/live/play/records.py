@@ -8,6 +8,7 @@ from typing import Any, Final
 
 from serendipity.model import UsageError
 from serendipity.writing.csv_text import as_csv as csv_of
+from serendipity.writing.lines import append
 
 Event = dict[str, Any]
 
@@ -36,14 +37,13 @@ class Records:
         """Record an event; it is on the disk when this returns.
 
         Raises:
-            UsageError: the file can't be written.
+            UsageError: the file can't be written; it is then as it was before, and nothing is recorded.
         """
         now = datetime.now(UTC).isoformat(timespec="milliseconds")
         told = {"participant": self._participant, "time": now, "event": event, **about}
         if self._file is not None:
             try:
-                with self._file.open("a", encoding="utf-8") as file:
-                    file.write(json.dumps(told, ensure_ascii=False) + "\n")
+                append(self._file, json.dumps(told, ensure_ascii=False))
             except OSError as error:
                 raise UsageError(f"{self._file} can't be written: {error.strerror}") from None
         self.events.append(told)

@@ -35,13 +35,13 @@ class Table:
 
     def __init__(self, setting: Setting, file: Path | None = None) -> None:
         self._setting = setting
+        self._file = file
         events, faults = ([], []) if file is None or not file.exists() else read(file)
         if faults:
             raise InputError(faults[0].partition(": ")[2], file)
         self._records = Records("player", file, events)
         self._round = max((event.get("round", 0) for event in events), default=0)
-        last = next((event for event in reversed(events) if event["event"] == "begun"), None)
-        if last is None or not self._go_on(last, events, file):
+        if not self._go_on():
             self._begin()
 
     # -- the pages
@@ -80,15 +80,15 @@ class Table:
         if what == "act":
             if message.get("moment") != self._moment:
                 return {}  # a double click, or another page was quicker
-            self._records.add("epoch", **self._about(), **self._game.act(message.get("action")))
+            self._act(message.get("action"))
             return None
         if what == "again":
             self._records.add("again", round=self._round)
             self._begin()
             return None
         if what == "panel":
-            about = {"round": self._round, "epoch": self._game.run.epoch}
-            self._records.add("panel", **about, open=bool(message.get("open")))
+            epoch, open_ = self._game.run.epoch, bool(message.get("open"))
+            self._records.add("panel", round=self._round, epoch=epoch, open=open_)
             return {}
         if what == "explain" and self._game.done:
             return {"kind": "explanation", "sentences": self._game.explanation()}
@@ -102,34 +102,47 @@ class Table:
     def _moment(self) -> str:
         return f"{self._round}.{self._game.run.epoch}"
 
-    def _about(self) -> Event:
-        return {
-            "round": self._round,
-            "scenario": self._setting.name,
-            "condition": self._setting.condition,
-        }
+    def _act(self, action: str | None) -> None:
+        passed = self._game.act(action)
+        try:
+            self._records.add("epoch", **about(self._setting, self._round), **passed)
+        except UsageError:
+            self._go_on()  # what is not recorded has not happened
+            raise
 
     def _begin(self) -> None:
-        self._round += 1
-        self._game = Game(self._setting)
-        self._records.add("begun", **self._about(), **begun(self._game))
+        game = Game(self._setting)
+        self._records.add("begun", **begun(game, self._round + 1))
+        self._round, self._game = self._round + 1, game
 
-    def _go_on(self, first: Event, events: list[Event], file: Path | None) -> bool:
-        """Play what there is of the last round; whether there is anything left of it."""
+    def _go_on(self) -> bool:
+        """Play what there is of the last round; whether there is one, and anything left of it."""
+        events = self._records.events
+        begins = [place for place, event in enumerate(events) if event["event"] == "begun"]
+        if not begins:
+            return False
+        first, *later = events[begins[-1] :]
         self._game = Game(self._setting)
-        if any(first.get(key) != value for key, value in {**self._about(), **begun(self._game)}.items()):
-            raise InputError("can't go on with it: it is of another task, or was played otherwise", file)
-        later = events[events.index(first) :]
+        if any(first.get(key) != value for key, value in begun(self._game, self._round).items()):
+            raise InputError(
+                "can't go on with it: it is of another task, or was played otherwise", self._file
+            )
         for event in later:
             if event["event"] == "epoch":
-                self._game.again(event, file)
+                self._game.again(event, self._file)
         return not self._game.done and all(event["event"] != "again" for event in later)
 
 
-def begun(game: Game) -> Event:
+def about(setting: Setting, number: int) -> Event:
+    """What is recorded with all that happens in a round."""
+    return {"round": number, "scenario": setting.name, "condition": setting.condition}
+
+
+def begun(game: Game, number: int) -> Event:
     """What is recorded of a round that begins."""
     setting = game.setting
-    return {"view": setting.view, "discount": str(setting.discount), "alone_cost": game.alone}
+    how = {"view": setting.view, "discount": str(setting.discount), "alone_cost": game.alone}
+    return {**about(setting, number), **how}
 
 
 def as_json(value: object, name: str) -> Download:

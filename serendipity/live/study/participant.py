@@ -7,7 +7,8 @@ from typing import Any, Final
 import serendipity
 from serendipity.live.play.game import Game
 from serendipity.live.play.records import Event, Records
-from serendipity.live.play.table import begun
+from serendipity.live.play.setting import Setting
+from serendipity.live.play.table import about, begun
 from serendipity.live.study.design import Design
 from serendipity.live.study.texts import Question
 from serendipity.model import InputError, UsageError
@@ -116,13 +117,18 @@ class Participant:
         Raises:
             UsageError: it asks for what there is not.
         """
-        what = message.get("do")
-        if what == "hello":
+        if message.get("do") == "hello":
             self._add("opened", version=serendipity.__version__, **page_facts(message))
             return {}
         if message.get("moment") != self._moment:
             return {}  # a double click, a message that is sent again, or another page was quicker
-        took = _took(message.get("took"))
+        if self._left is None:  # else only what comes next could not be recorded
+            self._hear(message)
+        self._go_on()
+        return None
+
+    def _hear(self, message: Mapping[str, Any]) -> None:
+        what, took = message.get("do"), _took(message.get("took"))
         if what == "withdraw" and not self.over:
             self._add("withdrawn", stage=self.stage, round=self.round)
         elif what == "act" and self.stage == "play":
@@ -136,8 +142,6 @@ class Participant:
             self._answer(message, took)
         else:
             raise UsageError(f"expected something else at this point of the study, got {what!r:.50}")
-        self._go_on()
-        return None
 
     def _answer(self, message: Mapping[str, Any], took: Event) -> None:
         asked, answers, times = self._questions(), message.get("answers"), message.get("times")
@@ -152,8 +156,8 @@ class Participant:
             {"question": question.text, "answer": answer, **_took(time)}
             for question, answer, time in zip(asked, answers, times, strict=True)
         ]
-        about = self._about() if self.stage == "questions" else {"condition": self.joined["condition"]}
-        self._add("answers", **about, about=self.stage, **took, **self._seconds(), answers=told)
+        when = self._about() if self.stage == "questions" else {"condition": self.joined["condition"]}
+        self._add("answers", **when, about=self.stage, **took, **self._seconds(), answers=told)
 
     # -- from one point to the next
 
@@ -171,7 +175,7 @@ class Participant:
         if what == "joined":
             self.joined = event
         elif what == "begun":
-            self.stage, self.round, self._epochs = "play", event["round"], []
+            self.stage, self.round, self._epochs, self._game = "play", event["round"], [], None
         elif what == "epoch":
             self._epochs.append(event)
         elif what == "asked":
@@ -196,18 +200,14 @@ class Participant:
             self._add("end", condition=self.joined["condition"], code=self._design.code)
 
     def _begin(self, number: int) -> None:
-        self.round, self._game = number, None
-        self._epochs = []
-        self._add("begun", **self._about(), **begun(self._playing()))
+        game = Game(self._setting(number))
+        self._add("begun", **begun(game, number))
+        self._game = game
 
     def _playing(self) -> Game:
         """The round, as far as it is recorded."""
         if self._game is None:
-            trial, name = self._design.practice, self._about()["scenario"]
-            if self.round == 0 and trial is not None:
-                self._game = Game(trial)
-            else:
-                self._game = Game(self._design.setting(name, self.joined["condition"]))
+            self._game = Game(self._setting(self.round))
             for event in self._epochs:
                 self._game.again(event)
         return self._game
@@ -215,17 +215,27 @@ class Participant:
     def _questions(self) -> list[Question]:
         return self._design.texts.questions if self.stage == "questions" else self._design.texts.closing
 
+    def _setting(self, number: int) -> Setting:
+        """What is played in a round."""
+        if number:
+            return self._design.setting(self.joined["order"][number - 1], self.joined["condition"])
+        assert self._design.practice is not None, "else rounds begin with 1"
+        return self._design.practice
+
     def _about(self) -> Event:
-        name = self.joined["order"][self.round - 1] if self.round else "practice"
-        condition = self.joined["condition"] if self.round else "none"
-        return {"round": self.round, "scenario": name, "condition": condition}
+        return about(self._setting(self.round), self.round)
 
     def _seconds(self) -> Event:
         """How long what is answered now has been there."""
         return {"seconds": round(perf_counter() - self._since, 3)}
 
-    def _add(self, event: str, **about: Any) -> None:
-        self._happened(self._records.add(event, **about))
+    def _add(self, event: str, **told: Any) -> None:
+        try:
+            happened = self._records.add(event, **told)
+        except UsageError:
+            self._game = None  # which may be ahead of what is recorded
+            raise
+        self._happened(happened)
 
 
 def page_facts(message: Mapping[str, Any]) -> Event:
@@ -240,9 +250,6 @@ def page_facts(message: Mapping[str, Any]) -> Event:
 
 def _took(milliseconds: object) -> Event:
     """How long it took on the page, where that says so."""
-    good = isinstance(milliseconds, (int, float)) and 0 <= milliseconds < 1e9
-    return (
-        {"page_seconds": round(milliseconds / 1000, 3)}
-        if good and isinstance(milliseconds, (int, float))
-        else {}
-    )
+    if isinstance(milliseconds, (int, float)) and 0 <= milliseconds < 1e9:
+        return {"page_seconds": round(milliseconds / 1000, 3)}
+    return {}
