@@ -1,31 +1,17 @@
 """Full disks and closed streams: one line, exit 2, and no file that is torn, empty or alone."""
 
-import resource
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import serendipity
 from tests.cli.conftest import Run, assert_one_line
+from tests.writing.full_disk import largest_file
 
 Runs = Callable[[str], Run]
-
-
-@contextmanager
-def largest_file(size: int) -> Iterator[None]:
-    """No file gets larger than ``size`` bytes, as where a disk is full."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE), sys.dont_write_bytecode
-    sys.dont_write_bytecode = True  # Python would leave torn files of bytecode behind
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[0][1]))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before[0])
-        sys.dont_write_bytecode = before[1]
 
 
 def names(folder: Path) -> list[str]:

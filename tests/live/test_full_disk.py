@@ -18,6 +18,7 @@ from serendipity.live.study.design import open_design
 from serendipity.live.study.participant import Participant
 from serendipity.model import UsageError
 from tests.live.studies import finish, join, opened
+from tests.writing.full_disk import largest_file
 
 
 @pytest.fixture
@@ -76,3 +77,11 @@ def test_a_player_goes_on(tmp_path: Path, request: pytest.FixtureRequest) -> Non
     assert again.view() == table.view()
     until_written(table.do, {"do": "again"})
     assert table.view()["round"] == 2
+
+
+def test_a_study_is_begun_whole_or_not_at_all(folder: Path) -> None:
+    with largest_file(200), pytest.raises(UsageError, match=r"study\.json can't be written: file too large"):
+        open_design(folder)
+    assert [file.name for file in folder.iterdir()] == ["study.toml"]
+    open_design(folder)
+    assert (folder / "study.json").stat().st_mode & 0o077 == 0, "the secret is in it"

@@ -3,9 +3,13 @@
 from collections import Counter
 from pathlib import Path
 
+import pytest
+
+from serendipity.live.play.records import Event
 from serendipity.live.play.setting import CONDITIONS
 from serendipity.live.study import analysis
 from serendipity.live.study.design import open_design
+from serendipity.live.study.participant import Participant
 from tests.live.studies import finish, join, opened, say
 
 
@@ -22,6 +26,18 @@ def test_only_who_has_the_secret_sees_and_saves(folder: Path) -> None:
     assert page is not None
     assert "&lt;b&gt;x" in page.text
     assert not any(f">{name}<" in page.text for name in CONDITIONS)
+
+
+def test_what_is_saved_while_somebody_joins_is_whole(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study, told = opened(folder), Participant.events
+    names = [join(study).name, join(study).name]
+
+    def meanwhile(participant: Participant) -> list[Event]:
+        join(study)
+        return told(participant)
+
+    monkeypatch.setattr(Participant, "events", meanwhile)
+    assert list(dict.fromkeys(event["participant"] for event in study.events())) == names
 
 
 def test_the_table_of_rounds_is_read_back(folder: Path, capsys) -> None:

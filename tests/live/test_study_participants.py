@@ -117,8 +117,9 @@ def test_what_comes_twice_or_too_late_is_kept_once(folder: Path) -> None:
     study, design = opened(folder), open_design(folder)
     lobby = study.room("")
     assert lobby is not None
-    sent = {"do": "join", "agree": True, "visit": "0.5"}
-    assert lobby.do(sent) == lobby.do(sent)
+    for visit in ("0.5", "long" * 100):
+        sent = {"do": "join", "agree": True, "visit": visit}
+        assert lobby.do(sent) == lobby.do(sent)
     room = join(study)
     first = {"do": "go on", "moment": room.view()["moment"]}
     assert room.do(first) is None

@@ -19,6 +19,7 @@ from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse, report,
 from serendipity.live.study.texts import OwnScenario, StudyFile
 from serendipity.model import InputError, SerendipityError, UsageError
 from serendipity.model.schemas import schema_fault
+from serendipity.writing.together import write_together
 
 _SCHEMA: Final = "serendipity.study/1"
 _TEXTS: Final = "study.toml"
@@ -201,7 +202,7 @@ def _read(file: Path) -> dict[str, Any] | None:
 
 def _write(file: Path, kept: Mapping[str, Any]) -> None:
     try:
-        file.write_text(json.dumps(kept, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+        write_together({file: (json.dumps(kept, ensure_ascii=False, indent=1) + "\n").encode()})
         file.chmod(0o600)  # the secret is in it
     except OSError as error:
         raise UsageError(f"--study: {file} can't be written: {(error.strerror or '').lower()}") from None

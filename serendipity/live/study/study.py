@@ -40,7 +40,7 @@ class Study:
         self._joining = Lock()
         self._participants: dict[str, Participant] = {}
         self._unreadable: list[Event] = []
-        self._visits: dict[str, str] = {}
+        self._visits: dict[str, Participant] = {}
         self.faults: list[str] = []
         for file in sorted(file for file in folder.iterdir() if _FILE.fullmatch(file.name)):
             events, faults = read(file)
@@ -77,7 +77,8 @@ class Study:
 
     def events(self) -> list[Event]:
         """The events of all participants."""
-        return [e for p in self._participants.values() for e in p.events()] + self._unreadable
+        people = list(self._participants.values())  # somebody may join meanwhile
+        return [event for participant in people for event in participant.events()] + self._unreadable
 
     def state(self, participant: Participant) -> str:
         """``finished``, ``withdrawn``, ``under way``, or ``lost``: nothing was heard of them for long."""
@@ -102,17 +103,18 @@ class Study:
         if message.get("agree") is not True:
             raise UsageError("consent: nobody takes part without it")
         visit, address = message.get("visit"), message.get("address")
-        known = dict(address) if isinstance(address, dict) else {}
+        visit = visit[:100] if isinstance(visit, str) else None
+        known = address if isinstance(address, dict) else {}
         outside = next((str(known[key])[:200] for key in _OUTSIDE if known.get(key)), None)
         with self._joining:
             for participant in self._participants.values():
                 if outside is not None and participant.joined.get("outside_id") == outside:
                     return participant
-            if isinstance(visit, str) and visit in self._visits:  # a double click
-                return self._participants[self._visits[visit]]
+            if visit in self._visits:  # a double click
+                return self._visits[visit]
             joined = self._new(outside, page_facts(message))
-            if isinstance(visit, str):
-                self._visits[visit[:100]] = joined.joined["token"]
+            if visit is not None:
+                self._visits[visit] = joined
             return joined
 
     def _new(self, outside: str | None, page: Event) -> Participant:
