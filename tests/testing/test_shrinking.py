@@ -1,13 +1,14 @@
 """Smallest cases: of the fault that was found, by halves, in time, with both plans; what hangs is ended."""
 
+import signal
 import time
 from fractions import Fraction
 
 import pytest
 
 from serendipity import plan
-from serendipity.model import Task, UsageError
-from serendipity.testing import PlanCall, PlannerError, by_name, check_planner, shrink, task
+from serendipity.model import Deadline, Task, UsageError
+from serendipity.testing import PlanCall, PlannerError, by_function, by_name, check_planner, shrink, task
 from serendipity.testing.disagreement import Disagreement
 
 FACTS = [f"f{i}" for i in range(64)]
@@ -94,6 +95,20 @@ def test_a_planner_that_hangs_is_ended() -> None:
     with pytest.raises(PlannerError, match=r"(?s)seed \d+\).*TimeoutError: no answer within 0.2 s"):
         check_planner(hangs, count=3, seed=7, call_limit=0.2)
     assert time.monotonic() - started < 90
+
+
+def test_somebody_elses_alarm_still_rings() -> None:
+    """That of pytest-timeout, say."""
+    rung: list[signal.Signals] = []
+    before = signal.signal(signal.SIGALRM, lambda *_: rung.append(signal.SIGALRM))
+    signal.setitimer(signal.ITIMER_REAL, 0.5)
+    try:
+        by_function(lambda *_: None).answer(CALL, Deadline(60.0))
+        time.sleep(1)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert rung == [signal.SIGALRM]
 
 
 def test_an_engine_that_is_not_installed_says_how_to() -> None:

@@ -91,12 +91,13 @@ def _ended_after(seconds: float | None) -> Iterator[None]:
         raise _HangsError
 
     before = signal.signal(signal.SIGALRM, end)
-    signal.setitimer(signal.ITIMER_REAL, max(seconds, 1e-6))
+    somebody_elses = signal.setitimer(signal.ITIMER_REAL, max(seconds, 1e-6))
     try:
         yield
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_REAL, *somebody_elses)
 
 
 def _takes(function: Callable[..., Any], name: str) -> int:
