@@ -3,7 +3,6 @@
 import json
 import secrets
 import time
-from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -61,7 +60,7 @@ class Remembered:
 
 
 class Sessions:
-    """The sessions of a server: the one that nobody has used for longest goes first.
+    """The sessions of a server: those that nobody uses are forgotten after a while, and free their room.
 
     Args:
         most: how many there may be.
@@ -73,7 +72,7 @@ class Sessions:
         self._most = most
         self._bytes = bytes_
         self._seconds = seconds
-        self._known: OrderedDict[str, Remembered] = OrderedDict()
+        self._known: dict[str, Remembered] = {}
 
     def __len__(self) -> int:
         return len(self._known)
@@ -125,7 +124,6 @@ class Sessions:
             raise HTTPException(404, f"session '{name:.50}': there is none, or no more")
         session = self._known[name]
         session.used = time.monotonic()
-        self._known.move_to_end(name)
         return session
 
     def end(self, name: str) -> None:

@@ -1,7 +1,7 @@
 """Scenarios played before anybody else does, by somebody who plays well: what each condition comes to."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from statistics import fmean
 from typing import Any
 
@@ -95,5 +95,4 @@ def report(played: Mapping[str, Rehearsal], conditions: Sequence[str]) -> str:
 
 def to_dict(rehearsal: Rehearsal) -> dict[str, Any]:
     """A rehearsal for JSON."""
-    fields = Played.__dataclass_fields__
-    return {name: {field: getattr(played, field) for field in fields} for name, played in rehearsal.items()}
+    return {name: asdict(played) for name, played in rehearsal.items()}
