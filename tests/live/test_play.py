@@ -17,6 +17,7 @@ from serendipity.live.play.setting import Setting
 from serendipity.live.play.table import Table
 from serendipity.model import InputError, UsageError
 from serendipity.scenarios.examples import EXAMPLES
+from serendipity.testing.builders import task as build
 from tests.live.play_tasks import DOMAIN, two_goals, with_third_kit
 from tests.live.server import serving
 
@@ -343,3 +344,10 @@ def test_a_port_in_use_is_one_line(capsys, tmp_path: Path, monkeypatch: pytest.M
         assert "http" not in server.client.get("/").text.replace("http://www.w3.org", "")
         assert server.client.get("/page/../../../../etc/passwd").status_code == 404
         assert server.client.get("/page/nothing.js").status_code == 404
+
+
+def test_what_changes_nothing_is_no_choice() -> None:
+    there = {f"go h {a} {b}": f"at_h_{a} -> at_h_{b}" + f" !at_h_{a}" * (a != b) for a in "ab" for b in "ab"}
+    task = build(init="at_h_a", goal="at_h_b", actions={**there, "wave r": "-> waved"})
+    view = Table(Setting("here", task, Fraction(1, 2))).view()
+    assert [choice["text"] for choice in view["can"]] == ["go to b", "wait"]

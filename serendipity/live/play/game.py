@@ -13,6 +13,7 @@ from serendipity.live.play.setting import Setting
 from serendipity.live.play.stage import Stage
 from serendipity.live.play.words import Words
 from serendipity.model import GroundAction, InputError, UsageError
+from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
 from serendipity.model.task.plans import PlanStep
 from serendipity.pictures.map.places import find_places
@@ -199,7 +200,7 @@ class Game:
         known: dict[str, dict[str, Any]] = {}
         for i in task.human_actions:
             action = task.actions[i]
-            if action.applicable(self._eyes.belief) and action.name not in known:
+            if self._changes(action) and action.name not in known:
                 place = self._words.target(action, task.human)
                 known[action.name] = {
                     "action": action.name,
@@ -210,6 +211,11 @@ class Game:
                 }
         own = sorted(known.values(), key=lambda choice: choice["kind"])
         return [*choices, *own, {"action": None, "text": "wait", "kind": "wait", "cost": 0, "place": None}]
+
+    def _changes(self, action: GroundAction) -> bool:
+        """Whether an action is possible, as far as the person knows, and would change anything."""
+        belief = self._eyes.belief
+        return action.applicable(belief) and apply(belief, action) != belief
 
     def _thinking(self, decided: Decided) -> dict[str, Any]:
         return {

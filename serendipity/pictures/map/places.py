@@ -133,7 +133,7 @@ def _towers(task: Task) -> Places:
     if not stacks.on:
         return Places()
     ground = next((parts(task.facts[fact])[0] for fact in stacks.ground), "")
-    place = ground or parts(task.facts[next(iter(stacks.on))])[0]
+    place = re.sub(r"^on[-_]?(?=.)", "", ground) or parts(task.facts[next(iter(stacks.on))])[0]
     objects: dict[str, dict[int, Whereabouts]] = {name: {} for name in sorted(stacks.things, key=natural)}
     for fact, (upper, lower) in stacks.on.items():
         objects[upper][fact] = Whereabouts(carrier=lower)

@@ -137,7 +137,8 @@
       item.append(make("i", "", kind), text);
       id("legend").append(item);
     };
-    if (view.map) entry("dashed", "you can go there");
+    id("ways").hidden = !view.map || Object.keys(view.map.places).length < 2;
+    if (!id("ways").hidden) entry("dashed", "you can go there");
     if (view.sight === "here") entry("dim", "not in sight: as you saw it last");
   }
 
