@@ -101,6 +101,16 @@ class TestFigures:
         with Image.open("walk.gif") as film:
             assert film.n_frames == 2 and film.width == 960
 
+    @pytest.mark.parametrize(("name", "kits"), [("room2", True), ("parcels", False)])
+    def test_medkits_alone_are_red(self, name: str, kits: bool) -> None:
+        task, film = serendipity.example(name), physics.Film(width=640, rate=2)
+        runs = serendipity.execute(
+            task, epochs=1, adapter=lambda *_: physics.Stage(task, epoch=0.5, film=film)
+        )
+        with Image.open(io.BytesIO(film.clip(".png", runs.logs[0]))) as clip:
+            seen = {colour for _, colour in clip.convert("RGB").getcolors(maxcolors=1 << 24) or ()}
+        assert any(r > 200 and max(g, b) < r / 4 for r, g, b in seen) is kits
+
     @pytest.mark.parametrize("suffix", physics.FORMATS)
     def test_films_have_a_format(self, room2: Task, suffix: str) -> None:
         film = physics.Film(width=160, rate=2)

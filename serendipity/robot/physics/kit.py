@@ -11,26 +11,29 @@ _SIZE: Final[Vector] = (0.15, 0.11, 0.09)
 _MASS: Final = 0.2
 _RED: Final[Colour] = (0.88, 0.08, 0.1, 1)
 _WHITE: Final[Colour] = (0.97, 0.97, 0.97, 1)
+_BROWN: Final[Colour] = (0.72, 0.53, 0.34, 1)
+_TAPE: Final[Colour] = (0.86, 0.74, 0.55, 1)
 _REACH: Final = 0.3
 """Metres from hands that are stretched out to what they can take hold of."""
 _GRIP: Final = 30.0
 
 
 class Kit:
-    """A box with a cross on it.
+    """A box; a first-aid kit is red, with a cross on it.
 
     Args:
         engine: its world.
         at: where it lies.
+        first_aid: whether it is one.
 
     Attributes:
         body: its number in the engine.
         holder: who holds it; None where it lies.
     """
 
-    def __init__(self, engine: Engine, at: Point) -> None:
+    def __init__(self, engine: Engine, at: Point, *, first_aid: bool) -> None:
         self._engine = engine
-        self.body = _built(engine, (*at, _SIZE[2] / 2))
+        self.body = _built(engine, (*at, _SIZE[2] / 2), first_aid=first_aid)
         self.holder: Figure | None = None
         self._grip = -1
 
@@ -79,17 +82,19 @@ class Kit:
         self._engine.call("resetBasePositionAndOrientation", self.body, (*at, _SIZE[2] / 2), upright)
 
 
-def _built(engine: Engine, at: Vector) -> int:
+def _built(engine: Engine, at: Vector, *, first_aid: bool) -> int:
     call, bullet = engine.call, engine.bullet
     length, width, height = _SIZE
-    halves = [(length / 2, width / 2, height / 2), (0.05, 0.014, 0.006), (0.014, 0.042, 0.006)]
-    colours = [_RED, _WHITE, _WHITE]
+    cross = [(0.05, 0.014, 0.006), (0.014, 0.042, 0.006)] if first_aid else []
+    halves = [(length / 2, width / 2, height / 2), *cross]
+    colours = [_RED if first_aid else _BROWN, *[_WHITE] * len(cross)]
     looks = [
         call("createVisualShape", bullet.GEOM_BOX, halfExtents=half, rgbaColor=colour)
         for half, colour in zip(halves, colours, strict=True)
     ]
+    around = (length / 2 + 0.003, 0.018, 0.02)
     band = call(
-        "createVisualShape", bullet.GEOM_BOX, halfExtents=(length / 2 + 0.003, 0.018, 0.02), rgbaColor=_WHITE
+        "createVisualShape", bullet.GEOM_BOX, halfExtents=around, rgbaColor=_WHITE if first_aid else _TAPE
     )
     shape = call("createCollisionShape", bullet.GEOM_BOX, halfExtents=halves[0])
     links = [*looks[1:], band]
@@ -103,7 +108,7 @@ def _built(engine: Engine, at: Vector) -> int:
         linkMasses=[0.001] * len(links),
         linkCollisionShapeIndices=none,
         linkVisualShapeIndices=links,
-        linkPositions=[(0, 0, height / 2 + 0.004), (0, 0, height / 2 + 0.004), (0, 0, 0)],
+        linkPositions=[(0, 0, height / 2 + 0.004)] * len(cross) + [(0, 0, 0)],
         linkOrientations=[(0, 0, 0, 1)] * len(links),
         linkInertialFramePositions=[(0, 0, 0)] * len(links),
         linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),

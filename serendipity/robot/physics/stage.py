@@ -8,6 +8,7 @@ from serendipity.model.task.actions import GroundAction, apply
 from serendipity.model.task.execution import variant_named
 from serendipity.model.task.task import Task
 from serendipity.pictures.map.layout import lay_out
+from serendipity.pictures.map.names import parts
 from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.pictures.scene.finder import Finder
 from serendipity.robot.adapter import Epoch, Order, Report
@@ -68,7 +69,7 @@ class Stage:
         self._figures = {agent: self._figure(agent, place) for agent, place in agents.items()}
         self._kits: dict[str, Kit] = {}
         for number, name in enumerate(places.objects):
-            self._kits[name] = Kit(engine, shelf((-2.0, 0.0), number))
+            self._kits[name] = Kit(engine, shelf((-2.0, 0.0), number), first_aid=_is_medkit(task, name))
         self._begun: dict[Order, _Errand] = {}
         for pair, kilograms in (rubble or {}).items():
             self._heap(*pair, kilograms)
@@ -194,6 +195,12 @@ class Stage:
             raise UsageError(f"rubble: there is no doorway between {a} and {b}")
         x, y = (way[1][0] + way[2][0]) / 2, (way[1][1] + way[2][1]) / 2
         self._engine.box((0.3, 0.3, 0.12), (x, y, 0.06), (0.45, 0.42, 0.4, 1), kilograms)
+
+
+def _is_medkit(task: Task, thing: str) -> bool:
+    """Whether actions on a thing speak of it as a medkit (``pick_up_medkit robot mk1 room3``)."""
+    named = (parts(action.name) for action in task.actions)
+    return any(thing in rest and "medkit" in schema for schema, *rest in named)
 
 
 class _Errand:
