@@ -288,6 +288,7 @@ def test_wrong_labels_are_one_line(text: str, said: str, tmp_path: Path) -> None
         (["--study", "here", "--robots-are", "none"], "--study: has scenarios, conditions and records"),
         (["--study", "here", "--records", "there"], "--study: has scenarios, conditions and records"),
         (["--report"], "--report: goes with --study"),
+        (["--allow-host", "x"], "--allow-host: goes with --study"),
         (["--labels", "none.toml"], "none.toml: can't be read"),
         (["--study", "{file}/x"], "--study: "),
         (["--records", "{file}/x"], "--records: "),

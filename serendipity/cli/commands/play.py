@@ -117,6 +117,7 @@ def play(
             "--rounds": rounds is not None,
             "--seed": seed is not None,
             "--host": host != "127.0.0.1",
+            "--allow-host": allow_host is not None,
         },
     )
     if rounds is not None and not 1 <= rounds <= 50:
