@@ -18,7 +18,8 @@ from serendipity.execution.persons import (  # noqa: E402
     Replanner,
     moment_of,
 )
-from serendipity.execution.runs import Run, Runs, execute  # noqa: E402
+from serendipity.execution.runs import Run, Runs  # noqa: E402
+from serendipity.execution.series import execute  # noqa: E402
 
 __all__ = [
     "VERDICTS",

@@ -1,0 +1,276 @@
+"""Executions with a simulated person, again and again: what is asked for, and what becomes of each run."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import closing, nullcontext
+from dataclasses import asdict, dataclass
+from fractions import Fraction
+from random import Random
+from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, Unpack
+
+from search import PreparedTask
+from search.kernel.library import library
+from search.prediction import canonical_human_plan
+from serendipity.execution.again import Again
+from serendipity.execution.crews import Crew, Maker
+from serendipity.execution.decided import Decided
+from serendipity.execution.execution import Execution
+from serendipity.execution.faults import Faults
+from serendipity.execution.log import log_lines
+from serendipity.execution.persons import Person, moment_of
+from serendipity.execution.policies import Policy, policy_from, recorded_actions
+from serendipity.execution.runs import Run, Runs
+from serendipity.model.arguments import FUNCTION, TASK, WHOLE, Kind, expect, expect_or_none
+from serendipity.model.errors import PlanError, UsageError
+from serendipity.model.keywords import CHOICES, HumanModel, Interference, listing
+from serendipity.model.numbers import Number
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.resources.processes import in_processes
+from serendipity.model.task.actions import apply
+from serendipity.model.task.execution import variant_named
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.recognition.candidates import candidate_goals
+from serendipity.robot import Durations
+
+if TYPE_CHECKING:
+    from serendipity.recognition import GoalsGiven
+
+SURE: Final = Fraction(9, 10)
+"""The posterior from which on a goal counts as known."""
+
+TIES: Final = ("fixed", "drawn")
+"""Which of their optimal plans a person follows: the canonical one, or one that the dice draw."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Settings:
+    """What all runs of a call have in common."""
+
+    task: Task
+    again: Again
+    drawn: bool
+    crew: Crew
+    epochs: int
+    alone: Fraction | None
+    goal: str | None
+    notes: Mapping[str, Any]
+
+
+_Assignment = tuple[_Settings, int, int]
+"""What a run is about, its number and the seed of its dice."""
+
+_Finished = tuple[Run, tuple[dict[str, Any], ...]]
+"""The row of a run and the lines of its log."""
+
+
+class ExecutionOptions(TypedDict, total=False):
+    """What :func:`execute` hands on to each :class:`Execution`, which says what it means."""
+
+    discount: Number
+    deadline: float | None
+    setup: float
+    beta: Number
+    mode: Literal["serendipity", "communication"]
+    interference: Interference
+
+
+@listing
+def execute(
+    task: Task,
+    human: str | Sequence[str] = "observant",
+    *,
+    runs: int = 1,
+    seed: int = 0,
+    ties: Literal["fixed", "drawn"] = "fixed",
+    faults: Faults | str | None = None,
+    adapter: str | Maker | None = None,
+    durations: Durations | str | None = None,
+    epoch_seconds: float | None = None,
+    human_model: HumanModel | None = None,
+    goals: "GoalsGiven | None" = None,
+    epochs: int | None = None,
+    jobs: int = 1,
+    on_progress: Callable[[int, int], None] | None = None,
+    **options: Unpack[ExecutionOptions],
+) -> Runs:
+    """Let a simulated person, robots and the world go on epoch by epoch, again and again.
+
+    Args:
+        task: where things stand; its goal is the person's.
+        human: ``observant``, ``local``, ``omniscient``, ``noisy:P`` or ``recorded:FILE``; or the names of
+            recorded actions.
+        runs: how many.
+        seed: of the first run's dice; the others count on from it.
+        ties: ``fixed``: the person follows the canonical one of their optimal plans; ``drawn``: any.
+        faults: how unreliable robots are, ``"fail=0.1,slow=0.1,drop=0.01"`` for example.
+        adapter: what carries out what robots do: ``simulated``, ``pybullet`` (in physics), or what makes a
+            :class:`serendipity.robot.Adapter` for a run from the task and its dice; None: simulated where
+            there are faults or durations, else whatever is possible is done within the epoch.
+        durations: of what simulated robots do, ``"move=2..4,*=1"`` for example: seconds by the first word of
+            an action.
+        epoch_seconds: how long an epoch is for robots; None: 1, and 5 for figures in physics.
+        human_model: what robots take the person to be; None: what they are, ``observant`` if in doubt.
+        goals: goals that the person may have; robots do not know which.
+        epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.
+        jobs: processes.
+        on_progress: called with the number of runs that are over, and of all.
+        **options: ``discount``, ``deadline``, ``setup``, ``beta``, ``mode`` and ``interference`` of
+            :class:`Execution`.
+
+    Raises:
+        UsageError: an argument is wrong.
+        InputError: a file is wrong; it says where.
+    """
+    expect(TASK, task=task)
+    expect(WHOLE, runs=runs, seed=seed, jobs=jobs)
+    expect_or_none(WHOLE, epochs=epochs)
+    expect_or_none(FUNCTION, on_progress=on_progress)
+    for name, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
+        if number < 1:
+            raise UsageError(f"{name}: expected at least 1, got {number}")
+    if ties not in TIES:
+        raise UsageError(f"ties: expected one of {', '.join(TIES)}, got '{ties}'")
+    human, policy = _person(task, human)
+    if policy.told and goals is not None:
+        raise UsageError("goals: an omniscient person keeps to the robots' plan, so robots know the goal")
+    model = human_model or policy.human_model
+    if model not in CHOICES["human_model"]:
+        known = ", ".join(CHOICES["human_model"])
+        raise UsageError(f"human_model: expected one of {known}, got '{model}'")
+    crew = _crew(adapter, faults, durations, epoch_seconds)
+    plan = canonical_human_plan(PreparedTask(task), Deadline())
+    arguments: dict[str, Any] = {"human_model": model, "goals": goals, "told": policy.told, **options}
+    settings = _Settings(
+        task=task,
+        again=Again(task, policy, arguments),
+        drawn=ties == "drawn",
+        crew=crew,
+        epochs=epochs or 100 + 10 * len(plan or ()),
+        alone=None if plan is None else task.cost_of(plan),
+        goal=None if goals is None else _name_of(task, goals),
+        notes={
+            "policy": human,
+            "ties": ties,
+            "faults": asdict(crew.faults),
+        },
+    )
+    Execution(task, **{**arguments, "deadline": None})  # what is wrong shows before the first run
+    assignments = [(settings, number, seed + number - 1) for number in range(1, runs + 1)]
+    done = _all_run(assignments, jobs, on_progress)
+    return Runs(human, tuple(row for row, _ in done), tuple(lines for _, lines in done))
+
+
+def _person(task: Task, human: str | Sequence[str]) -> tuple[str, Policy]:
+    """What the person is called in the rows, and what they do."""
+    if isinstance(human, str):
+        return human, policy_from(task, human)
+    return "recorded", Policy("recorded", actions=recorded_actions(task, human))
+
+
+def _crew(
+    adapter: str | Maker | None,
+    faults: Faults | str | None,
+    durations: Durations | str | None,
+    epoch_seconds: float | None,
+) -> Crew:
+    wrong = Faults.parse(faults) if isinstance(faults, str) else faults
+    given = Durations.parse(durations) if isinstance(durations, str) else durations
+    expect_or_none(Kind("Faults, or a text", lambda value: isinstance(value, Faults)), faults=wrong)
+    expect_or_none(Kind("Durations, or a text", lambda value: isinstance(value, Durations)), durations=given)
+    return Crew(adapter, wrong or Faults(), given, epoch_seconds)
+
+
+def _all_run(
+    assignments: Sequence[_Assignment], jobs: int, on_progress: Callable[[int, int], None] | None
+) -> list[_Finished]:
+    """The rows and logs of all runs, in their order."""
+    library()  # says once if there is none, and not once for each process
+    done: list[_Finished] = []
+    for finished in map(_run, assignments) if jobs == 1 else in_processes(_run, assignments, jobs):
+        done.append(finished)
+        if on_progress is not None:
+            on_progress(len(done), len(assignments))
+    return sorted(done, key=lambda pair: pair[0].run)
+
+
+def _name_of(task: Task, goals: "GoalsGiven") -> str | None:
+    """What the candidate is called that is the person's goal; None if none is."""
+    literals = {(f, True) for f in task.goal.positive} | {(f, False) for f in task.goal.negative}
+    for candidate in candidate_goals(task, goals):
+        goal = candidate.goal
+        if literals == {(f, True) for f in goal.positive} | {(f, False) for f in goal.negative}:
+            return candidate.name
+    return None
+
+
+def _run(assignment: _Assignment) -> _Finished:
+    settings, number, seed = assignment
+    task = settings.task
+    dice, luck = Random(f"person {seed}"), Random(f"robots {seed}")
+    adapter = settings.crew.adapter(task, luck)
+    run = settings.again.execution(adapter)
+    person = settings.again.person(dice, drawn=settings.drawn)
+    spoilt = 0
+    left = [task.agents[i] for i in task.robots]
+    with nullcontext() if adapter is None else closing(adapter):
+        while not run.done and run.epoch <= settings.epochs:
+            gone = settings.crew.faults.dropped(left, luck)
+            if gone:
+                run.drop(gone)
+                left = [robot for robot in left if robot not in gone]
+            spoilt += _spoils(run, person)
+    row = Run(
+        run=number,
+        seed=seed,
+        reached=run.done,
+        epochs=len(run.passed),
+        alone=None if settings.alone is None else float(settings.alone),
+        human_cost=float(run.human_cost),
+        cost=float(run.cost),
+        helped=sum(any(s.agents != (run.human,) for s in p.steps) for p in run.passed),
+        spoilt=spoilt,
+        stopped=sum(passed.decided.verdict == "stopped" for passed in run.passed),
+        late=sum(passed.decided.verdict == "late" for passed in run.passed),
+        open=sum(_is_open(passed.decided) for passed in run.passed),
+        slowest=max((passed.decided.seconds for passed in run.passed), default=0.0),
+        **_recognised(run, settings.goal),
+    )
+    return row, tuple(log_lines(run, run=number, seed=seed, **settings.notes))
+
+
+def _is_open(decided: Decided) -> bool:
+    return decided.verdict != "late" and decided.plan is not None and not decided.proved
+
+
+def _spoils(run: Execution, person: Person) -> bool:
+    """Play an epoch; whether it is robots who made what the person had in mind impossible."""
+    before = run.state
+    passed = run.step(person.choose(moment_of(run)))
+    plan, task = person.plan, run.task
+    own = [step for step in passed.steps if run.human in step.agents]
+    if plan is None or any(len(step.agents) > 1 for step in own):
+        return False
+    done = [task.actions[variant_named(task, step.action, step.agents, before)] for step in own]
+    return _works(task, plan, apply(before, *done)) and not _works(task, plan, run.state)
+
+
+def _works(task: Task, plan: HumanPlan, state: frozenset[int]) -> bool:
+    try:
+        task.at(state).variants_of(plan)
+    except PlanError:
+        return False
+    return True
+
+
+def _recognised(run: Execution, true: str | None) -> dict[str, Any]:
+    """``known``, ``leads`` and ``wrong`` of a row, by the name of the person's goal among the candidates."""
+    if true is None:
+        return {"known": None, "leads": None, "wrong": 0}
+    known, leads, wrong = None, None, 0
+    for passed in run.passed:
+        goals = passed.decided.goals
+        known = (known or passed.epoch) if goals[true] >= SURE else None
+        first = all(share < goals[true] for name, share in goals.items() if name != true)
+        leads = (leads or passed.epoch) if first else None
+        acted = bool(passed.decided.actions or passed.decided.offers)
+        wrong += acted and goals[true] < max(goals.values())
+    return {"known": known, "leads": leads, "wrong": wrong}
