@@ -37,7 +37,7 @@ class _Known:
     """What is known of one question.
 
     Attributes:
-        options: of the call that answered it last.
+        options: as they were asked for, with the limits of the last call.
         answer: the last answer; None once the world has moved on.
         warm: what a search may begin with.
         human_plan: what is left, by name, of the human's plan that it is about; None where it is about none.
@@ -79,8 +79,7 @@ class Memory:
             about: candidate goals and what was observed, where goals are not known.
             human_plan: what the human is going to do, where that is known.
         """
-        key = (*_OPTIONS(options), about)
-        known = self._known.get(key)
+        known = self._known.get((*_OPTIONS(options), about))
         if known is not None and known.visible is not visible:
             known = None
         if known is not None and known.human_plan != human_plan:
@@ -88,10 +87,11 @@ class Memory:
             if options.windowed and not _is_open(options, warm.window):  # its bound is beside that plan
                 warm = replace(warm, bound=None, is_best=False)
             known = replace(known, answer=None, warm=warm)
-        return Question(self, key, visible, human_plan, known)
+        return Question(self, options, visible, about, human_plan, known)
 
-    def keep(self, key: _Key, known: _Known) -> None:
+    def keep(self, about: Hashable, known: _Known) -> None:
         """Remember an answer."""
+        key = (*_OPTIONS(known.options), about)
         self._known[key] = known
         self._known.move_to_end(key)
         while len(self._known) > _MOST:
@@ -107,7 +107,7 @@ class Memory:
         for value in written:
             options, plan = Options.from_dict(value["options"]), value["human_plan"]
             known = _Known(options, None, _read(task, value), None if plan is None else tuple(plan), None)
-            self.keep((*_OPTIONS(options), None), known)
+            self.keep(None, known)
 
     @property
     def rest(self) -> "Rest | None":
@@ -140,8 +140,9 @@ class Question:
 
     Args:
         memory: what remembers the answers.
-        key: what tells it from others.
+        options: as they are asked for.
         visible: what the human sees.
+        about: candidate goals and what was observed, where goals are not known.
         human_plan: what the human is going to do, where that is known.
         known: what is known of it.
     """
@@ -149,14 +150,16 @@ class Question:
     def __init__(
         self,
         memory: Memory,
-        key: _Key,
+        options: Options,
         visible: Visible | None,
+        about: Hashable,
         human_plan: tuple[str, ...] | None,
         known: _Known | None,
     ) -> None:
         self._memory = memory
-        self._key = key
+        self._options = options
         self._visible = visible
+        self._about = about
         self._human_plan = human_plan
         self._known = known
 
@@ -180,18 +183,12 @@ class Question:
         """What a search may begin with."""
         return None if self._known is None else self._known.warm
 
-    def better(self, found: Answer, options: Options) -> Answer:
+    def better(self, found: Answer) -> Answer:
         """An answer, or the one that is known where that is better."""
-        return found if self._answer is None else _better(self._answer, found, options)
+        return found if self._answer is None else _better(self._answer, found, self._options)
 
-    def answered(self, task: Task, answer: Answer, options: Options) -> None:
-        """Remember an answer.
-
-        Args:
-            task: what it is about.
-            answer: the answer.
-            options: in force.
-        """
+    def answered(self, task: Task, answer: Answer) -> None:
+        """Remember an answer about a task."""
         if answer.status == "unknown":
             return
         answer = answer._replace(realised=answer.realised or None)  # where it is empty, time was up
@@ -199,11 +196,11 @@ class Question:
         if answer.steps is None and self._known is not None:
             warm = self._known.warm  # which can still be finished
         elif answer.ties is None and answer.goals is None and answer.bounds is None:
-            bound, is_best = _bound(answer, options), answer.status == "optimal"
+            bound, is_best = _bound(answer, self._options), answer.status == "optimal"
             warm = WarmStart(answer.steps or (), answer.window, True, bound, is_best, answer.horizon)
             if answer.human_plan is not None:
                 plan = tuple(task.actions[i].name for i in answer.human_plan)
-        self._memory.keep(self._key, _Known(options, answer, warm, plan, self._visible))
+        self._memory.keep(self._about, _Known(self._options, answer, warm, plan, self._visible))
 
 
 def _written(task: Task, known: _Known) -> dict[str, Any]:

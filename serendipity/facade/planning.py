@@ -228,8 +228,8 @@ def _given(task: Task, names: Iterable[str] | None) -> Given:
 def _result(call: Call, answer: Answer, *, last: bool = True) -> Result:
     question = call.question
     if question is not None:
-        answer = question.better(answer, call.options)
+        answer = question.better(answer)
     answer = with_verdicts(call, answer, last=last)
     if question is not None:
-        question.answered(call.task, answer, call.options)
+        question.answered(call.task, answer)
     return to_result(call.task, call.options, answer, call.deadline.elapsed())

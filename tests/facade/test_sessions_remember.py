@@ -8,6 +8,7 @@ import pytest
 
 import serendipity
 from serendipity import PlanStep, Result, SerendipityError, Session, Task
+from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_1, case_2, usar
 from serendipity.testing.generator import PlanCall, random_call
@@ -98,6 +99,16 @@ def test_an_equal_call_is_answered_at_once(mode: str) -> None:
     assert answer.status == again.status == "optimal"
     assert (again.cost, again.plan, again.realised) == (answer.cost, answer.plan, answer.realised)
     assert again.statistics["expanded"] == 0
+
+
+@pytest.mark.parametrize("ties", ["fixed", "robust"])
+def test_a_session_that_is_reminded_goes_on_as_the_other_one(ties: Ties) -> None:
+    first = serendipity.plan(case_1())
+    session = Session(case_1(), human_plan=first.human_plan, ties=ties, discount=0.9)
+    answer = session.plan()
+    other = Session(session.task, human_plan=session.human_plan, ties=ties, discount=0.9)
+    other._remind(session._remembered())
+    assert _interrupted(other).plan == answer.plan
 
 
 @pytest.mark.parametrize("options", [{"ties": "robust"}, {"goals": True}, {"human_model": "observant"}])
