@@ -14,7 +14,7 @@ from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
 from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none, shown
 from serendipity.model.errors import LIMITS, InputError, UsageError
 from serendipity.model.keywords import Horizon
-from serendipity.model.numbers import rounded
+from serendipity.model.numbers import plain, rounded
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.limits import limits_from
@@ -190,11 +190,7 @@ class _Story:
     def _departure(self) -> str:
         """The first epoch in which the human does not do what the plan wants of them."""
         for epoch in self.simulated.epochs:
-            did, wanted = (
-                epoch.own if epoch.accepted is None else epoch.accepted,
-                self.his_steps.get(epoch.epoch),
-            )
-            done = None if did is None else self._name(did)
+            done, wanted = self._did(epoch), self.his_steps.get(epoch.epoch)
             if done != wanted:
                 deed, wish = done or "nothing", wanted or "nothing"
                 who = self.task.agents[self.task.human]
@@ -204,7 +200,6 @@ class _Story:
     def _epochs(self) -> Iterator[TraceEpoch]:
         for epoch in self.simulated.epochs:
             decision = "waits" if epoch.best is None else "replans" if epoch.replanned else "keeps"
-            did = epoch.own if epoch.accepted is None else epoch.accepted
             yield TraceEpoch(
                 epoch=epoch.epoch,
                 saw=tuple(f"{'' if true else 'not '}{self.task.facts[fact]}" for fact, true in epoch.saw),
@@ -213,7 +208,7 @@ class _Story:
                 decision=decision,
                 why=_why(decision, epoch),
                 plan=tuple(self._name(i) for i in epoch.plan),
-                did=None if did is None else self._name(did),
+                did=self._did(epoch),
                 failed=epoch.failed,
                 steps=self._steps(epoch),
                 skipped=tuple(
@@ -224,6 +219,10 @@ class _Story:
     def _steps(self, epoch: Epoch) -> tuple[PlanStep, ...]:
         steps = (Step(epoch.epoch, i) for i in sorted(epoch.executed))
         return named_steps(self.task, self.discount, steps)
+
+    def _did(self, epoch: Epoch) -> str | None:
+        did = epoch.own if epoch.accepted is None else epoch.accepted
+        return None if did is None else self._name(did)
 
     def _name(self, action: int) -> str:
         return self.task.actions[action].name
@@ -236,11 +235,7 @@ def _why(decision: str, epoch: Epoch) -> str:
     if decision == "waits":
         return "has no plan from here and waits"
     if decision == "keeps":
-        return f"keeps the plan: it still costs {_number(epoch.best)}, and none is cheaper"
+        return f"keeps the plan: it still costs {plain(epoch.best)}, and none is cheaper"
     if epoch.kept is None:
-        return f"replans: the plan does not work any more; the best from here costs {_number(epoch.best)}"
-    return f"replans: {_number(epoch.best)} instead of {_number(epoch.kept)}"
-
-
-def _number(value: Fraction | None) -> str:
-    return "" if value is None else f"{float(value):.10g}"
+        return f"replans: the plan does not work any more; the best from here costs {plain(epoch.best)}"
+    return f"replans: {plain(epoch.best)} instead of {plain(epoch.kept)}"

@@ -83,7 +83,6 @@ def crosscheck(
         JUDGES,
         Disagreement,
         FalseCertificates,
-        Judge,
         PlanCall,
         compare,
         random_call,
@@ -93,12 +92,12 @@ def crosscheck(
     )
     from serendipity.testing.judges import by_command, by_name
 
-    chosen: dict[str, Judge] = {}
-    for name in (names := judges.split(",")):
+    names = judges.split(",")
+    for name in names:
         if name not in (*JUDGES, FALSE_CERTIFICATES):
             known = ", ".join((*JUDGES, FALSE_CERTIFICATES))
             raise UsageError(f"judges: expected some of {known}, got '{name}'")
-        chosen |= {name: JUDGES[name]} if name in JUDGES else {}
+    chosen = {name: JUDGES[name] for name in names if name in JUDGES}
     forged = FalseCertificates(time_limit) if FALSE_CERTIFICATES in names else None
 
     outside = [*map(by_name, judge or ()), *map(by_command, judge_command or ())]

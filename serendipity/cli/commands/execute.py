@@ -13,6 +13,7 @@ from serendipity.cli.options import naming, plan_options
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text import goals as goal_options
 from serendipity.model import InputError, UsageError
+from serendipity.model.numbers import plain
 from serendipity.model.options import limit_of
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
@@ -207,7 +208,7 @@ def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> i
             lines.append(Line(f"run {number}: {error}", "red"))
             code = ExitCode.REFUTED
         else:
-            costs = f"{run.human} paid {float(run.human_cost):.10g}, the team {float(run.cost):.10g}"
+            costs = f"{run.human} paid {plain(run.human_cost)}, the team {plain(run.cost)}"
             lines.append(Line(f"run {number}: the same again; {len(run.passed)} epochs, {costs}"))
     output.write_answer(rendered(lines), output_file)
     return code

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 from serendipity.model.errors import limit_words
+from serendipity.model.numbers import plain
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.telling import Grid, Line, Told, json_of
 
@@ -144,7 +145,7 @@ class Trace(Told):
         return f"tries {epoch.did}, in vain" if epoch.failed else epoch.did
 
     def _verdict(self) -> str:
-        costs = f"cost {self.cost:.10g}, promised {self.promised_cost:.10g}"
+        costs = f"cost {plain(self.cost)}, promised {plain(self.promised_cost)}"
         if self.realised is None and self.limit is not None:
             return f"{limit_words(self.limit)}, after epoch {len(self.epochs)}: {costs} so far"
         if self.realised:
