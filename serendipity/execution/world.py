@@ -3,12 +3,13 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.task.actions import apply, conflicting, fitted
 from serendipity.model.task.execution import actions_named, variant_named
-from serendipity.model.task.names import no_fact
+from serendipity.model.task.facts import Facts
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task, canonical_name
 from serendipity.robot import Outcome
@@ -61,7 +62,6 @@ class World:
         self.state = task.init
         self._discount = discount
         self._strict = strict
-        self._facts: dict[str, int] | None = None
 
     def his(self, name: str) -> int:
         """The human's own action of that name, in the variant that is applicable where one is.
@@ -126,11 +126,7 @@ class World:
         Raises:
             UsageError: there is no such fact.
         """
-        state = set(self.state)
-        for name, true in facts:
-            fact = self._fact(name)
-            state.add(fact) if true else state.discard(fact)
-        self.state = fitted(frozenset(state), self.task.disjunctions)
+        self.state = fitted(self._facts.seen(self.state, facts), self.task.disjunctions)
 
     def cost(self, actions: Iterable[int]) -> tuple[Fraction, Fraction]:
         """What actions cost the human, undiscounted, and the team."""
@@ -148,10 +144,6 @@ class World:
             return "inapplicable"
         return "conflict" if any(self.conflict(action, other) for other in executed) else None
 
-    def _fact(self, name: str) -> int:
-        if self._facts is None:
-            self._facts = {fact: i for i, fact in enumerate(self.task.facts)}
-        found = self._facts.get(canonical_name(name))
-        if found is None:
-            raise UsageError(no_fact(canonical_name(name), self.task.facts))
-        return found
+    @cached_property
+    def _facts(self) -> Facts:
+        return Facts(self.task.facts)

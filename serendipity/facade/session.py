@@ -18,7 +18,7 @@ from serendipity.model.keywords import PlanOptions, listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
-from serendipity.model.task.names import no_fact
+from serendipity.model.task.facts import Facts
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import HumanPlan, Task, canonical_name, several
 from serendipity.model.task.visibility import Visible
@@ -187,13 +187,10 @@ class Session:
             UsageError: there is no such fact.
         """
         expect(BY_NAME, facts=facts)
-        state = set(self.task.init)
-        for name, true in facts.items():
-            fact = self._fact(name)
-            state.add(fact) if true else state.discard(fact)
+        state = self._facts.seen(self.task.init, facts.items())
         if state == self.task.init:
             return
-        self._move(frozenset(state), epochs=0)
+        self._move(state, epochs=0)
         self._keep_plan_if_it_works()
 
     def follow(self, names: Iterable[str] | None) -> None:
@@ -211,8 +208,8 @@ class Session:
             UsageError: there is no such fact.
         """
         literals = several(goal, "goal")
-        positive = sorted(self._fact(name) for name in literals if not name.startswith("!"))
-        negative = sorted(self._fact(name[1:]) for name in literals if name.startswith("!"))
+        positive = sorted(self._facts.id(name) for name in literals if not name.startswith("!"))
+        negative = sorted(self._facts.id(name[1:]) for name in literals if name.startswith("!"))
         self._prepared = self._prepared.with_goal(Condition(tuple(positive), tuple(negative)))
         self._human_plan = self._given = None
         self._memory.forget()
@@ -259,13 +256,7 @@ class Session:
             raise UsageError(f"'{name}' is not applicable in the present state")
         return found
 
-    def _fact(self, name: str) -> int:
-        fact = self._facts.get(canonical_name(name))
-        if fact is None:
-            raise UsageError(no_fact(canonical_name(name), self.task.facts))
-        return fact
-
     @cached_property
-    def _facts(self) -> dict[str, int]:
-        """Ids of facts by name, which no move changes."""
-        return {name: fact for fact, name in enumerate(self.task.facts)}
+    def _facts(self) -> Facts:
+        """The facts by name, which no move changes."""
+        return Facts(self.task.facts)

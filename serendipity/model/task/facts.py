@@ -1,0 +1,41 @@
+"""Facts by the names that callers write."""
+
+from collections.abc import Iterable, Sequence
+
+from serendipity.model.errors import UsageError
+from serendipity.model.task.names import no_fact
+from serendipity.model.task.task import canonical_name
+
+
+class Facts:
+    """Ids of facts by name.
+
+    Args:
+        names: of the facts, by id.
+    """
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self._ids = {name: fact for fact, name in enumerate(names)}
+
+    def id(self, name: str) -> int:
+        """The id of a fact.
+
+        Raises:
+            UsageError: there is no such fact.
+        """
+        fact = self._ids.get(canonical_name(name))
+        if fact is None:
+            raise UsageError(no_fact(canonical_name(name), self._ids))
+        return fact
+
+    def seen(self, state: frozenset[int], facts: Iterable[tuple[str, bool]]) -> frozenset[int]:
+        """A state in which some facts are true, or false, as somebody has seen them.
+
+        Raises:
+            UsageError: there is no such fact.
+        """
+        found = set(state)
+        for name, true in facts:
+            fact = self.id(name)
+            found.add(fact) if true else found.discard(fact)
+        return frozenset(found)
