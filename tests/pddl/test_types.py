@@ -86,3 +86,13 @@ def test_types_may_be_nested_only_so_deeply(tmp_path: Path, above_first: bool) -
         higher = high.replace(chain(MAX_LEVELS - 1), chain(levels))
         with pytest.raises(InputError, match=r"domain.pddl:\d+: types are nested too deeply: at most 128"):
             one(tmp_path, higher, goal)
+
+
+def test_ways_up_may_be_many(tmp_path: Path) -> None:
+    """Two types on each level, both below both of the level above: more ways up than anybody can climb."""
+    levels = "\n".join(f"a{i} b{i} - (either a{i - 1} b{i - 1})" for i in range(1, MAX_LEVELS))
+    types = f"agent a0 b0 - object\n{levels}"
+    many = domain(action("move", "(p)", "(p)", "?who - agent"), predicates="(p)", types=types)
+    last = f"a{MAX_LEVELS - 1}"
+    with pytest.raises(InputError, match=f"object 'c' is declared as 'agent' and as '{last}'"):
+        one(tmp_path, many, problem("(p)", objects=f"h r - agent c - agent c - {last}"))

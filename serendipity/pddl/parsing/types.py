@@ -28,7 +28,13 @@ class Types:
 
     def _above(self, name: str) -> set[str]:
         """The type and all that are above it."""
-        return {name}.union(*map(self._above, self.parents.get(name, ())), ANYTHING)
+        found, left = {OBJECT}, [name]
+        while left:
+            here = left.pop()
+            if here not in found:
+                found.add(here)
+                left.extend(self.parents.get(here, ()))
+        return found
 
     def __contains__(self, name: str) -> bool:
         return name in self.parents or name == OBJECT
