@@ -11,8 +11,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from serendipity.model import Deadline
 from verify.packed.layout import Effects
 
-"""Sizes beyond which nobody should ask: it takes time with their product."""
-
 
 class Pairs:
     """The pairs of facts that may be true together.
