@@ -194,13 +194,7 @@ def people(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
 
 def domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
     """Other domains."""
-    suite = PROBLEMS / "codmap15"
-    if not suite.is_dir():
-        return
-    known = {}
-    for name in DOMAINS:
-        small = sorted(problems(suite, [name]), key=lambda p: (len(p.name), p.name))[:SMALLEST]
-        known[name] = [(problem, able) for problem in small if (able := who(problem)) is not None]
+    known = {name: smallest(name) for name in DOMAINS}
     for number, name in product(range(0, DRAWS, stride), filter(known.get, DOMAINS)):
         problem, able = known[name][number // stride % len(known[name])]
         for human in PEOPLE:
@@ -215,7 +209,15 @@ DRAWS = 200
 """Draws of two goals in each domain, problem after problem."""
 
 
-def who(problem: Problem) -> Roles | None:
+def smallest(domain: str) -> list[tuple[Problem, Roles]]:
+    """A domain's smallest problems that somebody can do alone; none where the domain is not there."""
+    suite = PROBLEMS / "codmap15"
+    found = problems(suite, [domain]) if suite.is_dir() else []
+    first = sorted(found, key=lambda problem: (len(problem.name), problem.name))[:SMALLEST]
+    return [(problem, able) for problem in first if (able := _who(problem)) is not None]
+
+
+def _who(problem: Problem) -> Roles | None:
     """The human who can do it alone, with two of its goals, and two robots."""
 
     def can_alone(problem: Problem, who: Roles) -> bool:

@@ -22,11 +22,10 @@ from pathlib import Path
 from typing import Any
 
 import serendipity
-from benchmarks.execution import DISCOUNT, SMALLEST, buildings, on_processor_time, task_of, who
-from benchmarks.problems import PROBLEMS
+from benchmarks.execution import DISCOUNT, buildings, on_processor_time, smallest, task_of
 from benchmarks.record import Record
 from serendipity import Task
-from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles, problems
+from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles
 from serendipity.execution import LogLine, replay
 from serendipity.model import Condition
 from tests.execution.reasons import untrue
@@ -63,12 +62,7 @@ class Job:
 
 def jobs(runs: int, deadline: float) -> Iterator[Job]:
     """As many runs as are wanted, the same number on each line; the lines come again and again."""
-    suite = PROBLEMS / "codmap15"
-    drawn: dict[str, list[tuple[Problem, Roles]]] = {}
-    for domain in DOMAINS[1:]:
-        small = problems(suite, [domain]) if suite.is_dir() else []
-        small = sorted(small, key=lambda p: (len(p.name), p.name))[:SMALLEST]
-        drawn[domain] = [(p, roles) for p in small if (roles := who(p)) is not None]
+    drawn = {domain: smallest(domain) for domain in DOMAINS[1:]}
     folders = buildings(1)
     cells = len(DOMAINS) * len(PEOPLE) * len(FAULTS)
     for seed in range(-(-runs // cells)):
