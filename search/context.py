@@ -1,10 +1,12 @@
 """What every search of one call shares: packed task, key weights, bounds, the human alone."""
 
-from collections.abc import Callable, Collection
+from bisect import bisect_left
+from collections.abc import Callable, Collection, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from search.engine.best_first import Node
 from search.heuristics.first_interaction import no_team_bound
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
@@ -13,7 +15,7 @@ from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_key
 from search.human.plan_graph import PlanGraph
 from search.human.priced_planner import PricedPlanner
 from search.packed.cost_vector import INFINITE_KEY, Weights
-from search.packed.operators import Operator
+from search.packed.operators import Operator, changed
 from search.packed.packed_task import PackedGoal
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction, Successors, as_option
@@ -209,6 +211,15 @@ class SearchContext:
     def amount_key(self, amount: int) -> int:
         """An amount of the team's as a key."""
         return self.weights.key_of(amount) if amount < INFINITE_KEY else INFINITE_KEY
+
+    def amount_from(self, limit: int, most: int) -> int:
+        """The least amount of the team's of which the key is not below a limit; ``most`` at most."""
+        return bisect_left(range(most), limit, key=self.amount_key)
+
+    def after(self, node: Node, ops: Sequence[Operator]) -> Node:
+        """The node after an epoch in which ops happen together."""
+        key, actions = node.key + sum(map(self.weights.team, ops)), tuple(op.action for op in ops)
+        return Node(key, node.epoch + 1, changed(node.state, ops), 0, node.start, node, actions)
 
     def team_cost(self, action: int) -> Fraction:
         """What an action costs the team, communication left out."""

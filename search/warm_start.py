@@ -11,7 +11,7 @@ from itertools import groupby
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Operator, applicable, changed
+from search.packed.operators import Operator, applicable
 from search.spaces.factory import suffix_rule
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.options import INFINITE
@@ -144,20 +144,19 @@ def _followed(context: SearchContext, plan: HumanPlan, warm: WarmStart, last: in
         last: the last of these epochs.
         start: the first epoch of the window; 0 without one.
     """
-    packed, weights = context.packed, context.weights
+    packed = context.packed
     done: list[list[Operator]] = [[] for _ in range(last)]
     for step in warm.steps:
         if step.epoch <= last:
             done[step.epoch - 1].append(packed.op(step.action))
     node = Node(0, 0, packed.init, 0, start, None, ())
     for ops in done:
-        epoch, state = node.epoch + 1, node.state
-        if not all(applicable(op, state) for op in ops):
+        epoch = node.epoch + 1
+        if not all(applicable(op, node.state) for op in ops):
             return None
         if epoch < start and not _keeps_to(context, plan, epoch, ops):
             return None
-        key = node.key + sum(map(weights.team, ops))
-        node = Node(key, epoch, changed(state, ops), 0, start, node, tuple(op.action for op in ops))
+        node = context.after(node, ops)
     return node
 
 

@@ -16,7 +16,7 @@ from search.apart.conditions import are_apart
 from search.apart.one_window import RobotsApart
 from search.apart.provision import Provision, by_others, provisions
 from search.apart.timeline import TooManyStatesError
-from search.apart.window import ACTION, Window, amount_from
+from search.apart.window import ACTION, Window
 from search.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.packed.cost_vector import FAR, INFINITE_KEY
@@ -205,7 +205,7 @@ class _Pass:
             spent += context.weights.team(step)
             if epoch < len(self._plan) and spent < best.key:
                 self._ahead = spent
-                self._robots.follow(step, amount_from(context, best.key - spent))
+                self._robots.follow(step, context.amount_from(best.key - spent, FAR))
             base = base & step.keep | step.put
         self._ahead = INFINITE_KEY
 
@@ -257,4 +257,4 @@ def _fit_words(context: SearchContext, plan: HumanPlan, best: Incumbent) -> bool
     price, packed = context.weights.scaled_cost, context.packed
     robots = (max(map(price, packed.others)) + 1) * (len(plan) + 1) * len(context.task.robots)
     human = sum(map(price, packed.own)) + len(packed.own)
-    return max(robots, human) * ACTION < FAR > amount_from(context, best.key)
+    return max(robots, human) * ACTION < FAR > context.amount_from(best.key, FAR)

@@ -1,6 +1,5 @@
 """Windows of one epoch: which of what robots can leave behind by then may still be worth it."""
 
-from bisect import bisect_left
 from collections.abc import Collection
 from typing import Final
 
@@ -16,11 +15,6 @@ ACTION: Final = 1 << ACTIONS_BITS
 
 FEW: Final = 50
 """So many outcomes are told one by one sooner than by landmarks."""
-
-
-def amount_from(context: SearchContext, limit: int) -> int:
-    """The least amount of which the key is not below a limit; ``FAR`` where that is too much."""
-    return bisect_left(range(FAR), limit, key=context.amount_key)
 
 
 class Window:
@@ -53,7 +47,7 @@ class Window:
 
     def _most(self, limit: int) -> int:
         """The amount from which on nothing is of interest, by a limit on keys."""
-        return amount_from(self._context, limit - self._start)
+        return self._context.amount_from(limit - self._start, FAR)
 
     @property
     def bound(self) -> int:

@@ -7,7 +7,6 @@ from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import changed
 from search.prediction import AtHand
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
@@ -178,10 +177,7 @@ class _Call:
         for epoch in played.epochs:
             if guarded and human.stuck(node.state):
                 return
-            ops = [human.packed.op(i) for i in epoch.executed]
-            state = changed(node.state, ops)
-            key = node.key + sum(map(human.weights.team, ops))
-            node = Node(key, epoch.epoch, state, 0, 0, node, epoch.executed)
+            node = human.context.after(node, [human.packed.op(i) for i in epoch.executed])
         if node.key < self.best.key and not human.keys.exceeds(node.key, self._most_cost()):
             self.best = Incumbent(node.key, node)
 

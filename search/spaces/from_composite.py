@@ -57,7 +57,7 @@ class Suggestions:
         """The plan itself."""
         node = self._root()
         for ops in epochs[: self._horizon]:
-            node = self._after(node, ops)
+            node = self._context.after(node, ops)
         if all(goal.holds(node.state) for goal in self._context.goals):
             yield from self._better(node.key, Incumbent(node.key, node))
 
@@ -66,7 +66,7 @@ class Suggestions:
         human, node, followed = self._context.packed.human_bit, self._root(), True
         start = 1
         for ops in epochs[: self._horizon]:
-            node = self._after(node, ops)
+            node = self._context.after(node, ops)
             planned = self._plan[start - 1 : start]
             yield from self._ended(node._replace(start=start))
             followed = followed and [op for op in ops if op.agents & human] == planned
@@ -86,9 +86,9 @@ class Suggestions:
         left = [op for op in ops if not op.agents & human]
         for epoch in range(1, min(len(self._plan), self._horizon) + 1):
             freely = self._chosen(node.state, epoch, left, keeps=False)
-            yield from self._ended(self._after(node, freely)._replace(start=epoch))
+            yield from self._ended(self._context.after(node, freely)._replace(start=epoch))
             careful = self._chosen(node.state, epoch, left, keeps=True)
-            node = self._after(node, careful)
+            node = self._context.after(node, careful)
             for op in careful[1:]:
                 left.remove(op)
 
@@ -108,12 +108,12 @@ class Suggestions:
             together = [self._plan[number], *ops]
             if not self._fit(node.state, together):
                 return
-            node = self._after(node, together)
+            node = self._context.after(node, together)
         last = list(epochs[-1])
         for op in self._in_window(node.state, len(epochs), last):
             together = last if op is None else [op, *last]
             if self._fit(node.state, together):
-                yield from self._ended(self._after(node, together)._replace(start=len(epochs)))
+                yield from self._ended(self._context.after(node, together)._replace(start=len(epochs)))
 
     def exactly(self, epochs: Sequence[Sequence[Operator]]) -> Iterator[Incumbent]:
         """What all agents do in each epoch; the last one is the window.
@@ -123,7 +123,7 @@ class Suggestions:
         """
         node = self._root()
         for ops in epochs:
-            node = self._after(node, ops)
+            node = self._context.after(node, ops)
         yield from self._ended(node._replace(start=len(epochs)))
 
     def _in_window(self, state: int, epoch: int, ops: list[Operator]) -> Iterator[Operator | None]:
@@ -180,11 +180,6 @@ class Suggestions:
     def _root(self) -> Node:
         return Node(0, 0, self._context.packed.init, 0, 0, None, ())
 
-    def _after(self, node: Node, ops: Sequence[Operator]) -> Node:
-        key = node.key + sum(map(self._context.weights.team, ops))
-        state = changed(node.state, ops)
-        return Node(key, node.epoch + 1, state, 0, node.start, node, tuple(op.action for op in ops))
-
     def _ended(self, node: Node) -> Iterator[Incumbent]:
         """Offer the plan in which the human goes on alone after a node, with its window if there is one."""
         context, start = self._context, node.start
@@ -205,7 +200,7 @@ class Suggestions:
             found = Incumbent(key + rest, node._replace(key=key), node.epoch + 1, tail)
         else:
             for action in tail:
-                node = self._after(node, [context.packed.op(action)])
+                node = self._context.after(node, [context.packed.op(action)])
             found = Incumbent(node.key, node)
         yield from self._better(key + rest, found)
 

@@ -4,7 +4,6 @@ Where robots take from one another all the time, what each can do by itself says
 the human follows ``pi_H`` robots are in their way, and there may be few enough states to look at all.
 """
 
-from bisect import bisect_left
 from collections.abc import Collection, Iterator
 from typing import Final
 
@@ -154,7 +153,7 @@ class AllTogether:
 
     def _amount(self, limit: int) -> int:
         """The least amount of which the key is not below a limit; ``MOST_WEIGHT``: too much."""
-        return bisect_left(range(MOST_WEIGHT), limit, key=self._context.amount_key)
+        return self._context.amount_from(limit, MOST_WEIGHT)
 
 
 def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
