@@ -165,6 +165,11 @@ def agrees(said: float | None, value: Fraction | None) -> bool:
     return said.exact == value if isinstance(said, Figure) else said == float(value)
 
 
+def excess(said: float, value: Fraction) -> Fraction:
+    """By how much a figure of a result is more than a rational; 0 where it agrees with it."""
+    return Fraction(0) if agrees(said, value) else as_written(said) - value
+
+
 def total(values: Iterable[Fraction]) -> Fraction:
     """The sum of rationals; with few different denominators, as costs have, it adds integers."""
     numerators: dict[int, int] = {}

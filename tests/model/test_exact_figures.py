@@ -9,7 +9,7 @@ import pytest
 
 from serendipity import Result, plan, verify
 from serendipity.model import InputError
-from serendipity.model.numbers import Figure, as_written
+from serendipity.model.numbers import Figure, as_written, excess
 from serendipity.testing import task
 
 _ODD = Fraction(1012, 997) + Fraction(9984, 9973) + Fraction(1, 10**15 + 37)
@@ -76,3 +76,11 @@ def test_exact_texts_of_other_figures_are_an_error(exact: object) -> None:
     data = plan(_TASK, mode="individual").to_dict()
     with pytest.raises(InputError, match="exact"):
         Result.from_dict({**data, "exact": exact})
+
+
+def test_how_much_more_a_figure_is() -> None:
+    """A float is as much as what rounds to it; an exact one differs by however little."""
+    third, trifle = Fraction(1, 3), Fraction(1, 10**30)
+    assert excess(float(third), third + trifle) == 0
+    assert excess(Figure(third + trifle), third) == trifle
+    assert excess(0.25, third) == Fraction(-1, 12)

@@ -18,7 +18,7 @@ from serendipity.model import (
     Task,
     UsageError,
 )
-from serendipity.model.numbers import agrees, as_written
+from serendipity.model.numbers import agrees, excess
 from serendipity.model.resources.collection import no_collection
 from verify.base import wording
 from verify.base.individual import IndividualOptimum
@@ -275,11 +275,10 @@ class _Certifier:
         if cost is None:
             right = result.cost is None
             return "proved" if right else "refuted", wording.NOT_ALONE, None
-        right = result.lower_bound is None or as_written(result.lower_bound) <= cost
-        right = right or agrees(result.lower_bound, cost)
+        right = result.lower_bound is None or excess(result.lower_bound, cost) <= 0
         exactly = agrees(result.cost, cost)
         if result.status == "feasible":
-            right = right and result.cost is not None and (exactly or as_written(result.cost) > cost)
+            right = right and result.cost is not None and (exactly or excess(result.cost, cost) > 0)
         elif result.status != "unknown":
             right = right and exactly
             if result.human_plan is not None:

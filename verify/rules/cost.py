@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from serendipity.model.numbers import agrees, as_written
+from serendipity.model.numbers import agrees, as_written, excess
 from verify.rules.case import Case, Found
 
 
@@ -92,7 +92,7 @@ def saving_alone(case: Case) -> Found | None:
         return Found("a saving alone, though there is nothing to compare it with")
     optimum = case.alone.optimum(case.task.init)
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
-    if said > 0 and (agrees(said, most) or as_written(said) <= most):
+    if said > 0 and excess(said, most) <= 0:
         return None
     return Found(f"saving_alone is {said:g}, pi_H costs only {float(most):g} more than an optimal plan")
 
@@ -125,7 +125,7 @@ def _saving_with_robots_goal(case: Case) -> Found | None:
     if said is None:
         return None
     least = _sure(case.human_cost) - case.cost
-    if said <= 0 or (as_written(said) < least and not agrees(said, least)):
+    if said <= 0 or excess(said, least) < 0:
         return Found(
             f"saving is {said:g}, but doing nothing costs at least {float(_sure(case.human_cost)):g}"
         )

@@ -9,7 +9,7 @@ from typing import Final
 
 from serendipity.model import Condition, HumanPlan, Options, Result, Task, UsageError, surroundings
 from serendipity.model.answers.recognition import Recognition
-from serendipity.model.numbers import agrees, as_written
+from serendipity.model.numbers import agrees, excess
 from serendipity.testing.oracle import Alone, Optimum, best, human_plans, optimal_human_plan
 from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
 from serendipity.testing.oracle.goals import best_expected, robots_sets
@@ -81,22 +81,12 @@ class Truth:
         if result.status == "optimal" and not agrees(result.cost, cost):
             return f"cost is {cost}, not {result.cost}"
         mean = result.ties is not None and result.options.ties == "expected"
-        if (
-            result.status == "feasible"
-            and mean
-            and not agrees(result.cost, cost)
-            and as_written(result.cost or 0.0) < cost
-        ):
+        if result.status == "feasible" and mean and excess(result.cost or 0.0, cost) < 0:
             return f"the mean is {cost}, not {result.cost}"
         least = _OVER[result.options.ties]([_least(result, answer) for answer in answers])
         least += _ROUNDING * max(Fraction(1), least) if self.beliefs else 0
         bound = result.lower_bound
-        if (
-            result.status != "optimal"
-            and bound is not None
-            and not agrees(bound, least)
-            and as_written(bound) > least
-        ):
+        if result.status != "optimal" and bound is not None and excess(bound, least) > 0:
             return f"lower_bound {bound} is above {least}"
         return None
 
