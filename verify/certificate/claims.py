@@ -15,6 +15,7 @@ from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
 from verify.calls.call import Call, Score
 from verify.calls.methods import decide, decide_without_horizon
 from verify.calls.results import found_result, plan_steps
+from verify.certificate.savings import savings_fault
 from verify.programs.alone import least_alone
 from verify.programs.effort import Attempt, Minimum, SolverCall
 from verify.rules import Checker
@@ -140,22 +141,17 @@ class Examiner:
             return self._nothing_to_compare()
         if self._usual() or result.plan is None:
             return None
-        idle = idle_cost(call)
+        idle, cost = idle_cost(call), self._score()[1]
         assert idle is not None
-        alone = call.prices.cost(call.baseline - idle)
-        if not agrees(result.saving_alone, alone) and not self._not_yet_known():
-            return "refuted", wording.figure("saving_alone", float(alone), result.saving_alone), None
-        cost = self._score()[1]
-        saving = call.prices.cost(call.baseline - cost if result.opportunity else 0)
-        if not agrees(result.saving, saving):
-            return "refuted", wording.figure("saving", float(saving), result.saving), None
-        if not result.opportunity and call.options.windowed and cost != call.baseline:
+        fault = self._wrong_savings(call.baseline, idle)
+        if fault is None and not result.opportunity and call.options.windowed and cost != call.baseline:
             return "refuted", wording.nothing_costs(self._amount(call.baseline)), None
-        return None
+        return fault
 
-    def _not_yet_known(self) -> bool:
-        """Whether it is open what the human gains alone, since a limit came first."""
-        return self.result.saving_alone is None and self.result.status == "feasible"
+    def _wrong_savings(self, baseline: int, idle: int) -> Verdict | None:
+        """Refutes other figures than what doing nothing, and the human alone at best, cost make of them."""
+        fault = savings_fault(self.result, *map(self.call.prices.cost, (baseline, idle, self._score()[1])))
+        return None if fault is None else ("refuted", fault, None)
 
     def _nothing_to_compare(self) -> Verdict | None:
         """Without a way to do nothing there is no saving."""

@@ -5,7 +5,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Final
 
-from serendipity.model.numbers import agrees
 from verify.base import wording
 from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import UndecidedError
@@ -62,13 +61,7 @@ class HumanExaminer(Examiner):
             return None
         compared = self._idle is not None and not call.robots_goal
         idle = min(self._idle, call.baseline) if compared and self._idle is not None else call.baseline
-        alone = call.prices.cost(call.baseline - idle)
-        if not agrees(result.saving_alone, alone) and not self._not_yet_known():
-            return "refuted", wording.figure("saving_alone", float(alone), result.saving_alone), None
-        saving = call.prices.cost(call.baseline - self._score()[1] if result.opportunity else 0)
-        if not agrees(result.saving, saving):
-            return "refuted", wording.figure("saving", float(saving), result.saving), None
-        return None
+        return self._wrong_savings(call.baseline, idle)
 
     def lower_bound(self) -> Verdict:
         """Nothing that happens with the human, and no answer, costs less than the bound."""

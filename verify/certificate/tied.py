@@ -7,12 +7,13 @@ from typing import Any
 
 from serendipity.model import Result, Task
 from serendipity.model.answers.certificate import ClaimVerdict
-from serendipity.model.numbers import agrees, as_written, rounded
+from serendipity.model.numbers import agrees, as_written, excess, rounded
 from verify.base import wording
 from verify.base.obligations import is_mean
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.achieved import Figures, NotAchievedError, achieved
 from verify.certificate.each_plan import EachPlan, Solved
+from verify.certificate.savings import savings_fault
 from verify.programs.effort import Effort
 from verify.rules.tied import tied_answers
 
@@ -113,16 +114,8 @@ def _savings_fault(result: Result, each: EachPlan) -> str | None:
     if call.baseline is None:
         nothing = result.saving is None and result.saving_alone is None
         return None if nothing else wording.NOTHING_TO_COMPARE
-    idle = call.prices.cost(call.baseline)
-    saving = idle - as_written(result.cost or 0.0) if result.opportunity else Fraction(0)
-    if not agrees(result.saving, saving):
-        return wording.figure("saving", float(saving), result.saving)
-    unknown = result.status == "feasible" and result.saving_alone is None
-    return (
-        None
-        if unknown or result.saving_alone == 0
-        else wording.figure("saving_alone", 0, result.saving_alone)
-    )
+    baseline = call.prices.cost(call.baseline)
+    return savings_fault(result, baseline, baseline, as_written(result.cost or 0.0))
 
 
 def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | None:
@@ -182,7 +175,7 @@ def _compared(result: Result, known: Counter[Solved], each: EachPlan) -> Verdict
     words, least = wording.over_ties(ties, count, cost), objective
     if result.status != "optimal":
         assert result.lower_bound is not None, "a rule"
-        if as_written(result.lower_bound) > least and not agrees(result.lower_bound, least):
+        if excess(result.lower_bound, least) > 0:
             return "refuted", wording.ties_bound(words, ties)
         return "proved", words
     if result.plan is not None:  # one of the answers, which has an objective of its own

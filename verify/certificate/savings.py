@@ -1,0 +1,23 @@
+"""What a result saves, by what doing nothing costs, what the human pays alone at best, and its own cost."""
+
+from fractions import Fraction
+
+from serendipity.model import Result
+from serendipity.model.numbers import agrees
+from verify.base import wording
+
+
+def savings_fault(result: Result, baseline: Fraction, idle: Fraction, cost: Fraction) -> str | None:
+    """Why ``saving_alone`` or ``saving`` is wrong; None where neither is.
+
+    Args:
+        result: an answer with a plan.
+        baseline: what doing nothing costs.
+        idle: what the human pays at best without robots, or ``baseline``.
+        cost: what the plan costs.
+    """
+    alone, saving = baseline - idle, baseline - cost if result.opportunity else Fraction(0)
+    is_open = result.saving_alone is None and result.status == "feasible"  # a limit came first
+    if not is_open and not agrees(result.saving_alone, alone):
+        return wording.figure("saving_alone", float(alone), result.saving_alone)
+    return None if agrees(result.saving, saving) else wording.figure("saving", float(saving), result.saving)
