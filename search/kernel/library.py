@@ -81,10 +81,8 @@ def load(binary: Path, source: Path) -> "CDLL | str":
     """
     if not binary.is_file():
         return f"there is no {binary.name}; `python -m search.kernel.build` compiles it"
-    from ctypes import (
-        CDLL,
-        c_char_p,
-    )  # here and below: most calls need no kernel, and should not wait for these
+    # imported here and below: most calls need no kernel, and should not wait for these
+    from ctypes import CDLL, c_char_p
 
     from search.kernel.signatures import declare
 

@@ -112,18 +112,14 @@ def _searchable(question: Subproblem) -> bool:
 def _relaxed(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum | None:
     """The answer as far as an easier question tells, after a moment for programs; None: it does not."""
     task = question.task
-    if (
-        question.most is None
-        or len(task.facts) > limits().packed_facts
-        or len(task.actions) > limits().packed_actions
-    ):
+    large = len(task.facts) > limits().packed_facts or len(task.actions) > limits().packed_actions
+    if question.most is None or large:
         return None
     easier = _one_by_one if is_short(question) else _without_epochs if question.rule == FREE else None
     if easier is None:
         return None
-    long = (
-        easier is _without_epochs and _bits(question) > _FEW_STATES
-    )  # buildings, say: programs are good at them
+    # buildings, say: programs are good at them
+    long = easier is _without_epochs and _bits(question) > _FEW_STATES
     moment = effort.deadline.part(_SHARE).within(_length(2 * long))
     found = _by_programs(question.but(deadline=moment), replace(effort, deadline=moment), plans)
     if found.status == "undecided" and effort.deadline.reached() is None:

@@ -93,9 +93,8 @@ class _Search:
         singles, space, self._team_problem = team.singles, team.space, team.problem
         self._goal = self._team_problem.goal
         self._layout = self._team_problem.layout
-        self._unit = (
-            question.horizon + 1
-        )  # a unit of cost weighs more than all actions that there is time for
+        # a unit of cost weighs more than all actions that there is time for
+        self._unit = question.horizon + 1
         if (question.largest + question.an_epoch + 1) * self._unit > limits().weight:
             raise TooLargeError
         table = OperatorTable(self._layout, singles)

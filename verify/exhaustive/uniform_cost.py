@@ -15,7 +15,7 @@ from verify.base.execution import State
 from verify.base.fact_bits import FactBits, each_bit
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.shortest_paths import PathSearch
-from verify.base.subproblem import Solution, Subproblem
+from verify.base.subproblem import Solution, Subproblem, least
 from verify.base.undecided import during
 from verify.exhaustive.circles import circles
 from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
@@ -126,8 +126,8 @@ class JointSearch:
             )
 
     def _search(self, most_states: int) -> Minimum:
-        given = [limit for limit in (self.question.most, self.question.most_cost) if limit is not None]
-        below = min(given) + 1 if given else None
+        most = least(self.question.most, self.question.most_cost)
+        below = None if most is None else most + 1
         search = PathSearch(self.start, self._successors, self.estimate, self.deadline, below)
         for state, self.bound in search:
             self.closed += 1
