@@ -122,20 +122,21 @@ class _Pages:
 
     async def _hear(self, socket: WebSocket, text: str) -> None:
         message = _message(text)
-        if message is None:
-            await socket.send_json({"kind": "refused", "error": "expected a JSON object"})
-            return
+        answer = _refused("expected a JSON object") if message is None else await self._done(message)
+        if answer:
+            await socket.send_json(answer)
+
+    async def _done(self, message: dict[str, Any]) -> dict[str, Any] | None:
+        """Do what a page asks for; the answer for it alone, or None where all have been told."""
         async with self._turn:
             try:
                 answer = await asyncio.to_thread(self._room.do, message)
             except SerendipityError as error:
-                await socket.send_json({"kind": "refused", "error": str(error)})
-                return
+                return _refused(str(error))
             if answer is None:
                 view = await self._view()
                 await asyncio.gather(*(self._tell(page, view) for page in list(self._open)))
-            elif answer:
-                await socket.send_json(answer)
+            return answer
 
     async def _tell(self, page: WebSocket, view: dict[str, Any]) -> None:
         """Have a page show something; one that does not take it in time is not waited for."""
@@ -147,6 +148,10 @@ class _Pages:
 
     async def _view(self) -> dict[str, Any]:
         return {"kind": "view", **await asyncio.to_thread(self._room.view)}
+
+
+def _refused(why: str) -> dict[str, Any]:
+    return {"kind": "refused", "error": why}
 
 
 def _message(text: str) -> dict[str, Any] | None:
