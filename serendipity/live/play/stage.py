@@ -32,9 +32,6 @@ class Stage:
         self._eyes = eyes
         self._layout: Layout | None = None
         self._size = (0.0, 0.0)
-        own = places.positions.get(task.human, {})
-        named = (places.marks.get(fact) or own.get(fact) for fact in task.goal.positive)
-        self._goals = tuple(dict.fromkeys(place for place in named if place is not None))
         self._frames: list[Frame] = []
 
     def look(self, state: frozenset[int]) -> None:
@@ -136,7 +133,7 @@ class Stage:
             agents=task.agents,
             human=task.human,
             layout=self._layout,
-            goals=self._goals,
+            goals=self._places.goals(task),
             frames=tuple(self._frames),
             acts=(),
             former_acts=(),
@@ -144,6 +141,6 @@ class Stage:
             window=None,
             changes=(),
             result=nothing,
-            vehicles=frozenset() if self._places.towers else self._places.vehicles,
+            vehicles=self._places.vehicles,
             towers=self._places.towers,
         )

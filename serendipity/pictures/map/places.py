@@ -69,10 +69,18 @@ class Places:
 
     @property
     def vehicles(self) -> frozenset[str]:
-        """Objects that others can be in or on."""
+        """Objects that others can be in or on; what stands on each other in towers is none."""
+        if self.towers:
+            return frozenset()
         carriers = {where.carrier for told in self.objects.values() for where in told.values()}
         ridden = {name for riding in self.riding.values() for name in riding.values()}
         return frozenset(name for name in carriers | ridden if name is not None)
+
+    def goals(self, task: Task) -> tuple[str, ...]:
+        """The places that the human's goal names."""
+        own = self.positions.get(task.human, {})
+        named = (self.marks.get(fact) or own.get(fact) for fact in task.goal.positive)
+        return tuple(dict.fromkeys(place for place in named if place is not None))
 
 
 def find_places(task: Task) -> Places:

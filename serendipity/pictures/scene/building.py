@@ -36,8 +36,6 @@ def build_scene(task: Task, result: Result) -> Scene:
     last = max(len(moments), len(former)) - 1
     builder = _Builder(task, result, places)
     acts = tuple(chain.from_iterable(builder.acts(moment) for moment in moments))
-    goal = task.goal.positive
-    named = (places.marks.get(f) or places.positions.get(task.human, {}).get(f) for f in goal)
     hidden = {f for told in places.positions.values() for f in told}
     hidden |= {f for told in places.objects.values() for f in told}
     scene = Scene(
@@ -45,7 +43,7 @@ def build_scene(task: Task, result: Result) -> Scene:
         agents=task.agents,
         human=task.human,
         layout=None,
-        goals=tuple(dict.fromkeys(place for place in named if place is not None)),
+        goals=places.goals(task),
         frames=builder.frames(moments, former, last),
         acts=acts,
         former_acts=tuple(chain.from_iterable(builder.acts(moment) for moment in former)),
@@ -53,7 +51,7 @@ def build_scene(task: Task, result: Result) -> Scene:
         window=result.window,
         changes=find_changes(task, [moment.state for moment in moments], last, hidden),
         result=result,
-        vehicles=frozenset() if places.towers else places.vehicles,
+        vehicles=places.vehicles,
         towers=places.towers,
     )
     return replace(scene, layout=lay_out(places, cell_size(scene, places.names))) if places.names else scene
