@@ -186,6 +186,17 @@ def test_whatever_a_page_sends_it_is_answered_and_can_be_saved(folder: Path) -> 
             connect(live + "nobody")
 
 
+def test_neither_the_log_nor_the_files_tell_others_the_secrets(folder: Path) -> None:
+    design, room = open_design(folder), join(opened(folder))
+    with serving("--study", str(folder), "-v", command="play") as server:
+        for path in (f"/s/{room.joined['token']}", f"/experimenter/{design.secret}/events.json"):
+            assert server.client.get(path).status_code == 200
+        _, said = server.stop()
+    assert "GET /s/..." in said and "GET /experimenter/.../events.json" in said
+    assert room.joined["token"] not in said and design.secret not in said
+    assert not [file.name for file in folder.glob("*.json*") if file.stat().st_mode & 0o077]
+
+
 # -- restarts
 
 

@@ -50,7 +50,7 @@ def find_tasks(folder: Path) -> tuple[TaskFolder, ...]:
 
 def natural(name: str) -> tuple[tuple[int, str], ...]:
     """Sorting key by which 2 comes before 10."""
-    return tuple((int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name))
+    return tuple((int(part), "") if part.isdecimal() else (0, part) for part in re.split(r"(\d+)", name))
 
 
 def _is_task(path: Path) -> bool:

@@ -1,6 +1,7 @@
 """A line of log for each request."""
 
 import logging
+import re
 import secrets
 from time import perf_counter
 
@@ -9,11 +10,15 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 _LOG = logging.getLogger(__name__)
 
+_SECRET = re.compile(r"^/(s|live|experimenter)/[^/]+")
+"""How addresses begin that nobody should know who has not been told."""
+
 
 class Logged:
     """Middleware that logs who asked what, how it ended, how much was said and how long it took.
 
-    Each request has an id, which its response names (``X-Request-Id``) and its line ends with.
+    Each request has an id, which its response names (``X-Request-Id``) and its line ends with.  Secrets in
+    addresses are left out.
 
     Args:
         app: who answers.
@@ -41,6 +46,6 @@ class Logged:
             await self._app(scope, receive, noted)
         finally:
             client = (scope.get("client") or ("-",))[0]
-            asked = f"{scope['method']} {scope['path']}"
+            asked = f"{scope['method']} " + _SECRET.sub(r"/\1/...", scope["path"])
             seconds = perf_counter() - begun
             _LOG.info("%s %.200r %s %d bytes %.3f s %s", client, asked, status, said, seconds, request)

@@ -153,7 +153,7 @@ class Study:
         numbers = [int(found[1]) for file in self._folder.iterdir() if (found := _FILE.fullmatch(file.name))]
         name = f"P{max(numbers, default=0) + 1:03}"
         try:
-            (self._folder / f"{name}.jsonl").touch(exist_ok=False)
+            (self._folder / f"{name}.jsonl").touch(mode=0o600, exist_ok=False)
         except OSError as error:
             raise UsageError(f"{name}.jsonl can't be made: {(error.strerror or '').lower()}") from None
         return Records(name, self._folder / f"{name}.jsonl")
