@@ -2,7 +2,7 @@
 
     python -m tests.verify.kinds
 
-prints the table of docs/verification.md.
+prints the table of which docs/verification.md has ten rows.
 """
 
 from collections.abc import Iterator
