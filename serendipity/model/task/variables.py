@@ -19,7 +19,7 @@ from serendipity.model.task.invariants import groups_by_form
 
 _MANY: Final = 0.25
 """The share of consumed facts in no group from which on groups are looked for by form, too.
-On the 80 tasks of docs/domains.md it is at least 0.33 in blocks and depots, at most 0.14 elsewhere;
+On the 80 tasks of docs/benchmarks.md it is at least 0.33 in blocks and depots, at most 0.14 elsewhere;
 in large buildings 0.0001."""
 
 
