@@ -68,8 +68,9 @@ class Stage:
         self._bodies = Bodies(engine, self._building)
         self._figures = {agent: self._figure(agent, place) for agent, place in agents.items()}
         self._kits: dict[str, Kit] = {}
+        medkits = _medkits(task)
         for number, name in enumerate(places.objects):
-            self._kits[name] = Kit(engine, shelf((-2.0, 0.0), number), first_aid=_is_medkit(task, name))
+            self._kits[name] = Kit(engine, shelf((-2.0, 0.0), number), first_aid=name in medkits)
         self._begun: dict[Order, _Errand] = {}
         for pair, kilograms in (rubble or {}).items():
             self._heap(*pair, kilograms)
@@ -197,10 +198,10 @@ class Stage:
         self._engine.box((0.3, 0.3, 0.12), (x, y, 0.06), (0.45, 0.42, 0.4, 1), kilograms)
 
 
-def _is_medkit(task: Task, thing: str) -> bool:
-    """Whether actions on a thing speak of it as a medkit (``pick_up_medkit robot mk1 room3``)."""
+def _medkits(task: Task) -> frozenset[str]:
+    """What takes part in actions that speak of a medkit (``pick_up_medkit robot mk1 room3``)."""
     named = (parts(action.name) for action in task.actions)
-    return any(thing in rest and "medkit" in schema for schema, *rest in named)
+    return frozenset(word for schema, *rest in named if "medkit" in schema for word in rest)
 
 
 class _Errand:
