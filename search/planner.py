@@ -189,10 +189,11 @@ class _Call:
             improvements = Improvements(
                 self.context, self.plan, self.epochs, self.baseline.key, self.best, self.progress
             )
+            known = replayed(self.context, self.plan or (), self.epochs, improvements.most_cost, self.warm)
             try:
                 self._improve_alone(improvements)
             finally:  # what robots gain has to beat that, and is known all the same
-                self._begin_with_known(improvements.most_cost)
+                self._begin_with(known)
             self.progress.bound = self._least()
             if self._answer().key < INFINITE_KEY:
                 yield self._outcome("feasible")
@@ -212,11 +213,11 @@ class _Call:
             status = "optimal" if is_best else self._unfinished()
         yield self._outcome(status)
 
-    def _begin_with_known(self, most_cost: int | None) -> None:
+    def _begin_with(self, known: Incumbent | None) -> None:
         """The plan that was known before is the incumbent, where it is one and better."""
-        found, best = replayed(self.context, self.plan or (), self.epochs, most_cost, self.warm), self.best
-        if found is not None and found.key < best.key:
-            best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
+        best = self.best
+        if known is not None and known.key < best.key:
+            best.key, best.node, best.end, best.tail = known.key, known.node, known.end, known.tail
 
     def _is_known_best(self) -> bool:
         """Whether nothing is better than the incumbent, as was known before."""
@@ -311,12 +312,28 @@ class _Call:
         """Whether the incumbent is an opportunity: cheaper than the best with robots idle."""
         if self.best.key == INFINITE_KEY or self.plan is None:
             return False
-        if not self.settled:  # then at least what is known of the human alone decides
-            alone = INFINITE_KEY if self.given else self.context.alone.least(self.context.packed.init)
-            return alone < INFINITE_KEY and self.keys.cost(self.best.key) < self.keys.cost(alone)
+        if not self.settled:
+            return self._surely_helps()
         if self.unaided.key < INFINITE_KEY and self._score(self.best) >= self._score(self.unaided):
             return False
         return self.idle.key == INFINITE_KEY or self.keys.cost(self.best.key) < self.keys.cost(self.idle.key)
+
+    def _surely_helps(self) -> bool:
+        """Whether the incumbent beats a bound on what the human pays alone, as long as no more is known."""
+        if self.given and self.task.robot_goal:
+            return False  # what robots do for it without helping counts, too
+        alone = INFINITE_KEY
+        with suppress(*LIMITS):
+            alone = self.context.alone.least(self.context.packed.init)
+        if alone >= INFINITE_KEY:
+            return False
+        gains = self.keys.cost(self.best.key) < self.keys.cost(alone)
+        # A human who turns to a better plan alone needs a window, too, and the best objective is answered.
+        return gains and (not self.given or self._score(self.best)[0] < self._turned(alone))
+
+    def _turned(self, alone: int) -> Fraction:
+        """The least objective of a human who turns to a plan alone that costs no less than a key."""
+        return self.keys.objective(alone) + self.options.window_weight
 
     def _score(self, answer: Incumbent) -> tuple[Fraction, Fraction]:
         return self.keys.objective(answer.key), self.keys.cost(answer.key)

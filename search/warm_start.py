@@ -4,6 +4,7 @@ A control loop asks again and again.  What is left of an answer after an epoch i
 next call as often as not; whether it is, is found out here, by the rules of that call.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
@@ -123,13 +124,16 @@ def _around(
     is_sure = warm.is_sure and options.suffix == "replan" and options.preservation == "kernel"
     is_sure = is_sure and not context.weights.announces
     if is_sure:
-        context.alone.proved(node.state, tail)
-    suffix, left = suffix_rule(context, plan), horizon - node.epoch
-    rest = suffix.key(node.state, left, window.start, INFINITE_KEY)
-    if rest >= INFINITE_KEY:
-        return None
-    if not is_sure:
-        tail = suffix.actions(node.state, left, window.start)
+        with suppress(LimitReachedError):
+            context.alone.proved(node.state, tail)
+    if is_sure and not context.task.robot_goal:  # then it takes no table, for which there may be no time
+        rest = sum(option.weight for _, option in context.followed(tail))
+    else:
+        suffix, left = suffix_rule(context, plan), horizon - node.epoch
+        rest = suffix.key(node.state, left, window.start, INFINITE_KEY)
+        if rest >= INFINITE_KEY:
+            return None
+        tail = tail if is_sure else suffix.actions(node.state, left, window.start)
     key = node.key + keys.of_start(window.start, horizon) + len(window) * keys.epoch_weight
     return Incumbent(key + rest, node._replace(key=key), node.epoch + 1, tail)
 

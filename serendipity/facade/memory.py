@@ -14,6 +14,7 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
 from search import WarmStart
+from serendipity.facade.rest import is_better, not_now
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.options import Options
 from serendipity.model.task.actions import apply
@@ -186,6 +187,19 @@ class Question:
     def better(self, found: Answer) -> Answer:
         """An answer, or the one that is known where that is better."""
         return found if self._answer is None else _better(self._answer, found, self._options)
+
+    def unless_worse(self, task: Task, answer: Answer, limit: str | None) -> Answer:
+        """An answer; none where a limit left nothing but one that is worse than to finish what was begun.
+
+        Args:
+            task: that it is about.
+            answer: the best one that is known.
+            limit: what has come, or None.
+        """
+        warm = self.warm
+        if limit is None or answer.status != "feasible" or warm is None or not warm.is_sure:
+            return answer
+        return not_now(answer, limit) if is_better(warm, answer, task, self._options) else answer
 
     def answered(self, task: Task, answer: Answer) -> None:
         """Remember an answer about a task."""

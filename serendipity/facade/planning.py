@@ -228,7 +228,8 @@ def _given(task: Task, names: Iterable[str] | None) -> Given:
 def _result(call: Call, answer: Answer, *, last: bool = True) -> Result:
     question = call.question
     if question is not None:
-        answer = question.better(answer)
+        limit = call.deadline.reached() or call.limits.reached()
+        answer = question.unless_worse(call.task, question.better(answer), limit)
     answer = with_verdicts(call, answer, last=last)
     if question is not None:
         question.answered(call.task, answer)

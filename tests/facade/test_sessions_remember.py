@@ -11,6 +11,7 @@ from serendipity import PlanStep, Result, SerendipityError, Session, Task
 from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_1, case_2, usar
+from serendipity.testing.countdown import Countdown
 from serendipity.testing.generator import PlanCall, random_call
 
 _FIGURES = ("status", "cost", "objective", "opportunity", "saving", "saving_alone", "lower_bound", "horizon")
@@ -230,3 +231,35 @@ def test_the_rest_is_there_to_be_finished_though_the_new_question_has_no_answer(
     while session.rest:
         session.execute([step.action for step in session.rest if step.epoch == 1])
     assert session.task.goal.holds(session.task.init)
+
+
+def _at_each_look(call: PlanCall, session: Session) -> Iterator[tuple[Session, Result]]:
+    """Answers of sessions that know what this one does, if the first look is the last, or the second."""
+    looks = 0
+    while True:
+        other = Session(replace(session.task), human_plan=session.human_plan, **call.keywords())
+        other._remind(session._remembered())
+        deadline = Countdown(looks)
+        yield other, other.plan(deadline=deadline)
+        if not deadline.ran_out:
+            return
+        looks = max(looks + 1, looks * 9 // 8)
+
+
+def test_whenever_time_is_up_help_that_was_begun_is_answered_or_still_there() -> None:
+    """A limit before it was known what the person gains alone gave way to idle robots, in 1 call of 4,000."""
+    helped = unknown = 0
+    for seed in range(240):
+        call = random_call(seed)
+        for session, rest in _executed(call, Random(seed)):
+            left = session.rest
+            if not left or all(step.agents == (call.task.agents[call.task.human],) for step in left):
+                continue
+            fresh = _fresh(call, session)
+            if isinstance(fresh, str) or not _is_remembered(fresh, rest):
+                continue
+            for other, answer in _at_each_look(call, session):
+                helped += answer.opportunity
+                unknown += answer.status == "unknown"
+                assert _value(answer) <= rest + 1e-9 or (answer.status, other.rest) == ("unknown", left), seed
+    assert helped > 100 and unknown > 100
