@@ -5,18 +5,18 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 """
 
 from search.human.plan_graph import PlanGraph
-from search.planner import solve
-from search.prediction import AtHand, at_hand, optimal_human_plans
 from search.prepared_task import PreparedTask, prepare
+from search.strategies.first_answer import FirstAnswer, first_answer, optimal_human_plans
+from search.strategies.portfolio import solve
 from search.tie_bound import least_over_ties
 from search.warm_start import WarmStart
 
 __all__ = [
-    "AtHand",
+    "FirstAnswer",
     "PlanGraph",
     "PreparedTask",
     "WarmStart",
-    "at_hand",
+    "first_answer",
     "least_over_ties",
     "optimal_human_plans",
     "prepare",

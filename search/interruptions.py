@@ -14,9 +14,9 @@ from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
-from search.planner import left_alone
 from search.prepared_task import PreparedTask
 from search.spaces.fixed_window import FixedWindow, Weighed
+from search.strategies.left_alone import left_alone
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.plans import Step, Window

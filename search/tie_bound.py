@@ -12,10 +12,10 @@ from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.dominance import ParetoFront
 from search.heuristics.first_interaction import Bounds, no_bound, no_team_bound
 from search.human.plan_graph import PlanGraph
-from search.planner import solve
 from search.prepared_task import PreparedTask
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.windowed import InLayers, Windowed
+from search.strategies.portfolio import solve
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline

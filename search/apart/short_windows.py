@@ -238,14 +238,11 @@ def short_windows(
     Raises:
         LimitReachedError: the deadline came.
     """
-    options, packed = context.options, context.packed
-    plain = options.suffix == "replan" and options.preservation == "kernel" and not options.keep_prefix
-    if not plain or options.max_cost is not None or context.task.robot_goal or not packed.others:
-        return None
+    packed = context.packed
     counted = tally(packed, context.relevant, context.deadline) if by_numbers else None
-    if context.weights.announces or (by_numbers and counted is None):
+    if not packed.others or (by_numbers and counted is None):
         return None
-    if not are_apart(packed, context.deadline, strict=options.strict):
+    if not are_apart(packed, context.deadline, strict=context.options.strict):
         return None
     if not _fit_words(context, plan, best):
         return None

@@ -16,8 +16,8 @@ from search.assistance.solvers.cheapest_run import CheapestRun
 from search.assistance.solvers.lao_star import LaoStar
 from search.assistance.writing import Writer
 from search.packed.cost_vector import INFINITE_KEY
-from search.prediction import at_hand
 from search.prepared_task import PreparedTask
+from search.strategies.first_answer import first_answer
 from serendipity.model.answers.answer import Answer, PolicyBounds, Status
 from serendipity.model.answers.policy import Policy
 from serendipity.model.errors import LIMITS, limit_reason
@@ -64,7 +64,7 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
 def _most_alone(game: Game) -> int:
     """What doing nothing is worth at most, by some plan of the prime's at hand; else ``INFINITE_KEY``."""
     try:
-        plan = at_hand(game.prepared, Options(), game.deadline.part(_PLAN_SHARE)).plan
+        plan = first_answer(game.prepared, Options(), game.deadline.part(_PLAN_SHARE)).plan
     except LIMITS:
         return INFINITE_KEY
     return INFINITE_KEY if plan is None else game.value_alone(plan)

@@ -25,9 +25,9 @@ from search.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packings import human_facts
 from search.packed.successor_generator import NOTHING, JointAction, Successors, as_option, together
-from search.planner import solve
 from search.prepared_task import PreparedTask
 from search.spaces.factory import suffix_rule
+from search.strategies.portfolio import solve
 from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options

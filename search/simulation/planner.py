@@ -7,12 +7,12 @@ from search.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
-from search.prediction import AtHand
 from search.prepared_task import PreparedTask
 from search.simulation.human import Human
 from search.simulation.simulator import way_on
 from search.simulation.space import Reactive, Start
 from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.strategies.first_answer import FirstAnswer
 from search.warm_start import WarmStart
 from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason
@@ -51,24 +51,24 @@ def solve_for_human(
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.
     """
     task, deadline = prepared.task, deadline or Deadline(options.time_limit)
-    at_hand: AtHand | None = None
+    first: FirstAnswer | None = None
     plan = human_plan
     try:
         if plan is None:
             context = SearchContext(prepared, options, deadline)
-            at_hand = AtHand(context, None)
-            yield from at_hand.answers(bounded=True)
+            first = FirstAnswer(context, None)
+            yield from first.answers(bounded=True)
             predicted = context.canonical_plan()
             plan = None if predicted is None else predicted.actions
     except LIMITS as limit:
         reason = limit_reason(limit)
-        yield Answer("unknown", reason=reason) if at_hand is None else at_hand.last(reason)
+        yield Answer("unknown", reason=reason) if first is None else first.last(reason)
         return
     if plan is None:
         yield Answer("infeasible", reason="no-human-plan")
         return
     epochs = int(horizon_of(task, options, plan))
-    least = Fraction(0) if at_hand is None else at_hand.least
+    least = Fraction(0) if first is None else first.least
     try:
         if not task.robot_goal:
             yield _left_alone(task, plan, epochs, least, given=human_plan is not None)

@@ -17,29 +17,12 @@ from search.packed.cost_vector import ACTIONS_BITS, own_costs
 from search.spaces.factory import suffix_rule
 from search.spaces.from_composite import Suggestions
 from search.timetable.epochs import Epochs, Leaving
-from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 
-_SOON: Final = 0.1
-"""What of the time that is left a first look may take."""
-
 _HOPEFUL: Final = 3
-"""One part in so many of the epochs has to be behind it then, for it to go on at once: states multiply at
+"""One part in so many of the epochs has to be behind it to be worth going on at once: states multiply at
 first, and are fewer where goals have been reached."""
-
-_LONGER: Final = 0.35
-"""What of the time that is left it may take if it goes on."""
-
-_MOST: Final = 0.9
-"""The same where robots one by one have settled nothing."""
-
-_FEW_STATES: Final = 300_000
-"""As many as are looked at first: in less than a second."""
-
-_MANY_STATES: Final = 3_000_000
-
-_MOST_STATES: Final = 10_000_000
 
 _MOST_ACTIONS: Final = 2_000
 """Every pair of them is told apart."""
@@ -51,7 +34,7 @@ _MOST_COST_BITS: Final = 24
 
 
 class AllTogether:
-    """Windows of one epoch, the earliest first, looked at in one go or in two.
+    """Windows of one epoch, the earliest first, looked at in one go or in several.
 
     Args:
         context: of the call, in a mode with windows.
@@ -84,35 +67,33 @@ class AllTogether:
         """What can be left behind in that epoch and was not looked at yet, the least total last."""
         self._is_over = False
 
-    def soon(self) -> Iterator[Incumbent]:
-        """Yield the incumbent whenever it has become better, while states are few; raise the bound after all.
+    @property
+    def is_hopeful(self) -> bool:
+        """Whether a good part of the epochs is behind it."""
+        return _HOPEFUL * self._epoch >= len(self._plan)
+
+    def windows(self, most: int, deadline: Deadline) -> Iterator[None]:
+        """Yield whenever the incumbent has become better; raise the bound after all epochs.
+
+        It goes on from where it ended the last time.
+
+        Args:
+            most: so many states, and it ends.
+            deadline: polled.
 
         Raises:
-            LimitReachedError: the deadline of the call came, not only that of its part for this.
+            LimitReachedError: the deadline came.
         """
-        yield from self._within(_SOON, _FEW_STATES)
-        if _HOPEFUL * self._epoch >= len(self._plan):
-            yield from self._within(_LONGER, _MANY_STATES)
-
-    def still(self) -> Iterator[Incumbent]:
-        """The same with most of the time that is left, and with many states, from where it ended."""
-        return self._within(_MOST, _MOST_STATES)
-
-    def _within(self, share: float, most: int) -> Iterator[Incumbent]:
         if self._is_over:
             return
-        deadline = self._context.deadline.part(share)
-        try:
-            fits = self._amount(self._best.key) < MOST_WEIGHT
-            self._epochs = self._epochs or (_epochs(self._context, deadline) if fits else None)
-            if self._epochs is None:
-                self._is_over = True
-            else:
-                yield from self._windows(self._epochs, most, deadline)
-        except LimitReachedError:
-            self._context.deadline.check()
+        fits = self._amount(self._best.key) < MOST_WEIGHT
+        self._epochs = self._epochs or (_epochs(self._context, deadline) if fits else None)
+        if self._epochs is None:
+            self._is_over = True
+        else:
+            yield from self._windows(self._epochs, most, deadline)
 
-    def _windows(self, epochs: Epochs, most: int, deadline: Deadline) -> Iterator[Incumbent]:
+    def _windows(self, epochs: Epochs, most: int, deadline: Deadline) -> Iterator[None]:
         """All that are left, unless there are too many states."""
         while self._epoch <= len(self._plan):
             if self._left is None:
@@ -137,7 +118,7 @@ class AllTogether:
         keys = self._context.keys
         return keys.epoch_weight + keys.of_start(self._epoch, self._horizon)
 
-    def _look(self, epochs: Epochs, left: list[Leaving]) -> Iterator[Incumbent]:
+    def _look(self, epochs: Epochs, left: list[Leaving]) -> Iterator[None]:
         """Whether things that can be left behind make the incumbent better."""
         context, best, start = self._context, self._best, self._start()
         while left and start + context.amount_key(left[-1].total) < best.key:
@@ -147,7 +128,7 @@ class AllTogether:
                 suggestions = Suggestions(context, self._plan, self._horizon, None, best.key)
                 for found in suggestions.exactly(epochs.ways(left[-1])):
                     best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
-                    yield best
+                    yield
             left.pop()
         left.clear()
 
@@ -157,13 +138,10 @@ class AllTogether:
 
 
 def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
-    """What the kernel looks at; None where it can't, or the mode's rules are others."""
-    options, packed, kernel = context.options, context.packed, library()
+    """What the kernel looks at; None where it can't."""
+    packed, kernel = context.packed, library()
     operators = (*packed.own, *packed.joint, *packed.others)
     if kernel is None or len(operators) > _MOST_ACTIONS or len(context.task.agents) > _MOST_AGENTS:
-        return None
-    plain = options.suffix == "replan" and options.preservation == "kernel" and not options.keep_prefix
-    if not plain or options.max_cost is not None or context.task.robot_goal or context.weights.announces:
         return None
     after = own_planner(packed, packed.goal, context.relevant, deadline)
     costs = [context.weights.scaled_cost(op) for op in operators]
@@ -186,7 +164,7 @@ def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
         after.problem.unit * ratio,
         packed.init,
         deadline,
-        strict=options.strict,
+        strict=context.options.strict,
     )
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, Unpack
 
 from search import PreparedTask
 from search.kernel.library import library
-from search.prediction import canonical_human_plan
+from search.strategies.first_answer import canonical_human_plan
 from serendipity.execution.again import Again
 from serendipity.execution.crews import Crew, Maker
 from serendipity.execution.decided import Decided

@@ -128,7 +128,7 @@ def planned(
             answers = solver(call)
         if on_improvement is None:
             *_, last = answers
-            return _result(call, last)
+            return _with_strategies_recorded(_result(call, last))
     return _told(_results(call, answers), on_improvement)
 
 
@@ -208,6 +208,19 @@ def _results(call: Call, answers: Iterator[Answer]) -> Iterator[Result]:
             result = _result(call, answer)
         if result.realised:
             yield result
+    if result is not None:
+        _with_strategies_recorded(result)
+
+
+def _with_strategies_recorded(result: Result) -> Result:
+    """The result, once the log has a line for each strategy that was tried."""
+    for row in result.statistics.get("strategies", ()):
+        bound = "" if row["bound"] is None else f", bound {row['bound']:g}"
+        settled = ", settled" if row["settled"] else ""
+        record(
+            "INFO", f"strategy {row['name']}: better {row['better']} times{bound}{settled}", row["seconds"]
+        )
+    return result
 
 
 def _told(results: Iterator[Result], on_improvement: Callable[[Result], None]) -> Result:

@@ -1,11 +1,12 @@
 """From exact answers to results: names and floats appear here, and nowhere before."""
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import asdict, replace
 from fractions import Fraction
+from typing import Any
 
 from search.kernel.library import state_at_hand
-from serendipity.model.answers.answer import Answer, Improvement, ServedGoal
+from serendipity.model.answers.answer import Answer, Improvement, ServedGoal, Tried
 from serendipity.model.answers.result import Result
 from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.numbers import figure, rounded
@@ -52,6 +53,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
             "elapsed_seconds": elapsed,
             **{name: count for name, count in counted.items() if count is not None},
             "kernel": state_at_hand(),
+            **({"strategies": [_tried(row) for row in answer.tried]} if answer.tried else {}),
         },
         policy=answer.policy,
         ties=None
@@ -110,6 +112,11 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, fl
 
 def _gap_entry(known: Improvement) -> GapEntry:
     return GapEntry(known.seconds, rounded(known.objective), rounded(known.lower_bound))
+
+
+def _tried(row: Tried) -> dict[str, Any]:
+    bound = None if row.bound is None else float(row.bound)
+    return {**asdict(row), "seconds": round(row.seconds, 6), "bound": bound}
 
 
 def _tied(task: Task, discount: Fraction, answer: Answer, status: str) -> TiedAnswer:

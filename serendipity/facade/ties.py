@@ -5,7 +5,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Final
 
-from search import AtHand, PlanGraph, at_hand, least_over_ties, optimal_human_plans
+from search import FirstAnswer, PlanGraph, first_answer, least_over_ties, optimal_human_plans
 from serendipity.facade import one_plan
 from serendipity.facade.call import Call
 from serendipity.model.answers.answer import Answer, Improvement
@@ -35,7 +35,7 @@ def _over_ties(call: Call) -> Iterator[Answer]:
         UsageError: there are more optimal plans than ``max_ties``.
     """
     try:
-        known = at_hand(call.prepared, call.options, call.deadline)
+        known = first_answer(call.prepared, call.options, call.deadline)
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit), gap=())
         return
@@ -63,7 +63,7 @@ def _all_plans(call: Call, deadline: Deadline) -> tuple[PlanGraph | None, str | 
         return None, limit_reason(limit)
 
 
-def _beside_one(call: Call, known: AtHand, limit: str) -> Answer:
+def _beside_one(call: Call, known: FirstAnswer, limit: str) -> Answer:
     """The answer beside one optimal plan, where not all are known and there is time; else doing nothing.
 
     The mean over all plans is no more than doing nothing, but may be more than any one of the answers.
@@ -75,7 +75,7 @@ def _beside_one(call: Call, known: AtHand, limit: str) -> Answer:
     return known.last(limit)
 
 
-def _beside_all(call: Call, known: AtHand, graph: PlanGraph) -> Answer:
+def _beside_all(call: Call, known: FirstAnswer, graph: PlanGraph) -> Answer:
     """The task solved once for each optimal ``pi_H``, as long as that makes a difference."""
     options = call.options
     count = graph.count()

@@ -55,6 +55,7 @@ class PlanOptions(AnswerOptions, total=False):
 
     time_limit: float | None
     memory_limit: float | None
+    strategies: str | None
 
 
 F = TypeVar("F", bound=Callable[..., Any])

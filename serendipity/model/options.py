@@ -36,9 +36,9 @@ _FLAGS: Final = {"keep_prefix": (True, False), "no_block": (True, False, None)}
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
 # How options are written in JSON.
-_LATER: Final = ("memory_limit",)  # results of the first versions don't have it
+_LATER: Final = ("memory_limit", "strategies")  # results of the first versions do without
 _EXACT: Final = ("discount", "window_weight", "communication_weight", "max_cost")
-_OPTIONAL: Final = ("horizon", "max_window", "max_cost", *_LIMITS)
+_OPTIONAL: Final = ("horizon", "max_window", "max_cost", "strategies", *_LIMITS)
 _WORDS: Final = {"horizon": INFINITE, "max_cost": "human"}
 
 
@@ -67,6 +67,8 @@ class Options:
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
+        strategies: names of those that are tried, or of those that are not, as ``"-NAME"``, apart by commas;
+            None for all.
 
     Raises:
         UsageError: naming the option, what was expected and what was given.
@@ -89,6 +91,7 @@ class Options:
     no_block: bool | None = None
     time_limit: float | None = None
     memory_limit: float | None = None
+    strategies: str | None = None
 
     if TYPE_CHECKING:  # they are made of more than they hold
 
@@ -120,6 +123,8 @@ class Options:
         for name, unit in _LIMITS.items():
             if getattr(self, name) is not None:
                 self._set(name, limit_of(name, getattr(self, name), unit))
+        if self.strategies is not None and not isinstance(self.strategies, str):
+            raise UsageError(f"strategies: expected names apart by commas, got {self.strategies!r:.50}")
         if self.keep_prefix and self.mode != "communication":
             raise UsageError("keep_prefix: is for communication mode only")
         if self.human_model != "omniscient" and self.mode != "serendipity":
@@ -134,6 +139,11 @@ class Options:
     def strict(self) -> bool:
         """Whether interference is strict (semantics 2)."""
         return self.interference == "strict"
+
+    @property
+    def strategy_names(self) -> tuple[str, ...]:
+        """Names of strategies, some with a minus sign."""
+        return tuple(name.strip() for name in (self.strategies or "").split(",") if name.strip())
 
     @property
     def windowed(self) -> bool:
@@ -187,10 +197,15 @@ def _written(name: str, value: object) -> bool:
     if name in ("keep_prefix", "no_block"):
         return isinstance(value, bool) or (value is None and name == "no_block")
     if isinstance(value, str):
-        return name in CHOICES or value == _WORDS.get(name) or (name in _EXACT and _needs_text(value))
+        return (
+            name in CHOICES
+            or name == "strategies"
+            or value == _WORDS.get(name)
+            or (name in _EXACT and _needs_text(value))
+        )
     if value is None:
         return name in _OPTIONAL
-    if isinstance(value, bool) or not isinstance(value, int | float) or name in CHOICES:
+    if isinstance(value, bool) or not isinstance(value, int | float) or name in (*CHOICES, "strategies"):
         return False
     return isinstance(value, int) or name in (*_EXACT, *_LIMITS)
 

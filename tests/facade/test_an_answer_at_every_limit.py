@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import serendipity
-from search import PreparedTask, at_hand
+from search import PreparedTask, first_answer
 from search.classical.planner import ClassicalPlanner
 from search.human.individual_planner import IndividualPlanner
 from search.kernel.library import library
@@ -167,7 +167,7 @@ def test_nothing_is_at_hand_where_robots_have_goals() -> None:
 def test_a_plan_that_takes_too_many_epochs_is_no_answer(options: dict[str, Any]) -> None:
     """It was an error where a limit came: that the horizon is too short, which it is for that plan alone."""
     task = _switches()
-    known = at_hand(PreparedTask(task), Options(), Deadline())
+    known = first_answer(PreparedTask(task), Options(), Deadline())
     best = serendipity.plan(task, mode="individual").human_plan
     assert known.plan is not None and best is not None and len(best) < len(known.plan)
     for result in _ended({**options, "horizon": len(best)}):
@@ -210,7 +210,7 @@ def test_the_bound_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> Non
         gone[0] += 1
         free(self)
 
-    known = at_hand(PreparedTask(_switches()), Options(), Deadline())
+    known = first_answer(PreparedTask(_switches()), Options(), Deadline())
     monkeypatch.setattr(ClassicalPlanner, "__del__", freed)
     with no_collection():
         *_, answer = known.answers(bounded=True)

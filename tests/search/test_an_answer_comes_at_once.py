@@ -7,7 +7,7 @@ import pytest
 from search import PreparedTask
 from search.human.individual_planner import IndividualPlanner
 from search.kernel.library import library
-from search.planner import solve
+from search.strategies.portfolio import solve
 from serendipity.model import Options
 from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import family_task

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -10,7 +11,7 @@ import search.classical.planner
 import search.classical.team
 import serendipity
 from search.classical.planner import ClassicalPlanner
-from search.joint_plans import JointPlans
+from search.classical.team import Sets, Team
 from search.kernel.library import library
 from serendipity.model import Deadline, LimitReachedError, Options, UsageError
 from serendipity.model.options import INFINITE
@@ -118,21 +119,20 @@ def test_where_the_joint_optimum_is_interrupted_and_goes_on(monkeypatch: pytest.
     def hasty(self: ClassicalPlanner, state: int, deadline: Deadline, *rest: object) -> list[int] | None:
         return whole(self, state, deadline.within(0), *rest)  # type: ignore[arg-type]
 
-    def going_on(self: JointPlans) -> None:
-        went_on.append(self.is_interrupted)
-        still(self)
+    def going_on(self: Team, *given: Any) -> Iterator[Sets]:
+        went_on.append(self.planner.is_open)
+        return whole_rest(self, *given)
 
-    still = JointPlans.still_without_horizon
+    whole_rest = Team.go_on
     monkeypatch.setattr(search.classical.planner, "SLICE", 1e-6)
     monkeypatch.setattr(ClassicalPlanner, "cheapest_plan", hasty)
-    monkeypatch.setattr(JointPlans, "still_without_horizon", going_on)
-    monkeypatch.setattr(JointPlans, "soon_within_horizon", lambda *_: iter(()))
+    monkeypatch.setattr(Team, "go_on", going_on)
 
     @given(calls(modes=("serendipity", "communication", "composite"), ties=False, of=family_tasks()))
     def law(call: Call) -> None:
         if call.options.horizon == INFINITE:
             return  # then there is nothing else to try, and the call ends where it is interrupted
-        call = replace(call, options=call.options.but(time_limit=60.0, window_weight=0))
+        call = replace(call, options=call.options.but(time_limit=60.0, window_weight=0, strategies="-greedy"))
         same_cost(call)
 
     law()

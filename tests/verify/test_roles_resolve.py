@@ -45,7 +45,8 @@ def test_bugs_can_be_planted_and_removed(bug: Bug) -> None:
 
 
 @pytest.mark.parametrize(
-    "path", ["search.nowhere:Space.key", "search.planner:Nobody.key", "search.planner:_Call.nothing"]
+    "path",
+    ["search.nowhere:Space.key", "search.strategies.call:Nobody.key", "search.strategies.call:Call.nothing"],
 )
 @pytest.mark.parametrize(("table", "ask"), [(PLACES, place), (PARTS, name_of)])
 def test_a_lost_role_is_named(

@@ -1,7 +1,7 @@
 """Exact answers: rationals and ids, as planners find them; results have names and floats."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
@@ -56,6 +56,25 @@ class ServedGoal:
     cost: Fraction | None
 
 
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """One strategy of a planning call: what it took, and what came of it.
+
+    Attributes:
+        name: of the strategy.
+        seconds: that it took.
+        better: how often it has made the answer better.
+        bound: the lower bound on the objective that it left, where it has raised it; else None.
+        settled: whether nothing better was left after it.
+    """
+
+    name: str
+    seconds: float = field(compare=False)
+    better: int
+    bound: Fraction | None
+    settled: bool
+
+
 class Answer(NamedTuple):
     """An answer, proved or on the way to it; a named tuple, as a call makes several within microseconds.
 
@@ -84,6 +103,7 @@ class Answer(NamedTuple):
         bounds: both sides of the policy's value; None in other modes.
         policy: of mode ``assistance``, or None.
         gap: how it got better; None where that is not told.
+        tried: the strategies that were tried, in their order; empty in modes that have but one.
     """
 
     status: Status
@@ -109,6 +129,7 @@ class Answer(NamedTuple):
     bounds: PolicyBounds | None = None
     policy: Policy | None = None
     gap: tuple[Improvement, ...] | None = None
+    tried: tuple[Tried, ...] = ()
 
 
 def saved(baseline: Fraction | None, cost: Fraction | None, *, opportunity: bool) -> Fraction | None:

@@ -1,7 +1,7 @@
 """Robots one by one: bounds on short windows against brute force, and answers where nothing else is asked."""
 
 import threading
-from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import search.improvements
 import serendipity
 from search.apart import timeline
 from search.apart.short_windows import ShortWindows, short_windows
@@ -19,7 +18,6 @@ from search.engine.best_first import Incumbent
 from search.prepared_task import PreparedTask
 from search.spaces.windowed import Windowed
 from serendipity.model import Options, Task
-from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
@@ -34,7 +32,7 @@ def _asked(task: Task, options: Options) -> tuple[SearchContext, ShortWindows, I
     """Short windows of a task, with ``pi_H`` as the incumbent; None where there are none."""
     context = SearchContext(PreparedTask(task), options, Deadline())
     optimal = context.canonical_plan()
-    if optimal is None or not optimal.actions:
+    if optimal is None or not optimal.actions or task.robot_goal:
         return None
     keys, plan = context.keys, optimal.actions
     idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
@@ -100,13 +98,12 @@ def test_bounds_where_robots_have_too_many_states(monkeypatch: pytest.MonkeyPatc
     assert forgotten or most == 1
 
 
-def test_answers_equal_brute_force(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_answers_equal_brute_force() -> None:
     """Robots one by one from the first node on, in every option."""
-    monkeypatch.setattr(search.improvements, "FIRST", 0)
 
     @given(calls(modes=("serendipity",), of=family_tasks(), ties=False))
     def law(call: Call) -> None:
-        both = exact_and_planned(call)
+        both = exact_and_planned(replace(call, options=call.options.but(strategies="-few-nodes")))
         if both is None:
             return
         optimum, answer = both
@@ -147,10 +144,9 @@ def test_robots_who_do_not_need_one_another(robots: int, places: int, cost: str)
     assert found[0] == found[1] == Fraction(cost)
 
 
-def test_a_call_that_robots_one_by_one_settle(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(search.improvements, "FIRST", 0)
+def test_a_call_that_robots_one_by_one_settle() -> None:
     task = _errands(2, 5)
-    answer = serendipity.plan(task, discount="0.9")
+    answer = serendipity.plan(task, discount="0.9", strategies="human-plan,bound,joint-bound,robots-apart")
     assert (answer.status, answer.cost) == ("optimal", 4.5)
     assert serendipity.check(task, answer).verdict != "refuted"
 
@@ -173,13 +169,10 @@ def test_an_epoch_of_many_ways_is_left_when_the_time_for_it_is_up(monkeypatch: p
         up.set()
         end(self, *arguments)
 
-    def next_step(*_: object, **__: object) -> Iterator[Incumbent]:
-        raise LimitReachedError("time-limit")
-
     monkeypatch.setattr(Windowed, "_end", offered)
     monkeypatch.setattr(Deadline, "part", lambda self, _: self.within(cancelled=up))
-    monkeypatch.setattr(search.improvements, "one_by_one", next_step)
-    assert serendipity.plan(task, discount="0.9").status == "feasible"
+    answer = serendipity.plan(task, discount="0.9", strategies="human-plan,bound,few-nodes")
+    assert answer.status == "feasible"
     assert 0 < len(ends) < 2_000
 
 

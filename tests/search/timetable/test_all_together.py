@@ -1,24 +1,23 @@
 """All agents at once beside the human's timetable: the best window of one epoch, against brute force."""
 
+from contextlib import suppress
 from fractions import Fraction
-from itertools import chain
 from math import lcm
 from random import Random
 
 import pytest
 
-import search.improvements
 import serendipity
 from search.context import SearchContext
 from search.engine.best_first import Incumbent, Progress
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from search.prepared_task import PreparedTask
-from search.timetable import all_together as room
 from search.timetable import epochs
 from search.timetable.all_together import AllTogether
 from serendipity.evaluation.crosscheck import random_call
 from serendipity.model import Options, Task
+from serendipity.model.errors import LimitReachedError
 from serendipity.model.numbers import as_written
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import conflicting
@@ -55,7 +54,9 @@ def _largest_cost(task: Task, options: Options) -> int:
     return int(max(costs) * lcm(*(cost.denominator for cost in costs)))
 
 
-def _looked_at(task: Task, options: Options) -> tuple[SearchContext, Incumbent, Progress] | None:
+def _looked_at(
+    task: Task, options: Options, most: tuple[int, ...] = (300_000,)
+) -> tuple[SearchContext, Incumbent, Progress] | None:
     """What is found from ``pi_H`` as the incumbent; None where the human has no plan, or needs none."""
     context = SearchContext(PreparedTask(task), options, Deadline())
     optimal = context.canonical_plan()
@@ -66,24 +67,21 @@ def _looked_at(task: Task, options: Options) -> tuple[SearchContext, Incumbent, 
     incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
     progress = Progress()
     together = AllTogether(context, plan, len(plan), incumbent, progress, INFINITE_KEY)
-    for _ in chain(together.soon(), together.still()):
-        pass
+    for states in most:
+        for _ in together.windows(states, context.deadline):
+            pass
     return context, incumbent, progress
 
 
-@pytest.mark.parametrize(("few", "many"), [(300_000, 3_000_000), (3, 12), (3, 3)])
+@pytest.mark.parametrize("most", [(300_000,), (3, 12, 300_000), (3, 300_000)])
 @pytest.mark.parametrize("draw", [_of_family, _drawn])
-def test_the_best_window_of_one_epoch_is_found(
-    draw: object, few: int, many: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_best_window_of_one_epoch_is_found(draw: object, most: tuple[int, ...]) -> None:
     """In one go, and where the first looks end after a few states."""
-    monkeypatch.setattr(room, "_FEW_STATES", few)
-    monkeypatch.setattr(room, "_MANY_STATES", many)
     better = 0
     for seed in range(250):
         task, options = draw(seed)  # type: ignore[operator]
         asked = not task.robot_goal and _largest_cost(task, options) < 1 << 20
-        found = _looked_at(task, options) if asked else None
+        found = _looked_at(task, options, most) if asked else None
         if found is None:
             continue
         context, incumbent, progress = found
@@ -97,24 +95,21 @@ def test_the_best_window_of_one_epoch_is_found(
     assert better > 30
 
 
-def test_a_call_that_it_settles(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_call_that_it_settles() -> None:
     """Two robots who hand things to each other, so that neither does any good by itself."""
-    monkeypatch.setattr(search.improvements, "FIRST", 0)
-    monkeypatch.setattr(search.improvements, "one_by_one", lambda *_, **__: iter(()))
+    others = "-few-nodes,-robots-apart,-robots-by-numbers"
     for seed in range(40):
         task, options = _of_family(seed)
-        answer = serendipity.plan(task, discount=options.discount, interference=options.interference)
+        asked = {"discount": options.discount, "interference": options.interference}
+        answer = serendipity.plan(task, strategies=others, **asked)
         if answer.status == "optimal":
             assert as_written(answer.objective or 0.0) == best(task, answer.options).objective
             assert serendipity.check(task, answer).verdict != "refuted"
 
 
-def test_too_many_states_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "_MOST_STATES", 0)
-    monkeypatch.setattr(room, "_FEW_STATES", 0)
-    monkeypatch.setattr(room, "_MANY_STATES", 0)
+def test_too_many_states_are_given_up() -> None:
     task = FAMILIES["blocks"](Random(1), 3, AGENTS[:2])
-    found = _looked_at(task, ONE_EPOCH)
+    found = _looked_at(task, ONE_EPOCH, (0, 0))
     assert found is not None
     assert found[2].bound == 0
 
@@ -167,7 +162,10 @@ def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
     assert optimal is not None
     incumbent = Incumbent(INFINITE_KEY - 1)
     progress = Progress()
-    for _ in AllTogether(context, optimal.actions, 8, incumbent, progress, INFINITE_KEY).still():
-        pass
+    with suppress(LimitReachedError):
+        for _ in AllTogether(context, optimal.actions, 8, incumbent, progress, INFINITE_KEY).windows(
+            10_000_000, context.deadline
+        ):
+            pass
     assert progress.bound == 0, "there was not enough time for all"
     assert context.deadline.elapsed() < 0.5

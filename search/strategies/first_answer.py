@@ -1,40 +1,22 @@
-"""``pi_H`` as it is predicted: the canonical optimal plan, or soon some plan where that takes too long."""
+"""Doing nothing beside a plan of the human alone: the first answer, and all that individual mode asks for."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from fractions import Fraction
-from typing import Final, NamedTuple
 
 from search.context import SearchContext
 from search.engine.paths import plan_steps
 from search.human.individual_planner import FoundPlan
 from search.human.plan_graph import PlanGraph
 from search.prepared_task import PreparedTask
+from search.strategies.limits import FIRST_BOUND
 from search.warm_start import WarmStart, warm_plan
 from serendipity.model.answers.answer import Answer
-from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
+from serendipity.model.errors import LIMITS
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.task import HumanPlan
-
-_SHARE: Final = 0.6
-"""What of the time that is left the optimal plan may take, where other plans are at hand."""
-
-_SOON: Final = 0.1
-"""What of it a bound on all answers may take."""
-
-
-class Prediction(NamedTuple):
-    """A plan of the human's.
-
-    Attributes:
-        actions: its actions.
-        optimal: whether it is known to be the canonical one; another may cost as little.
-    """
-
-    actions: HumanPlan
-    optimal: bool
 
 
 def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
@@ -56,8 +38,8 @@ def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPla
     return None if optimal is None else optimal.actions
 
 
-class AtHand:
-    """Doing nothing beside some plan of the human's that is at hand, where an optimal one may take long.
+class FirstAnswer:
+    """Doing nothing beside some plan of the human's that is found soon, where an optimal one may take long.
 
     Args:
         context: of the call.
@@ -65,7 +47,7 @@ class AtHand:
         warm: what is known before.
 
     Attributes:
-        plan: some plan of theirs; None where an optimal one is found soon, or ``pi_H`` is given.
+        plan: some plan of theirs; None where an optimal one is found soon, or one is given.
         least: what no answer costs less than, as far as that was asked for.
 
     Raises:
@@ -76,11 +58,19 @@ class AtHand:
         self, context: SearchContext, given: HumanPlan | None, warm: WarmStart | None = None
     ) -> None:
         self._context = context
+        self._given = given
         self.plan: HumanPlan | None = None
         self.least = Fraction(0)
-        if given is None and context.distances_say_little:
-            known = None if warm is None else warm_plan(context, warm)
-            self.plan = known or context.alone.first_plan(context.packed.init)
+        warm = warm or WarmStart()
+        if context.options.mode == "individual":
+            known = warm_plan(context, warm)
+            if known is not None and warm.is_best and context.task.cost_of(known) == warm.bound:
+                context.alone.proved(context.packed.init, known)
+            self.plan = _cheapest(context, (known, given))
+        elif given is None and context.distances_say_little:
+            self.plan = warm_plan(context, warm)
+        if self.plan is None and given is None and context.distances_say_little:
+            self.plan = context.alone.first_plan(context.packed.init)
 
     def answers(self, *, bounded: bool = False) -> Iterator[Answer]:
         """The answer, where nothing speaks against it.
@@ -136,7 +126,7 @@ class AtHand:
         """
         call = self._context
         with suppress(*LIMITS):
-            context = SearchContext(call.prepared, call.options, call.deadline.part(_SOON))
+            context = SearchContext(call.prepared, call.options, call.deadline.part(FIRST_BOUND))
             if context.team is not None:
                 amount = context.team.planner.bound(context.packed.init, context.deadline)
                 self.least = max(self.least, context.keys.objective(context.amount_key(amount)))
@@ -148,8 +138,8 @@ def _fits(options: Options, plan: HumanPlan) -> bool:
     return horizon is None or horizon == INFINITE or len(plan) <= int(horizon)
 
 
-def at_hand(prepared: PreparedTask, options: Options, deadline: Deadline) -> AtHand:
-    """What is at hand where ``pi_H`` is to be predicted.
+def first_answer(prepared: PreparedTask, options: Options, deadline: Deadline) -> FirstAnswer:
+    """The first answer where ``pi_H`` is to be predicted.
 
     Args:
         prepared: the task.
@@ -159,64 +149,23 @@ def at_hand(prepared: PreparedTask, options: Options, deadline: Deadline) -> AtH
     Raises:
         LimitReachedError: the deadline came before any plan.
     """
-    return AtHand(SearchContext(prepared, options, deadline), None)
+    return FirstAnswer(SearchContext(prepared, options, deadline), None)
 
 
-def expected_plan(context: SearchContext, given: HumanPlan | None, at_hand: AtHand) -> Prediction | None:
-    """``pi_H``: the given plan, else the canonical one, or another where the deadline is near; None if none.
-
-    Args:
-        context: of the call.
-        given: ``pi_H``, already replayed, or None to predict it.
-        at_hand: some plan of theirs, if there is one.
-
-    Raises:
-        LimitReachedError: the deadline came before any plan that fits.
-    """
-    if given is not None:
-        return Prediction(given, optimal=False)
-    if at_hand.plan is None:
-        optimal = context.canonical_plan()
-        return None if optimal is None else Prediction(optimal.actions, optimal=True)
-    try:
-        optimal = context.under(context.deadline.part(_SHARE)).canonical_plan()
-    except LimitReachedError:
-        context.deadline.check()
-        best = at_hand.best
-        if best is None:
-            raise
-        return Prediction(best, optimal=False)
-    assert optimal is not None, "there is a plan"
-    return Prediction(optimal.actions, optimal=True)
+def some_plan_alone(context: SearchContext, given: HumanPlan | None, plan: HumanPlan) -> Answer:
+    """The answer of individual mode while no plan is known to be optimal."""
+    return _some(context, FoundPlan(plan, 0, 0), given, proved=False)
 
 
-def individual_answers(
-    context: SearchContext, human_plan: HumanPlan | None, warm: WarmStart
-) -> Iterator[Answer]:
-    """The human alone, whatever plan of theirs is given: some plan soon, and then an optimal one.
+def plan_alone_at_limit(context: SearchContext, given: HumanPlan | None, plan: HumanPlan) -> Answer:
+    """The answer of individual mode at a limit: some plan, or a better one that was come across."""
+    best = _cheaper(context, plan)
+    return _some(context, best, given, proved=_least(context) >= context.task.cost_of(best.actions))
 
-    Args:
-        context: of the call.
-        human_plan: ``pi_H``, already replayed, or None to predict it.
-        warm: what is known before.
-    """
-    cost_of, known = context.task.cost_of, warm_plan(context, warm)
-    if known is not None and warm.is_best and cost_of(known) == warm.bound:
-        context.alone.proved(context.packed.init, known)
-    try:
-        first = AtHand(context, None).plan if human_plan is None else human_plan
-        if first is not None:
-            known = first if known is None else min(known, first, key=cost_of)
-        if known is not None:
-            yield _some(context, FoundPlan(known, 0, 0), human_plan, proved=False)
-        yield _optimal(context, human_plan)
-    except LIMITS as limit:
-        reason = limit_reason(limit)
-        if known is None:
-            yield Answer("unknown", reason=reason)
-        else:
-            plan = _cheaper(context, known)
-            yield _some(context, plan, human_plan, proved=_least(context) >= cost_of(plan.actions))
+
+def _cheapest(context: SearchContext, plans: Iterable[HumanPlan | None]) -> HumanPlan | None:
+    """The first one of the cheapest plans; None without any."""
+    return min((plan for plan in plans if plan is not None), key=context.task.cost_of, default=None)
 
 
 def _cheaper(context: SearchContext, plan: HumanPlan) -> FoundPlan:
@@ -259,8 +208,16 @@ def _least(context: SearchContext) -> Fraction:
         return Fraction(0)
 
 
-def _optimal(context: SearchContext, human_plan: HumanPlan | None) -> Answer:
-    optimal = context.canonical_plan()
+def optimal_plan_alone(
+    context: SearchContext, human_plan: HumanPlan | None, optimal: FoundPlan | None
+) -> Answer:
+    """The answer of individual mode.
+
+    Args:
+        context: of the call.
+        human_plan: ``pi_H``, where it is given.
+        optimal: the human's canonical plan; None where they have none.
+    """
     if optimal is None:
         return Answer("infeasible", reason="no-human-plan")
     best = optimal.actions

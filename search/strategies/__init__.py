@@ -1,0 +1,1 @@
+"""Ways to answers, and the order and time in which they are tried."""

@@ -1,0 +1,104 @@
+"""What the human does alone: ``pi_H``, and what a call knows of it before robots come in."""
+
+from collections.abc import Iterator
+
+from search.engine.best_first import Incumbent, Progress, best_first
+from search.packed.cost_vector import INFINITE_KEY
+from search.strategies.call import Call, Part
+from search.strategies.conditions import is_for_team_first
+from search.strategies.first_answer import FirstAnswer
+from search.strategies.outcome import answered
+from search.warm_start import replayed
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.task.task import HumanPlan
+
+
+def first_plan(call: Call, _: Part) -> Iterator[None]:
+    """Some plan of the human's, by a greedy search, and doing nothing beside it."""
+    call.first = FirstAnswer(call.context, call.given, call.warm)
+    plan = call.first.plan
+    if plan is not None and (call.options.mode == "individual" or call.first.beside(plan) is not None):
+        yield
+
+
+def optimal_plan(call: Call, part: Part) -> None:
+    """The human's canonical plan; at a limit of this part alone, the best plan that was come across."""
+    try:
+        found = call.under(part.deadline).canonical_plan()
+    except LimitReachedError:
+        call.context.deadline.check()
+        plan = None if call.first is None else call.first.best
+        if plan is None or call.options.mode == "individual":
+            raise
+        call.follow(plan, optimal=False)
+        return
+    if call.options.mode == "individual":
+        call.optimum = found
+        call.is_done = True
+    elif found is not None:
+        call.follow(found.actions, optimal=True)
+    elif call.options.windowed or call.options.mode == "serendipity":
+        call.refuse("no-human-plan")
+    else:
+        call.follow(None, optimal=True)
+
+
+def known_plan(call: Call, part: Part) -> None:
+    """What is left of the last answer, where it is a plan of this call."""
+    context = call.under(part.deadline)
+    found = replayed(context, call.plan or (), call.epochs, call.most_cost, call.warm)
+    if found is not None:
+        call.offer(found)  # told once it is known what the human gains alone
+
+
+def plan_alone(call: Call, part: Part) -> None:
+    """What the human gains alone, where the plan that is given is not an optimal one (semantics 1)."""
+    plan = call.plan
+    assert plan is not None and call.given is not None, "it is given"
+    optimum = call.context.alone.key(call.context.packed.init)
+    call.is_improvable = _is_dearer(call, plan, optimum)
+    if call.is_improvable and _may_turn_at_once(call, optimum):
+        # Then what they gain alone is known, and what robots gain has to have a smaller objective.
+        window = call.keys.epoch_weight + call.keys.of_start(len(plan), int(call.horizon))
+        call.idle = Incumbent(optimum + window)
+        call.offer(call.idle)
+    elif call.is_improvable:
+        alone = call.unhelped()
+        known = alone.key
+        for _ in best_first(call.space(part.deadline, known, idle=True), alone, Progress(), part.deadline):
+            pass
+        if not call.task.robot_goal:
+            call.idle = alone
+        elif alone.key < known:
+            call.unaided = alone
+        call.offer(alone)
+    call.knows_alone = True
+
+
+def _is_dearer(call: Call, plan: HumanPlan, optimum: int) -> bool:
+    """Whether a plan costs more than an optimal one, by the key of that."""
+    return call.task.cost_of(plan) > call.keys.cost(optimum)
+
+
+def _may_turn_at_once(call: Call, optimum: int) -> bool:
+    """Whether they may turn to an optimal plan in a window of one epoch, and robots have no goal."""
+    options = call.options
+    any_suffix = options.suffix == "replan" and options.preservation == "kernel"
+    free = options.mode == "serendipity" and any_suffix and options.max_cost is None
+    fits = call.epochs is not None and call.keys.actions(optimum) <= call.epochs
+    return free and fits and not call.task.robot_goal
+
+
+def first_bound(call: Call, _: Part) -> Iterator[None]:
+    """What the human has to do themselves bounds every plan; and whether that was known to be all."""
+    if not is_for_team_first(call):
+        call.raise_bound(call.least())
+    if call.is_known_best or (call.epochs == 0 and answered(call).key < INFINITE_KEY):
+        call.finish()
+    yield
+
+
+def saving(call: Call, part: Part) -> None:
+    """What the human does alone, for the saving of an answer that did not have to wait for it."""
+    optimal = call.under(part.deadline).canonical_plan()
+    call.compare(None if optimal is None else optimal.actions)

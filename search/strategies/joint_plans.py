@@ -1,0 +1,154 @@
+"""Composite plans: where goals are shared they bound the answer in every mode, and one of them may be it."""
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING
+
+from search.engine.best_first import Incumbent, Node, Progress, Ties, best_first
+from search.engine.paths import path_steps
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.parallelise import schedule
+from search.spaces.factory import joint_space
+from search.spaces.from_composite import Suggestions
+from search.strategies.call import Call, Part
+from search.strategies.conditions import joint_optimum_is_open
+from search.strategies.limits import SUGGESTIONS
+from serendipity.model.errors import LimitReachedError
+
+if TYPE_CHECKING:  # loaded by the calls that it serves
+    from search.classical.team import Sets, Team
+
+
+def team_optimum(call: Call, part: Part) -> Iterator[None]:
+    """The best composite plan of any length, which is the answer."""
+    team, context = _team(call), call.context
+    before = call.progress.expanded, call.progress.generated
+    init = context.packed.init
+    try:
+        for sets in team.better_plans(
+            init, part.deadline, lambda amount: call.raise_bound(context.amount_key(amount))
+        ):
+            _count(call, team, before)
+            if call.offer(_after(call, sets)):
+                yield
+    finally:
+        _count(call, team, before)
+    call.finish()
+
+
+def _count(call: Call, team: "Team", before: tuple[int, int]) -> None:
+    expanded, generated, _ = team.planner.counts()
+    call.progress.expanded, call.progress.generated = before[0] + expanded, before[1] + generated
+
+
+def _after(call: Call, sets: "Sets") -> Incumbent:
+    """A plan of the team as an incumbent."""
+    context = call.context
+    node = Node(0, 0, context.packed.init, 0, 0, None, ())
+    for actions in sets:
+        node = context.after(node, [context.packed.op(action) for action in actions])
+    return Incumbent(node.key, node)
+
+
+def _team(call: Call) -> "Team":
+    team = call.context.team
+    assert team is not None, "the kernel can tell"
+    return team
+
+
+def joint_optimum(call: Call, part: Part) -> Iterator[None]:
+    """The joint optimum without a horizon, as far as time goes: a bound, and what it suggests."""
+    plans = _team(call).better_plans(call.context.packed.init, part.deadline, partial(_raise, call))
+    yield from _take_all(call, plans)
+
+
+def open_joint_optimum(call: Call, part: Part) -> Iterator[None]:
+    """The same, from where a limit came."""
+    plans = _team(call).go_on(call.context.packed.init, part.deadline, partial(_raise, call))
+    yield from _take_all(call, plans)
+
+
+def _take_all(call: Call, plans: "Iterable[Sets]") -> Iterator[None]:
+    """Offer what plans of the team suggest; the last of them costs least."""
+    for sets in plans:
+        call.has_joint_plan = True
+        steps = schedule(call.task, sets)
+        if _suggest(call, partial(Suggestions.of, steps=steps)):
+            yield
+    _raise(call, _team(call).planner.least if call.has_joint_plan else INFINITE_KEY)
+
+
+def _raise(call: Call, amount: int) -> None:
+    """Note that no composite plan costs the team less than an amount."""
+    call.raise_joint_bound(call.context.amount_key(amount))
+
+
+def along_human_plan(call: Call, part: Part) -> Iterator[None]:
+    """Robots begin at once with what would be best after an epoch of ``pi_H``."""
+    context, plan, state = call.context, call.plan or (), call.context.packed.init
+    # Where the search without a horizon is to go on, it keeps its planner to itself.
+    team = call.under(part.deadline).team if joint_optimum_is_open(call) else context.team
+    assert team is not None, "the kernel can tell"
+    for number, action in enumerate(plan[:-1], 1):
+        op = context.packed.op(action)
+        state = state & op.keep | op.put
+        with suppress(LimitReachedError):
+            best = team.best_plan(state, part.deadline.part(2 / (len(plan) - number + 1)))
+            ops = [context.packed.op(action) for chosen in best or () for action in chosen]
+            if _suggest(call, partial(Suggestions.beside, ops=ops)):
+                yield
+        context.deadline.check()
+
+
+def greedily_within_horizon(call: Call, part: Part) -> Iterator[None]:
+    """Composite plans within ``T`` that a greedy search comes by."""
+    joint = _incumbent(call)
+    space = joint_space(call.context, int(call.horizon), joint.key, part.limit)
+    for _ in best_first(space, joint, Progress(), part.deadline):
+        if _take(call, joint):
+            yield
+
+
+def within_horizon(call: Call, part: Part) -> Iterator[None]:
+    """A best composite plan within ``T``, which is the answer but for its window and for ties."""
+    joint = _incumbent(call)
+    progress = Progress(call.progress.bound, told_at=part.deadline.elapsed())
+    space = joint_space(call.context, int(call.horizon), joint.key)
+    shift = call.keys.objective_shift
+    for _ in best_first(space, joint, progress, part.deadline, Ties(shift, 0)):
+        call.progress.expanded, call.progress.generated = progress.expanded, progress.generated
+        call.raise_joint_bound(progress.bound)
+        _take(call, joint)
+        yield
+    call.raise_joint_bound(joint.key >> shift << shift)
+
+
+def _incumbent(call: Call) -> Incumbent:
+    """What composite plans within ``T`` have to beat: the best plan so far, one with a window or not."""
+    known = min(call.baseline.key, call.best.key)
+    return Incumbent(known) if call.options.windowed else call.best
+
+
+def _take(call: Call, joint: Incumbent) -> bool:
+    """Whether a composite plan has made the call's incumbent better."""
+    if joint is call.best or joint.node is None:
+        return joint is call.best
+    return _suggest(call, partial(Suggestions.of, steps=path_steps(joint.node)))
+
+
+def _suggest(call: Call, of: Callable[[Suggestions], Iterator[Incumbent]]) -> bool:
+    """Whether something that composite plans suggest is the best so far in this mode."""
+    context, options = call.context, call.options
+    in_order = options.preservation == "kernel" and not options.keep_prefix
+    if call.epochs is None or context.weights.announces or not in_order:
+        return False
+    part = context.under(context.deadline.part(SUGGESTIONS))
+    suggestions = Suggestions(part, call.plan or (), call.epochs, call.most_cost, call.best.key)
+    is_better = False
+    try:
+        for found in of(suggestions):
+            is_better = call.offer(found) or is_better
+    except LimitReachedError:
+        context.deadline.check()
+    return is_better

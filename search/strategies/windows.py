@@ -1,0 +1,55 @@
+"""Searches of all plans of a call, or of those with a short window, in one space."""
+
+from collections.abc import Iterator
+from contextlib import suppress
+
+from search.engine.best_first import Progress, Ties, best_first
+from search.engine.until import EnoughError, Until, few, risen
+from search.strategies.call import Call, Part
+from search.strategies.limits import TIES
+
+
+def all_plans(call: Call, part: Part) -> Iterator[None]:
+    """All plans, until none can be better."""
+    space = call.space(part.deadline, call.best.key)
+    for _ in best_first(space, call.best, call.progress, part.deadline, _ties(call)):
+        yield
+    call.finish()
+
+
+def few_nodes(call: Call, part: Part) -> Iterator[None]:
+    """The same for a number of nodes: many calls need no more."""
+    space = Until(call.space(part.deadline, call.best.key), few(part.limit))
+    with suppress(EnoughError):
+        for _ in best_first(space, call.best, call.progress, part.deadline, _ties(call)):
+            yield
+        call.finish()
+
+
+def while_bounds_are_exact(call: Call, part: Part) -> Iterator[None]:
+    """The same for as long as no plan costs more than seemed possible at the start."""
+    enough = risen(call.progress, call.keys.objective_shift, lambda: call.context.team is not None)
+    space = Until(call.space(part.deadline, call.best.key), enough)
+    with suppress(EnoughError):
+        for _ in best_first(space, call.best, call.progress, part.deadline):
+            yield
+        call.finish()
+
+
+def one_epoch(call: Call, part: Part) -> Iterator[None]:
+    """Plans with the shortest window, where longer ones may be better, too."""
+    space = call.space(part.deadline, call.best.key, max_window=1)
+    for _ in best_first(space, call.best, Progress(), part.deadline):
+        yield
+
+
+def ties(call: Call, part: Part) -> Iterator[None]:
+    """Better windows and fewer actions for the same objective, as far as they come soon."""
+    space = call.space(part.deadline, call.best.key)
+    for _ in best_first(space, call.best, call.progress, part.deadline, _ties(call)):
+        yield
+
+
+def _ties(call: Call) -> Ties | None:
+    """How far plans of the best objective are told apart: all the way, where private distances say enough."""
+    return Ties(call.keys.objective_shift, TIES) if call.context.distances_say_little else None
