@@ -131,6 +131,8 @@ def solve(
             if _is_due(call, strategy.stage) and strategy.applies(call):
                 for _ in _tried(call, strategy):
                     yield answer_of(call)
+        if not call.is_done and not call.is_settled:
+            call.limit = "strategies"  # those that were chosen are not enough
     except LIMITS as limit:
         call.limit = limit_reason(limit)
         _go_on_beside_first_plan(call)

@@ -1,0 +1,105 @@
+"""Each strategy alone, and the portfolio without each: never a wrong claim, and the same optimum."""
+
+from dataclasses import replace
+from random import Random
+from typing import Any
+
+import pytest
+
+import serendipity
+from search.strategies.portfolio import STRATEGIES, chosen
+from serendipity import Result, Task, UsageError
+from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+
+NAMES = [strategy.name for strategy in STRATEGIES]
+
+CALLS: list[dict[str, Any]] = [
+    {"mode": "individual"},
+    {"discount": "0.9"},
+    {"discount": "0.5", "window_weight": 0},
+    {"discount": "0.9", "max_window": 1},
+    {"mode": "communication", "discount": "0.9"},
+    {"mode": "composite", "discount": "0.5"},
+    {"mode": "composite", "discount": "0.5", "horizon": "inf"},
+]
+
+
+def _tasks() -> list[Task]:
+    dice = Random("portfolio")
+    tasks = []
+    for family in sorted(FAMILIES):
+        size, agents = SMALL[family][0]
+        tasks.append(FAMILIES[family](dice, size, AGENTS[:agents]))
+    return tasks
+
+
+TASKS = _tasks()
+
+
+@pytest.fixture(scope="module")
+def optima() -> dict[tuple[int, int], Result]:
+    """The answers of all strategies together."""
+    return {
+        (i, j): serendipity.plan(replace(task), **options)
+        for i, task in enumerate(TASKS)
+        for j, options in enumerate(CALLS)
+    }
+
+
+def _claims_no_more(answer: Result, optimum: Result) -> None:
+    """Assert that an answer is not better than the optimum, and its bound not above it."""
+    if answer.status in ("optimal", "infeasible"):
+        assert (answer.status, answer.objective) == (optimum.status, optimum.objective)
+    if answer.objective is not None and optimum.objective is not None and not optimum.opportunity:
+        assert answer.cost is not None and optimum.cost is not None and answer.cost >= optimum.cost - 1e-9
+    if answer.lower_bound is not None and optimum.objective is not None:
+        assert answer.lower_bound <= optimum.objective + 1e-9
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_one_alone(name: str, optima: dict[tuple[int, int], Result]) -> None:
+    """Beside those that the others stand on."""
+    for (i, j), optimum in optima.items():
+        answer = serendipity.plan(replace(TASKS[i]), strategies=f"human-plan,bound,{name}", **CALLS[j])
+        assert {row["name"] for row in answer.statistics["strategies"]} <= {"human-plan", "bound", name}
+        _claims_no_more(answer, optimum)
+        if answer.status == "feasible":
+            assert serendipity.check(TASKS[i], answer).verdict != "refuted"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_but_one(name: str, optima: dict[tuple[int, int], Result]) -> None:
+    for (i, j), optimum in optima.items():
+        answer = serendipity.plan(replace(TASKS[i]), strategies=f"-{name}", **CALLS[j])
+        _claims_no_more(answer, optimum)
+        if name not in ("human-plan", "all"):
+            assert (answer.status, answer.objective) == (optimum.status, optimum.objective)
+
+
+def test_each_says_what_it_does() -> None:
+    assert len({*NAMES}) == len(NAMES)
+    assert all(strategy.does and 0 < strategy.share <= 1 for strategy in STRATEGIES)
+
+
+def test_none_is_left_without_saying_so() -> None:
+    answer = serendipity.plan(TASKS[0], strategies="all")
+    assert (answer.status, answer.reason) == ("unknown", "strategies")
+
+
+def test_names_that_are_none() -> None:
+    with pytest.raises(UsageError, match="there is no 'al'; expected some of first-plan, "):
+        serendipity.plan(TASKS[0], strategies="al")
+    with pytest.raises(UsageError, match="strategies: expected names"):
+        serendipity.plan(TASKS[0], strategies=3)
+    assert [strategy.name for strategy in chosen(["all", "bound"])] == ["bound", "all"]
+    assert "ties" not in [strategy.name for strategy in chosen(["-ties"])]
+
+
+def test_where_the_time_went_is_told() -> None:
+    answer = serendipity.plan(serendipity.example("room2"), discount=0.6)
+    rows = answer.statistics["strategies"]
+    assert [row["name"] for row in rows] == ["human-plan", "bound", "all"]
+    assert [row["better"] for row in rows] == [0, 0, 1]
+    assert rows[-1]["settled"] and rows[-1]["bound"] == answer.objective
+    assert 0 < sum(row["seconds"] for row in rows) < answer.statistics["elapsed_seconds"]
+    assert serendipity.Result.from_dict(answer.to_dict()).statistics["strategies"] == rows
