@@ -4,6 +4,9 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 :class:`PreparedTask`, which its caller makes, holds and moves.
 """
 
+from importlib import import_module
+from typing import Final
+
 from search.human.plan_graph import PlanGraph
 from search.prepared_task import PreparedTask, prepare
 from search.strategies.first_answer import FirstAnswer, first_answer, optimal_human_plans
@@ -19,6 +22,22 @@ __all__ = [
     "first_answer",
     "least_over_ties",
     "optimal_human_plans",
+    "preload",
     "prepare",
     "solve",
 ]
+
+_LATER: Final = (
+    "search.apart.short_windows",
+    "search.timetable.all_together",
+    "search.classical.canonical",
+    "search.classical.team",
+    "search.kernel.signatures",
+    "search.human.own_problem",
+)
+
+
+def preload() -> None:
+    """Load what calls load where they turn out to be long, before a clock starts: arrays, and the kernel."""
+    for name in _LATER:
+        import_module(name)

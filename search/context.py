@@ -10,10 +10,9 @@ from search.engine.best_first import Node
 from search.heuristics.first_interaction import no_team_bound
 from search.heuristics.interactions import Interactions
 from search.heuristics.private_distances import PrivateDistances
-from search.human.individual_planner import FoundPlan, HumanOptimum, IndividualPlanner
+from search.human.individual_planner import FoundPlan, IndividualPlanner, priced_planner
 from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_keys
 from search.human.plan_graph import PlanGraph
-from search.human.priced_planner import PricedPlanner
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.operators import Operator, changed
 from search.packed.packed_task import PackedGoal
@@ -109,16 +108,16 @@ class SearchContext:
         return self.packed.own_mask | self.packed.goal.mask | self.packed.robot_goal.mask
 
     @cached_property
-    def alone(self) -> HumanOptimum:
+    def alone(self) -> IndividualPlanner:
         """The human alone, to ``G_H``."""
         if not self.weights.announces:
             human = self.tables.human
             bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
-            return PricedPlanner(self.packed, bound, human.memory(), self.weights, self.deadline)
+            return priced_planner(self.packed, bound, human.memory(), self.weights, self.deadline)
         return IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, self.deadline)
 
     @cached_property
-    def alone_to_both(self) -> HumanOptimum | None:
+    def alone_to_both(self) -> IndividualPlanner | None:
         """The human alone, to ``G_H`` and ``G_R``; None where they can't affect ``G_R``."""
         robot_goal = self.task.robot_goal
         touched = {*robot_goal.positive, *robot_goal.negative}

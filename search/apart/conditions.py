@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from search.abstractions.mutexes import Pairs
 from search.apart.rows import Rows, column
+from search.classical.mutexes import Pairs
 from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline

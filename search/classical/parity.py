@@ -9,7 +9,7 @@ equations modulo 2.
 from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
-from search.abstractions.mutexes import Pairs
+from search.classical.mutexes import Pairs
 from search.classical.problem import ClassicalProblem
 from search.packed.operators import Operator
 from serendipity.model.resources.deadline import Deadline

@@ -11,9 +11,9 @@ from array import array
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Final
 
-from search.abstractions.patterns import Field, patterns
 from search.algorithms.astar import AStar
 from search.classical.parity import Parity, parity_of
+from search.classical.patterns import Field, patterns
 from search.classical.problem import ClassicalProblem
 from search.classical.told import Told, memory_for
 from search.packed.cost_vector import INFINITE_KEY

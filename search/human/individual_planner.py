@@ -6,12 +6,12 @@ search per projection, and a search also fills in the states along its result.
 """
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.algorithms.astar import AStar
 from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph, edges_into
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Lookup
@@ -23,13 +23,7 @@ if TYPE_CHECKING:
     from search.classical.planner import ClassicalPlanner
 
 _MANY: Final = 2_000
-"""States after which a better bound is worth its tables; in one search, after which the kernel takes over."""
-
-_A_WHILE: Final = 0.5
-"""Seconds without which they are not begun: loading what makes them takes some of that already."""
-
-_SHARE: Final = 0.25
-"""What of the time that is left they may take."""
+"""States in one search after which the kernel takes over."""
 
 
 class Memory:
@@ -39,8 +33,7 @@ class Memory:
         lookup: the human's own operators.
         known: optimal keys by state.
         at_least: what optimal keys are not below.
-        expanded: how many states have come up, until the bound was refined.
-        refined: a better bound than the projection onto private fields, once there is one.
+        expanded: how many states have come up outside of the kernel.
         classical: the kernel on the same question, once it has taken over.
         plans: the optimal plans from the state that was asked about last.
     """
@@ -50,7 +43,6 @@ class Memory:
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
         self.expanded = 0
-        self.refined: Callable[[int], int] | None = None
         self.classical: ClassicalPlanner | None = None
         self.plans: tuple[int, PlanGraph | None] | None = None
 
@@ -73,42 +65,18 @@ class _TakenOverError(Exception):
     """The kernel goes on."""
 
 
-class HumanOptimum(Protocol):
-    """What the human does alone, optimally, with every robot idle."""
-
-    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """The optimal key alone from a packed state; from ``limit`` (a key) on any value says "not below"."""
-
-    def canonical(self, state: int) -> FoundPlan | None:
-        """The canonical optimal plan (semantics 1) from a packed state; None if there is no plan."""
-
-    def first_plan(self, state: int) -> tuple[int, ...] | None:
-        """Some plan from a packed state, soon; None where there is none, or no way to find one soon."""
-
-    def best_plan(self, state: int) -> FoundPlan | None:
-        """The best plan from a packed state that searches have come across so far; None: no plan yet."""
-
-    def least(self, state: int) -> int:
-        """What is known so far that no key from a packed state is below."""
-
-    def plans(self, state: int) -> PlanGraph | None:
-        """All the human's optimal plans from a packed state; None if there is none."""
-
-    def proved(self, state: int, plan: HumanPlan) -> None:
-        """Note that a plan from a packed state is optimal, as was proved over another packing."""
-
-
 class IndividualPlanner:
     """The human's optimal key to a goal with every robot idle.
 
     Args:
         encoding: the packed task.
         goal: what has to hold at the end.
-        weight: key increment of one of their own ops.
-        bound: admissible lower bound to ``goal``.
+        weight: of one of their own ops.
+        bound: admissible lower bound to ``goal`` on sums of weights.
         deadline: polled at each state that comes up.
         memory: what earlier calls have found with the same goal and weights.
-        own_unit: whether weights are in the unit of :func:`.own_weights`, which the kernel knows.
+        prices: makes keys of sums of weights, then in the unit of :func:`.own_weights`, which the kernel
+            knows; None: they are keys.
     """
 
     def __init__(
@@ -119,12 +87,12 @@ class IndividualPlanner:
         bound: PatternDatabase,
         deadline: Deadline,
         memory: Memory | None = None,
-        *,
-        own_unit: bool = False,
+        prices: Weights | None = None,
     ) -> None:
         self._packed = packed
         self._goal = goal
         self._weight = weight
+        self._prices = prices
         self._projection = bound
         self._deadline = deadline
         self._mask = goal.mask | bound.mask | packed.own_mask
@@ -132,12 +100,22 @@ class IndividualPlanner:
         self._lookup = self._memory.lookup
         self._known = self._memory.known
         self._at_least = self._memory.at_least
-        self._own_unit = own_unit
         self._blind = bool(goal.mask & ~bound.mask)
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
-        """See :class:`HumanOptimum`."""
-        state &= self._mask
+        """The optimal key alone from a packed state; from ``limit`` (a key) on any value says "not below"."""
+        if self._prices is not None and limit < INFINITE_KEY:
+            limit = self._prices.own_limit(limit)
+        return self._key_of(self._least_from(state & self._mask, limit))
+
+    def _key_of(self, found: int) -> int:
+        """A sum of weights as a key."""
+        if self._prices is None or found >= INFINITE_KEY:
+            return found
+        return self._prices.of_own({0: found})[0]
+
+    def _least_from(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """The least sum of weights from a state; from ``limit`` on any value says "not below"."""
         known = self._known.get(state)
         if known is not None:
             return known
@@ -175,8 +153,7 @@ class IndividualPlanner:
         parents: dict[int, tuple[int, int]] = {}
         end, hopeless = None, True
         for number, (state, spent) in enumerate(search):
-            if self._refines(start, number):
-                return self.key(start, limit)
+            self._count(number)
             rest = self._rest(state)
             if rest is not None:
                 hopeless = hopeless and rest >= INFINITE_KEY
@@ -203,52 +180,28 @@ class IndividualPlanner:
 
     def _bound(self, state: int) -> int:
         """Lower bound of the optimal key from a packed state."""
-        projected, memory = self._projection(state), self._memory
-        if memory.classical is not None:
-            known = memory.classical.bound(state, self._deadline)
-            return max(projected, known)
-        return projected if memory.refined is None else max(projected, memory.refined(state))
+        projected, classical = self._projection(state), self._memory.classical
+        return projected if classical is None else max(projected, classical.bound(state, self._deadline))
 
-    def _refines(self, start: int, number: int) -> bool:
-        """Whether so many states have come up that the bound has been refined: a search begins anew then.
+    def _count(self, number: int) -> None:
+        """Count a state; after many the kernel goes on, where it can, or at once where the bound is blind.
 
         Args:
-            start: where it began; that nothing leads to a goal from there may show.
             number: how many states have come up before in this search.
 
         Raises:
             _TakenOverError: the kernel has been made ready to go on.
         """
-        memory = self._memory
-        memory.expanded += 1
-        if number == _MANY or (self._blind and memory.expanded == 1):
+        self._memory.expanded += 1
+        if number == _MANY or (self._blind and self._memory.expanded == 1):
             self._take_over()
-            if memory.classical is not None:
+            if self._memory.classical is not None:
                 raise _TakenOverError
-        if memory.expanded != _MANY:
-            return False
-        left = self._deadline.left()
-        if left is not None and left < _A_WHILE:
-            return False
-        # Loaded only here: it takes longer than most calls, which come by without it.
-        from search.abstractions.bound import own_bound
-        from search.abstractions.reachability import may_reach
-
-        packed = self._packed
-        if not may_reach(start, self._goal, packed.fields, packed.own, self._deadline):
-            self._known[start] = INFINITE_KEY
-            return True
-        try:
-            part = self._deadline.part(_SHARE)
-            memory.refined = own_bound(packed, self._goal, self._weight, self._lookup, start, part)
-        except LimitReachedError:
-            self._deadline.check()
-        return memory.refined is not None
 
     def _take_over(self) -> None:
         """Make the kernel ready to go on, where it can."""
-        if self._own_unit and self._memory.classical is None:
-            from search.human.own_problem import own_planner  # only here, as above
+        if self._prices is not None and self._memory.classical is None:
+            from search.human.own_problem import own_planner  # only here: most calls come by without
 
             self._memory.classical = own_planner(self._packed, self._goal, self._mask, self._deadline)
 
@@ -273,7 +226,7 @@ class IndividualPlanner:
         return rest
 
     def canonical(self, state: int) -> FoundPlan | None:
-        """See :class:`HumanOptimum`."""
+        """The canonical optimal plan (semantics 1) from a packed state; None if there is no plan."""
         start = state & self._mask
         if self._memory.classical is None:
             try:
@@ -286,13 +239,13 @@ class IndividualPlanner:
                 return FoundPlan(graph.canonical(), graph.expanded, graph.generated)
         from search.classical.canonical import canonical_plan  # only here, as below
 
-        if self.key(start) >= INFINITE_KEY:
+        if self._least_from(start) >= INFINITE_KEY:
             return None
         assert self._memory.classical is not None, "it has taken over"
         return self._found(canonical_plan(self._memory.classical, start, self._deadline))
 
     def best_plan(self, state: int) -> FoundPlan | None:
-        """See :class:`HumanOptimum`."""
+        """The best plan from a packed state that searches have come across so far; None: no plan yet."""
         classical = self._memory.classical
         return None if classical is None else self._found(classical.best_so_far(state & self._mask))
 
@@ -306,7 +259,7 @@ class IndividualPlanner:
         return FoundPlan(actions, self._memory.expanded + expanded, generated)
 
     def first_plan(self, state: int) -> tuple[int, ...] | None:
-        """See :class:`HumanOptimum`."""
+        """Some plan from a packed state, soon; None where there is none, or no way to find one soon."""
         self._take_over()
         classical = self._memory.classical
         if classical is None:
@@ -315,13 +268,13 @@ class IndividualPlanner:
         return None if numbers is None else tuple(self._packed.own[number].action for number in numbers)
 
     def least(self, state: int) -> int:
-        """See :class:`HumanOptimum`."""
+        """What is known so far that no key from a packed state is below."""
         state &= self._mask
         floor = max(self._known.get(state, 0), self._at_least.get(state, 0))
-        return min(max(floor, self._bound(state)), INFINITE_KEY)
+        return self._key_of(min(max(floor, self._bound(state)), INFINITE_KEY))
 
     def plans(self, state: int) -> PlanGraph | None:
-        """See :class:`HumanOptimum`."""
+        """All the human's optimal plans from a packed state; None if there is none."""
         start = state & self._mask
         try:
             return self._graph(start)
@@ -329,7 +282,7 @@ class IndividualPlanner:
             return self._graph(start)
 
     def proved(self, state: int, plan: HumanPlan) -> None:
-        """See :class:`HumanOptimum`."""
+        """Note that a plan from a packed state is optimal, as was proved over another packing."""
         ops = [self._packed.op(action) for action in plan]
         rest = sum(map(self._weight, ops))
         for op in ops:
@@ -340,7 +293,7 @@ class IndividualPlanner:
         last = self._memory.plans
         if last is None or last[0] != start:
             if self._memory.classical is not None:
-                self.key(start)
+                self._least_from(start)
             last = self._memory.plans = start, self._optimal(start)
         return last[1]
 
@@ -357,8 +310,7 @@ class IndividualPlanner:
         expanded: dict[int, list[tuple[int, int, int]]] = {}
         goals = []
         for state, spent in search:
-            if self._refines(start, 0):
-                return self._optimal(start)
+            self._count(0)
             steps: list[tuple[int, int, int]] = []
             expanded[state] = steps
             if self._goal.holds(state):
@@ -386,8 +338,30 @@ class IndividualPlanner:
         return [step for step, name, last in zip(steps, names, ["", *names], strict=False) if name != last]
 
 
-def canonical(alone: HumanOptimum, state: int) -> tuple[int, ...]:
+def canonical(alone: IndividualPlanner, state: int) -> tuple[int, ...]:
     """The canonical optimal plan (semantics 1) from a packed state that has one."""
     plan = alone.canonical(state)
     assert plan is not None, "asked for plans where there are none"
     return plan.actions
+
+
+def priced_planner(
+    packed: PackedTask, bound: PatternDatabase, memory: Memory, weights: Weights, deadline: Deadline
+) -> IndividualPlanner:
+    """The human alone to ``G_H`` in the keys of a call; what it finds serves calls that weigh otherwise.
+
+    Args:
+        packed: the packed task.
+        bound: what :func:`.own_projection` finds.
+        memory: what earlier calls have found, see :func:`own_memory`.
+        weights: key increments of the call, which say nothing of communication.
+        deadline: polled at each state that comes up.
+    """
+    own = own_weights(packed)
+    return IndividualPlanner(packed, packed.goal, lambda op: own[op.cost], bound, deadline, memory, weights)
+
+
+def own_memory(packed: PackedTask) -> Memory:
+    """A memory that is empty, in the unit of :func:`.own_weights`."""
+    own = own_weights(packed)
+    return Memory(Lookup(packed.own_index, lambda op: own[op.cost]))

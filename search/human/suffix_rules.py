@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from search.human.individual_planner import HumanOptimum, canonical
+from search.human.individual_planner import IndividualPlanner, canonical
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedGoal, PackedTask
@@ -43,8 +43,8 @@ class Replan:
 
     def __init__(
         self,
-        alone: HumanOptimum,
-        both: HumanOptimum | None,
+        alone: IndividualPlanner,
+        both: IndividualPlanner | None,
         robot_goal: PackedGoal,
         keys: CostLayout,
     ) -> None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from search.human.individual_planner import Memory
+from search.human.individual_planner import Memory, own_memory
 from search.human.pattern_database import (
     PatternDatabase,
     Projected,
@@ -12,7 +12,6 @@ from search.human.pattern_database import (
     steps_in,
     whole_graph,
 )
-from search.human.priced_planner import own_memory
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 

@@ -169,7 +169,8 @@ def test_what_is_loaded_in_the_middle_is_loaded_first_under_a_time_limit() -> No
     late = {name for room in ("search", "verify") for name in imported_in_functions(ROOT / room)}
     late = {name for name in late if "assistance" not in name}  # the mode's own modules are known beforehand
     modules = {"verify.certificate.certify", *limits.PLANNING, *limits.CHECKING}
-    code = f"import sys\nfor name in {sorted(modules)}: __import__(name)\nprint(*sys.modules)"
+    load = f"from serendipity.cli.options import limits; limits.load({sorted(modules)})"
+    code = f"import sys; {load}; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     asked_for = {"pulp", "logging", "multiprocessing"}  # by who wants CBC, or has no kernel
     assert late - {*loaded.split()} <= asked_for

@@ -1,6 +1,6 @@
 """``--time-limit`` and ``--memory-limit``: one deadline from a command's beginning to its end."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Annotated, Final
@@ -21,16 +21,7 @@ MemoryLimit = Annotated[
 ]
 
 
-PLANNING: Final = (
-    "search.apart.short_windows",
-    "search.timetable.all_together",
-    "search.classical.canonical",
-    "search.classical.team",
-    "search.kernel.signatures",
-    "search.human.own_problem",
-    "search.abstractions.bound",
-    "search.abstractions.reachability",
-)
+PLANNING: Final = ("search:preload",)
 """What planning loads where it turns out to be long: arrays, and what asks the kernel."""
 
 CHECKING: Final = (
@@ -52,16 +43,25 @@ def begin(time_limit: str | None, memory_limit: str | None, *modules: str) -> De
     Args:
         time_limit: seconds, or None.
         memory_limit: MiB, or None.
-        modules: those that the command is going to use.  They are loaded first, if time is
-            limited: like the start of the interpreter, that takes as long for every task.
+        modules: those that the command is going to use, or ``module:function`` for a function that loads
+            them.  They are loaded first, if time is limited: like the start of the interpreter, that takes
+            as long for every task.
 
     Raises:
         UsageError: a limit is not a number of at least 0.
     """
     if time_limit is not None:
-        for name in ("serendipity.facade.loading", *modules):
-            import_module(name)
+        load(("serendipity.facade.loading", *modules))
     return limits_from(time_limit, memory_limit)
+
+
+def load(modules: Iterable[str]) -> None:
+    """Load modules, or what a ``module:function`` loads."""
+    for name in modules:
+        module, _, function = name.partition(":")
+        loaded = import_module(module)
+        if function:
+            getattr(loaded, function)()
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """Of all cheapest plans the kernel finds the one that enumeration puts first, and keeps those on its way."""
 
+from dataclasses import replace
 from random import Random
 
 import pytest
@@ -8,15 +9,16 @@ from hypothesis import strategies as st
 
 from search.classical.canonical import canonical_plan, in_order
 from search.classical.planner import ClassicalPlanner
+from search.human import individual_planner
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
-from serendipity import Task
+from serendipity import Task, plan
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.builders import task, usar
-from serendipity.testing.strategies import tasks
-from tests.search.abstractions.test_bounds_are_admissible import exact, packed_of
+from serendipity.testing.strategies import family_tasks, tasks
+from tests.search.classical.exact_costs import exact, packed_of
 from tests.search.classical.test_kernel_equals_brute_force import assert_leads_to_goal, planner_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
@@ -148,3 +150,13 @@ def test_the_clock_is_looked_at_while_a_long_plan_is_put_together() -> None:
         planner.known_plan(packed.init, Ends(5))
     with pytest.raises(LimitReachedError):
         in_order(planner.problem.operators, range(many), Ends(100))
+
+
+@given(tasks() | family_tasks())
+def test_a_kernel_that_takes_over_at_once_changes_no_answer(task: Task) -> None:
+    expected = plan(task, mode="individual")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(individual_planner, "_MANY", 1)
+        found = plan(replace(task), mode="individual")
+    assert found.human_plan == expected.human_plan
+    assert (found.status, found.cost) == (expected.status, expected.cost)

@@ -6,7 +6,7 @@ from search.classical.canonical import canonical_plan
 from search.kernel.library import library
 from serendipity.model import Deadline, Task
 from serendipity.testing.builders import task as build
-from tests.search.abstractions.test_bounds_are_admissible import packed_of
+from tests.search.classical.exact_costs import packed_of
 from tests.search.classical.test_kernel_equals_brute_force import planner_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")

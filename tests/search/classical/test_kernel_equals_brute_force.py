@@ -23,7 +23,7 @@ from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.builders import usar
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
-from tests.search.abstractions.test_bounds_are_admissible import exact, packed_of
+from tests.search.classical.exact_costs import exact, packed_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
 

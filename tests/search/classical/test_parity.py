@@ -18,7 +18,7 @@ from serendipity.model import Deadline, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
-from tests.search.abstractions.test_bounds_are_admissible import exact, packed_of
+from tests.search.classical.exact_costs import exact, packed_of
 from tests.search.classical.test_canonical_plans import first_of_all
 from tests.search.classical.test_kernel_equals_brute_force import planner_of
 

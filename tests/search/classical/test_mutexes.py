@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from search.abstractions.mutexes import Pairs
+from search.classical.mutexes import Pairs
 from search.context import SearchContext
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask

@@ -2,8 +2,8 @@
 
 import pytest
 
-from search.abstractions import patterns as module
-from search.abstractions.patterns import Field, patterns
+from search.classical import patterns as module
+from search.classical.patterns import Field, patterns
 from search.packed.packed_task import PackedTask
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.builders import task

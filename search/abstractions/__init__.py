@@ -1,1 +1,0 @@
-"""Abstractions of what the human does alone: projections as arrays, and the sums of several."""
