@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import serendipity
 from search.classical.canonical import canonical_plan, in_order
 from search.classical.planner import ClassicalPlanner
 from search.human import individual_planner
@@ -14,7 +15,7 @@ from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
-from serendipity import Task, plan
+from serendipity import Task
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.builders import task, usar
 from serendipity.testing.strategies import family_tasks, tasks
@@ -154,9 +155,9 @@ def test_the_clock_is_looked_at_while_a_long_plan_is_put_together() -> None:
 
 @given(tasks() | family_tasks())
 def test_a_kernel_that_takes_over_at_once_changes_no_answer(task: Task) -> None:
-    expected = plan(task, mode="individual")
+    expected = serendipity.plan(task, mode="individual")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(individual_planner, "_MANY", 1)
-        found = plan(replace(task), mode="individual")
+        found = serendipity.plan(replace(task), mode="individual")
     assert found.human_plan == expected.human_plan
     assert (found.status, found.cost) == (expected.status, expected.cost)
