@@ -7,12 +7,12 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 from importlib import import_module
 from typing import Final
 
+from search.call.prepared_task import PreparedTask, prepare
 from search.human.plan_graph import PlanGraph
-from search.prepared_task import PreparedTask, prepare
+from search.modes.tie_bound import least_over_ties
 from search.strategies.first_answer import FirstAnswer, first_answer, optimal_human_plans
 from search.strategies.portfolio import solve
-from search.tie_bound import least_over_ties
-from search.warm_start import WarmStart
+from search.strategies.warm_start import WarmStart
 
 __all__ = [
     "FirstAnswer",
@@ -28,8 +28,8 @@ __all__ = [
 ]
 
 _LATER: Final = (
-    "search.apart.short_windows",
-    "search.timetable.all_together",
+    "search.short_windows.independent.short_windows",
+    "search.short_windows.joint.all_together",
     "search.classical.canonical",
     "search.classical.team",
     "search.kernel.signatures",

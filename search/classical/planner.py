@@ -11,11 +11,11 @@ from array import array
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Final
 
-from search.algorithms.astar import AStar
 from search.classical.parity import Parity, parity_of
 from search.classical.patterns import Field, patterns
 from search.classical.problem import ClassicalProblem
 from search.classical.told import Told, memory_for
+from search.engine.astar import AStar
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import applicable
 from serendipity.model.errors import LimitReachedError

@@ -4,13 +4,13 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from search.context import SearchContext
+from search.bounds.first_interaction import no_team_bound
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
-from search.heuristics.first_interaction import no_team_bound
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.warm_start import WarmStart
+from search.strategies.warm_start import WarmStart
 from serendipity.model.answers.answer import Tried
 from serendipity.model.keywords import Horizon
 from serendipity.model.options import INFINITE
@@ -20,8 +20,8 @@ from serendipity.model.task.task import HumanPlan
 
 if TYPE_CHECKING:
     from search.human.individual_planner import FoundPlan
+    from search.short_windows.joint.all_together import AllTogether
     from search.strategies.first_answer import FirstAnswer
-    from search.timetable.all_together import AllTogether
 
 
 class Part(NamedTuple):

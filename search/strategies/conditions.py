@@ -1,6 +1,6 @@
 """Which calls a strategy is for: each condition once, by name."""
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.strategies.call import Call
 from serendipity.model.options import INFINITE, Options
 

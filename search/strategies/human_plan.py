@@ -8,7 +8,7 @@ from search.strategies.call import Call, Part
 from search.strategies.conditions import is_for_team_first
 from search.strategies.first_answer import FirstAnswer
 from search.strategies.outcome import answered
-from search.warm_start import replayed
+from search.strategies.warm_start import replayed
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.task import HumanPlan
 

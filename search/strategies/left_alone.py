@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.strategies.call import Call
-from search.warm_start import WarmStart
+from search.strategies.warm_start import WarmStart
 from serendipity.model.task.task import HumanPlan
 
 

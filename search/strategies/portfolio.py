@@ -10,9 +10,9 @@ from contextlib import suppress
 from enum import Enum
 from typing import Final, NamedTuple
 
-from search.context import SearchContext
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import INFINITE_KEY
-from search.prepared_task import PreparedTask
 from search.strategies import conditions as calls
 from search.strategies.call import Call, Part
 from search.strategies.human_plan import first_bound, first_plan, known_plan, optimal_plan, plan_alone, saving
@@ -26,8 +26,8 @@ from search.strategies.joint_plans import (
 )
 from search.strategies.outcome import answer_of
 from search.strategies.short_windows import beside_timetable, robots_apart, robots_by_numbers
+from search.strategies.warm_start import WarmStart
 from search.strategies.windows import all_plans, few_nodes, one_epoch, ties, while_bounds_are_exact
-from search.warm_start import WarmStart
 from serendipity.model.answers.answer import Answer, Tried
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError, limit_reason
 from serendipity.model.options import Options

@@ -16,7 +16,9 @@ def robots_by_numbers(call: Call, part: Part) -> Iterator[None]:
 
 
 def _apart(call: Call, part: Part, *, by_numbers: bool) -> Iterator[None]:
-    from search.apart.short_windows import short_windows  # only here: most calls come by without
+    from search.short_windows.independent.short_windows import (
+        short_windows,  # only here: most calls come by without
+    )
 
     plan, epochs = call.plan, call.epochs
     assert plan is not None and epochs is not None, "there is a window"
@@ -32,7 +34,7 @@ def _apart(call: Call, part: Part, *, by_numbers: bool) -> Iterator[None]:
 
 def beside_timetable(call: Call, part: Part) -> Iterator[None]:
     """All states beside the human's timetable, epoch by epoch; it goes on from where a limit came."""
-    from search.timetable.all_together import AllTogether  # only here, as above
+    from search.short_windows.joint.all_together import AllTogether  # only here, as above
 
     if call.timetable is None:
         plan, epochs = call.plan, call.epochs

@@ -10,9 +10,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 from search import PreparedTask
+from search.modes.simulation.companion import Companion
+from search.modes.simulation.space import Start
 from search.packed.cost_vector import INFINITE_KEY
-from search.simulation.companion import Companion
-from search.simulation.space import Start
 from serendipity.execution.advice import Advice, Adviser, Question
 from serendipity.facade.results import named_steps
 from serendipity.model.numbers import total

@@ -3,7 +3,7 @@
 from copy import copy
 
 from search import PreparedTask
-from search.simulation.companion import Companion
+from search.modes.simulation.companion import Companion
 from serendipity.execution.advice import Adviser
 from serendipity.execution.amends import Amends, Selfless
 from serendipity.execution.guard import Following, Hands

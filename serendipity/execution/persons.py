@@ -5,10 +5,10 @@ from random import Random
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from search import PreparedTask
-from search.context import SearchContext
+from search.call.context import SearchContext
+from search.modes.simulation.human import Glance, Human
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
-from search.simulation.human import Glance, Human
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
 
-from search.simulation.companion import Companion
+from search.modes.simulation.companion import Companion
 from serendipity.execution.advice import Advice, Question
 from serendipity.execution.guard import Hands
 from serendipity.facade.results import named_steps

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from search.simulation.companion import Companion
+from search.modes.simulation.companion import Companion
 from serendipity.execution.advice import Question, without
 from serendipity.execution.why import Why
 from serendipity.facade.session import Session

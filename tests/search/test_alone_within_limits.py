@@ -3,8 +3,8 @@
 import pytest
 
 from search import PreparedTask
+from search.call.context import SearchContext
 from search.classical.planner import ClassicalPlanner
-from search.context import SearchContext
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task

@@ -1,0 +1,212 @@
+"""A lower bound that asks who helps: nothing gets cheaper unless robots provide a touch.
+
+Whatever happens after a node, the human either touches nothing outside any more,
+or there is a first touch.  Until then they move alone in their private fields,
+and only robots change what lies outside; so the node costs at least what robots
+need to provide the touch, plus their way to it, the touch, and their private rest
+(``search.human.pattern_database``), and there must be epochs enough for both.  Touches that
+are too dear already from the initial state stay so, since both parts are
+distances: a first pass leaves few of them.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
+from operator import itemgetter
+from typing import NamedTuple, Protocol
+
+from search.bounds.achievers import Provided
+from search.bounds.interactions import Interactions
+from search.bounds.private_distances import PrivateDistances
+from search.human.pattern_database import PatternDatabase
+from search.packed.cost_vector import INFINITE_KEY, NEVER
+from search.packed.successor_generator import Idle
+
+_MOST_TOUCHES = 4096
+"""More surviving needs than this make the bound dearer than what it saves."""
+
+
+class Timed(Protocol):
+    """Lower bound of the key increment from an epoch and a packed state after it."""
+
+    def __call__(self, epoch: int, state: int, spent: int, idle: Idle = (), /) -> int:
+        """The bound.
+
+        Args:
+            epoch: how many have passed.
+            state: the packed state after it.
+            spent: the key so far; what would end dearer than the bound needs no close look.
+            idle: for how many epochs robots have been idle.
+        """
+
+
+class Choice(NamedTuple):
+    """One way on from a packed state before the first touch.
+
+    Attributes:
+        total: least key increment.
+        steps: least number of epochs in which robots act first.
+        latest: the last epoch by which they must have.
+    """
+
+    total: int
+    steps: int
+    latest: int
+
+
+def survivors(costs: dict[int, int], limit: int, total: Callable[[int, int], int]) -> list[int] | None:
+    """Needs whose touch may still pay; None if they are too many to look at one by one.
+
+    Args:
+        costs: what it costs robots, at least, to provide each.
+        limit: what has to be beaten.
+        total: least total by need and robots' cost.
+    """
+    paying = [need for need, cost in costs.items() if total(need, cost) < limit]
+    return paying if len(paying) <= _MOST_TOUCHES else None
+
+
+class FirstInteraction:
+    """The bound at any node before the first touch, over the surviving needs.
+
+    Args:
+        bound: private distances to the goal.
+        ways: the human's side.
+        needs: the surviving needs with the least totals of plans that touch them first; one may
+            stand there twice, before and after ``pi_H`` has changed what it is judged by.
+        horizon: number of epochs.
+    """
+
+    def __init__(
+        self,
+        bound: PatternDatabase,
+        ways: PrivateDistances,
+        needs: Iterable[tuple[int, Provided, int]],
+        horizon: int,
+    ) -> None:
+        self._mask = bound.mask
+        self._outside = ways.outside
+        self._ways = ways
+        self._promises = [
+            _Promise(ways, need, provided, total, horizon)
+            for need, provided, total in sorted(needs, key=itemgetter(2))
+        ]
+        self._cheap: dict[int, list[tuple[int, Provided, int]]] = {}
+
+    @cached_property
+    def _without(self) -> dict[int, int]:
+        return self._ways.to_goal()
+
+    def __call__(self, epoch: int, state: int, spent: int, idle: Idle = (), /) -> int:
+        """See :class:`Timed`."""
+        at, around = state & self._mask, state & self._outside
+        least = self._without.get(at, INFINITE_KEY)
+        for promise in self._promises:
+            if promise.total - spent >= least:
+                break
+            total = promise.way.get(at, INFINITE_KEY)
+            if total >= least:
+                continue
+            cost = promise.costs.get(around)
+            if cost is None:
+                cost = promise.costs[around] = promise.provided.cost(state)
+            total += cost
+            if total < least and epoch + promise.provided.epochs(state, idle) <= promise.latest:
+                least = total
+        return least
+
+    def choices(self, state: int) -> list[Choice]:
+        """All that the bound is the least of, ascending; none has a cheaper one that is never later."""
+        at = state & self._mask
+        least = self._without.get(at, INFINITE_KEY)
+        found = []
+        for cost, provided, latest in self._from(at, least):
+            total = cost + provided.cost(state)
+            if total < least:
+                found.append((total, provided.epochs(state, ()), latest))
+        found.sort()
+        kept: list[Choice] = []
+        soonest = NEVER
+        for total, steps, latest in (*found, (least, 0, NEVER)):
+            if steps < soonest or all(k.steps > steps or k.latest < latest for k in kept):
+                kept.append(Choice(total, steps, latest))
+                soonest = min(soonest, steps)
+        return kept
+
+    def _from(self, at: int, least: int) -> list[tuple[int, Provided, int]]:
+        """What costs the human less than doing without, from a projected state."""
+        known = self._cheap.get(at)
+        if known is None:
+            costs = ((p.way.get(at, INFINITE_KEY), p.provided, p.latest) for p in self._promises)
+            known = self._cheap[at] = [entry for entry in costs if entry[0] < least]
+        return known
+
+
+class _Promise:
+    """A need that may pay, with the human's ways to its touches once they are asked for.
+
+    Attributes:
+        provided: what robots can do about it.
+        costs: what they need for it, at least, by the outside fields as far as it was asked.
+        total: least total of plans that touch it first.
+        latest: the last epoch by which they must have provided it.
+    """
+
+    def __init__(
+        self, ways: PrivateDistances, need: int, provided: Provided, total: int, horizon: int
+    ) -> None:
+        self._ways = ways
+        self._need = need
+        self.provided = provided
+        self.total = total
+        self.costs: dict[int, int] = {}
+        self.latest = horizon - 1 - ways.steps_after[need]
+
+    @cached_property
+    def way(self) -> dict[int, int]:
+        """Least key to the goal with a first touch of the need, by projected state."""
+        return self._ways.through(self._need)
+
+
+def no_bound(_epoch: int, _state: int, _spent: int, _idle: Idle = (), /) -> int:
+    """The bound that is always right."""
+    return 0
+
+
+def no_team_bound(_state: int, /) -> int:
+    """The bound on the team that is always right."""
+    return 0
+
+
+class Bounds:
+    """Which bound holds at a node.
+
+    The first pass of this module judges the *first* touch only; once there has been one,
+    the private bound is what holds.
+
+    Args:
+        private: distances in the human's private fields.
+        steps: the same, counting actions.
+        untouched: bound before the first touch.
+        interactions: tells which actions are touches; None where no bound asks for that.
+        team: bound on what the team pays from a packed state, without a look at epochs.
+    """
+
+    def __init__(
+        self,
+        private: PatternDatabase,
+        steps: PatternDatabase,
+        untouched: Timed,
+        interactions: Interactions | None,
+        team: Callable[[int], int],
+    ) -> None:
+        self.private = private
+        self.steps = steps
+        self.untouched = untouched
+        self.team = team
+        self._interactions = interactions
+
+    def interactions(self, actions: Sequence[int]) -> bool:
+        """Whether the human's part of an epoch (at most one action) is a touch."""
+        return (
+            bool(actions) and self._interactions is not None and self._interactions.is_interaction(actions[0])
+        )

@@ -1,0 +1,1 @@
+"""What every search of one call shares: a prepared task, and the context of a call."""

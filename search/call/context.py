@@ -1,0 +1,257 @@
+"""What every search of one call shares: packed task, key weights, bounds, the human alone."""
+
+from bisect import bisect_left
+from collections.abc import Callable, Collection, Sequence
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from search.bounds.first_interaction import no_team_bound
+from search.bounds.interactions import Interactions
+from search.bounds.private_distances import PrivateDistances
+from search.call.prepared_task import PreparedTask, TaskTables
+from search.engine.best_first import Node
+from search.human.individual_planner import FoundPlan, IndividualPlanner, priced_planner
+from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_keys
+from search.human.plan_graph import PlanGraph
+from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.operators import Operator, changed
+from search.packed.packed_task import PackedGoal
+from search.packed.packings import human_facts
+from search.packed.successor_generator import JointAction, Successors, as_option
+from search.robots.decoupled import Decoupled, DecoupledSuccessors
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import HumanPlan, Task
+
+if TYPE_CHECKING:
+    from search.classical.team import Team
+
+
+class SearchContext:
+    """What one call works with: the prepared task under its options.
+
+    Args:
+        prepared: the task.
+        options: options in force.
+        deadline: polled while tables are built.
+        plan: ``pi_H`` where it is known; None while it is being predicted.
+        tables: a packing of the task, with its tables; None for the one that the options ask for.
+    """
+
+    def __init__(
+        self,
+        prepared: PreparedTask,
+        options: Options,
+        deadline: Deadline,
+        plan: HumanPlan | None = None,
+        tables: TaskTables | None = None,
+    ) -> None:
+        self.prepared = prepared
+        self.task = prepared.task
+        self.options = options
+        self.deadline = deadline
+        self.plan = plan
+        if tables is None:
+            whole = options.preservation == "state"
+            tables = prepared.with_human_facts(deadline) if whole else prepared.plain(deadline)
+        self.tables = tables
+        self.packed = tables.packed
+        self.weights = Weights(self.packed, tables.scales, options, plan)
+        self.keys = self.weights.keys
+
+    def for_plan(self, plan: HumanPlan) -> "SearchContext":
+        """The context in which ``pi_H`` is known; this one, where that makes no difference."""
+        announces = self.options.mode == "communication" and self.options.communication_weight > 0
+        covered = self._covers(plan)
+        if covered and not announces:
+            return self
+        tables = self.tables if covered else self._covering(plan)
+        return SearchContext(self.prepared, self.options, self.deadline, plan, tables)
+
+    def _covers(self, plan: HumanPlan) -> bool:
+        """Whether what every action of a plan asks for is packed."""
+        bits = self.packed.fact_bits
+        actions = (self.task.actions[i] for i in plan)
+        return all(bits[f] is not None for action in actions for f in (*action.pre, *action.neg))
+
+    def _covering(self, plan: HumanPlan) -> TaskTables:
+        """A packing, for this call, of what every action of a plan asks for as well."""
+        needed = frozenset(f for i in plan for f in (*self.task.actions[i].pre, *self.task.actions[i].neg))
+        if self.options.preservation == "state":
+            needed |= human_facts(self.task)
+        return self.prepared.including(needed, self.deadline)
+
+    @cached_property
+    def bound(self) -> PatternDatabase:
+        """Lower bound on what the human still has to pay for ``G_H``."""
+        return in_keys(self.tables.human.projection(self.deadline), self.weights)
+
+    @property
+    def steps(self) -> PatternDatabase:
+        """Lower bound on the number of the human's actions to ``G_H``."""
+        return self.tables.human.steps(self.deadline)
+
+    @cached_property
+    def _has_kernel(self) -> bool:
+        """Whether the kernel knows more of the human alone than private distances, which can take seconds."""
+        if not self.distances_say_little:
+            return False
+        from search.kernel.library import library  # only here: most calls come by without it
+
+        return library() is not None
+
+    @property
+    def relevant(self) -> int:
+        """The fields that matter to the human alone, or to a goal."""
+        return self.packed.own_mask | self.packed.goal.mask | self.packed.robot_goal.mask
+
+    @cached_property
+    def alone(self) -> IndividualPlanner:
+        """The human alone, to ``G_H``."""
+        if not self.weights.announces:
+            human = self.tables.human
+            bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
+            return priced_planner(self.packed, bound, human.memory(), self.weights, self.deadline)
+        return IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, self.deadline)
+
+    @cached_property
+    def alone_to_both(self) -> IndividualPlanner | None:
+        """The human alone, to ``G_H`` and ``G_R``; None where they can't affect ``G_R``."""
+        robot_goal = self.task.robot_goal
+        touched = {*robot_goal.positive, *robot_goal.negative}
+        affects = bool(touched) and any(
+            touched.intersection(action.add) or touched.intersection(action.delete)
+            for action in (self.task.actions[i] for i in self.task.human_actions)
+        )
+        if not affects:
+            return None
+        goal = self.packed.condition(_both(self.task))
+        return IndividualPlanner(self.packed, goal, self.weights.alone, self.bound, self.deadline)
+
+    @property
+    def interactions(self) -> Interactions:
+        """What the human's ops mention."""
+        return self.tables.interactions(self.deadline)
+
+    @cached_property
+    def ways(self) -> PrivateDistances:
+        """The human's ways to their touches."""
+        own = self.tables.private_distances
+        return PrivateDistances(own, self.interactions, self.bound, self.steps, self.weights, self.deadline)
+
+    def successors(self, *, idle: bool = False, barred: Collection[int] = ()) -> Successors:
+        """Action sets under the interference rule; with ``idle`` robots do nothing, else nothing barred."""
+        return Successors(
+            self.packed,
+            self.weights.team,
+            self.deadline,
+            strict=self.options.strict,
+            idle=idle,
+            barred=barred,
+        )
+
+    def walks(self, plan: HumanPlan) -> Decoupled | None:
+        """Robots' walks where they can be folded, and it pays: with several robots."""
+        if len(self.task.robots) < 2 or self.options.preservation == "state":
+            return None
+        walks = self.tables.robots.decoupled(self.deadline)
+        if not walks.foldable or walks.touched_by(map(self.packed.op, plan)):
+            return None
+        return walks
+
+    def folded(self, walks: Decoupled) -> DecoupledSuccessors:
+        """:meth:`successors` with walks left out."""
+        return DecoupledSuccessors(
+            self.packed, walks, self.weights.team, self.deadline, strict=self.options.strict
+        )
+
+    @cached_property
+    def distances_say_little(self) -> bool:
+        """Whether private distances say little of the goal: it asks for what others change too, or they leave
+        out some of too many private variables.
+        """
+        if (self.packed.goal.mask | self.packed.robot_goal.mask) & self.packed.outside:
+            return True
+        return not self.tables.human.keeps_all(self.deadline)
+
+    @cached_property
+    def team(self) -> "Team | None":
+        """The team where epochs don't count; None without a kernel that could tell.
+
+        A call has its own: what an earlier one has learnt would decide between plans of equal rank.
+        """
+        from search.classical.team import team_planner  # only here: most calls come by without it
+
+        goal = self.packed.condition(_both(self.task)) if self.task.robot_goal else self.packed.goal
+        return team_planner(self.packed, goal, self.weights, self.deadline, strict=self.options.strict)
+
+    @cached_property
+    def team_bound(self) -> Callable[[int], int]:
+        """Bound on what the team pays from a packed state; 0 where private distances say enough."""
+        team = self.team if self.distances_say_little else None
+        if team is None:
+            return no_team_bound
+        planner, known = team.planner, dict[int, int]()
+
+        def bound(state: int) -> int:
+            found = known.get(state)
+            if found is None:
+                found = known[state] = self.amount_key(planner.bound(state, self.deadline))
+            return found
+
+        return bound
+
+    def under(self, deadline: Deadline) -> "SearchContext":
+        """The same call with another deadline."""
+        return SearchContext(self.prepared, self.options, deadline, self.plan, self.tables)
+
+    def amount_key(self, amount: int) -> int:
+        """An amount of the team's as a key."""
+        return self.weights.key_of(amount) if amount < INFINITE_KEY else INFINITE_KEY
+
+    def amount_from(self, limit: int, most: int) -> int:
+        """The least amount of the team's of which the key is not below a limit; ``most`` at most."""
+        return bisect_left(range(most), limit, key=self.amount_key)
+
+    def after(self, node: Node, ops: Sequence[Operator]) -> Node:
+        """The node after an epoch in which ops happen together."""
+        key, actions = node.key + sum(map(self.weights.team, ops)), tuple(op.action for op in ops)
+        return Node(key, node.epoch + 1, changed(node.state, ops), 0, node.start, node, actions)
+
+    def team_cost(self, action: int) -> Fraction:
+        """What an action costs the team, communication left out."""
+        return Fraction(self.weights.scaled_cost(self.packed.op(action)), self.keys.scale)
+
+    @property
+    def goals(self) -> tuple[PackedGoal, ...]:
+        """``G_H`` and ``G_R``, packed."""
+        return self.packed.goal, self.packed.robot_goal
+
+    def canonical_plan(self) -> FoundPlan | None:
+        """The human's canonical plan from ``I``, or None where they have none."""
+        return self.alone.canonical(self.packed.init)
+
+    def optimal_plans(self) -> PlanGraph | None:
+        """The human's optimal plans from ``I``, or None where they have none."""
+        return self.alone.plans(self.packed.init)
+
+    @cached_property
+    def _followed(self) -> dict[HumanPlan, list[tuple[Operator, JointAction]]]:
+        return {}
+
+    def followed(self, plan: HumanPlan) -> list[tuple[Operator, JointAction]]:
+        """The packed actions of a human plan and what they do, in order."""
+        known = self._followed.get(plan)
+        if known is None:
+            ops = [self.packed.op(i) for i in plan]
+            known = self._followed[plan] = [(op, as_option(op, self.weights.team(op))) for op in ops]
+        return known
+
+
+def _both(task: Task) -> Condition:
+    return Condition(
+        tuple(sorted({*task.goal.positive, *task.robot_goal.positive})),
+        tuple(sorted({*task.goal.negative, *task.robot_goal.negative})),
+    )

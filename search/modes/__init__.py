@@ -1,0 +1,1 @@
+"""Ways of asking: windows one by one, ties, unknown goals, humans who replan, silent assistance."""

@@ -1,0 +1,242 @@
+"""From a task and options to the answer of mode ``assistance`` (semantics 7)."""
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from fractions import Fraction
+from functools import partial
+from typing import Final, TypeVar
+
+from search.call.prepared_task import PreparedTask
+from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
+from search.modes.assistance.game.game import Game
+from search.modes.assistance.game.rules import Mean, Worst
+from search.modes.assistance.game.solution import ZERO, Costs, Solution
+from search.modes.assistance.phase import PhaseDeadline
+from search.modes.assistance.solvers.cheapest_run import CheapestRun
+from search.modes.assistance.solvers.lao_star import LaoStar
+from search.modes.assistance.writing import Writer
+from search.packed.cost_vector import INFINITE_KEY
+from search.strategies.first_answer import first_answer
+from serendipity.model.answers.answer import Answer, PolicyBounds, Status
+from serendipity.model.answers.policy import Policy
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan, Task
+
+_T = TypeVar("_T")
+
+_PLAN_SHARE: Final = 0.3
+"""What of the time some plan of the prime's may take."""
+
+_BOUND_SHARE: Final = 0.04
+"""What a first bound may add to the time limit: a share of it."""
+
+
+def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iterator[Answer]:
+    """Answers of falling value; the last one is the best known.
+
+    Args:
+        prepared: a task of one human and exactly one robot.
+        options: ``ties`` and ``no_block`` count.
+        deadline: deadline and cancellation.
+    """
+    left = deadline.left()
+    own_deadline = PhaseDeadline(deadline, None if left is None else left / 2)
+    try:
+        game = Game(prepared, deadline, own_deadline)
+    except LIMITS as limit:
+        yield _said(prepared.task, "unknown", PolicyBounds(ZERO, None), reason=limit_reason(limit))
+        return
+    most = _most_alone(game)
+    if most < INFINITE_KEY:
+        yield _left_alone(game, ZERO, most)
+    late = _limit_of(partial(game.alone, game.init))
+    if late is not None:
+        yield from _without_his_optimum(game, most, late)
+        return
+    own_deadline.lift()
+    yield from _searched(game, options)
+
+
+def _most_alone(game: Game) -> int:
+    """What doing nothing is worth at most, by some plan of the prime's at hand; else ``INFINITE_KEY``."""
+    try:
+        plan = first_answer(game.prepared, Options(), game.deadline.part(_PLAN_SHARE)).plan
+    except LIMITS:
+        return INFINITE_KEY
+    return INFINITE_KEY if plan is None else game.value_alone(plan)
+
+
+def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
+    """Doing nothing, where all that is known of the prime's optimum is what it is worth at most."""
+    return _said(game.task, "feasible", PolicyBounds(lower, game.pair(upper)), policy=Policy((), None))
+
+
+def _limit_of(work: Callable[[], object]) -> str | None:
+    """Which limit stopped some work, or None; what the work held is free on return."""
+    try:
+        work()
+    except LIMITS as limit:
+        return limit_reason(limit)
+    return None
+
+
+def _searched(game: Game, options: Options) -> Iterator[Answer]:
+    """Answers of the search, which needs to know what the prime does alone."""
+    writer = Writer(game, options.ties)
+    search: CheapestRun | LaoStar | None = None
+    try:
+        search = _search(game, options)
+        for _ in search.run():
+            yield _answer(writer, search, "feasible")
+        solved = search.solution(floors=False).upper is not None
+        yield _answer(writer, search, "optimal" if solved else "infeasible")
+        return
+    except LIMITS as limit:
+        late = limit_reason(limit)
+    yield _unfinished(game, writer, search, late)
+
+
+def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]:
+    """Bounds where the prime's optimal cost could not be worked out in half of the time, or in memory."""
+    if limit == "memory-limit":
+        game.forget_own()
+    lower = _bound_without_search(game, game.deadline)
+    if lower is None:
+        yield _no_plan(game)
+        return
+    if upper >= INFINITE_KEY:
+        with suppress(*LIMITS):
+            upper = upper_bound_alone(game)
+    if upper >= INFINITE_KEY:
+        yield _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
+    else:
+        yield _left_alone(game, lower, upper)
+
+
+def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Answer:
+    """What is known when the time is up: doing nothing is always an answer, if the prime has a plan."""
+    known = Solution(None, None) if search is None else search.solution(floors=False)
+    if search is not None and known.upper is not None and known.lower == known.upper:
+        return _answer(writer, search, "optimal")
+    least = _bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE))
+    if least is None:
+        return _no_plan(game)
+    lower = max(least, known.lower or ZERO)
+    if search is not None and known.upper is not None:
+        bounds = PolicyBounds(lower, known.upper)
+        status: Status = "optimal" if lower == known.upper else "feasible"
+        answer = _answer(writer, search, "feasible")
+        return answer._replace(status=status, bounds=bounds, lower_bound=_least_sum(bounds))
+    alone = game.alone(game.init)  # known since the first phase
+    if alone >= INFINITE_KEY:
+        return _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
+    idle = Solution(lower, game.pair(alone))
+    return _said(
+        game.task,
+        "feasible",
+        PolicyBounds(lower, idle.upper),
+        human_plan=_in_time(writer.human_plan),
+        policy=Policy((), None),
+        steps=_in_time(partial(writer.plan, idle)),
+    )
+
+
+def _bound_without_search(game: Game, deadline: Deadline) -> Costs | None:
+    """A lower bound from the initial state alone, 0 where there is no time even for that; None: no plan."""
+    try:
+        value = joint_lower_bound(game, deadline)
+    except LIMITS:
+        return ZERO
+    return None if value >= INFINITE_KEY else game.pair(value)
+
+
+def _no_plan(game: Game) -> Answer:
+    """Not even both together reach the goal."""
+    return _said(game.task, "infeasible", PolicyBounds(ZERO, None), reason="no-plan")
+
+
+def _search(game: Game, options: Options) -> CheapestRun | LaoStar:
+    bound = Bound(game)
+    no_block = bool(options.no_block)
+    if options.ties in ("fixed", "optimistic"):
+        return CheapestRun(game, bound, fixed=options.ties == "fixed", no_block=no_block)
+    return LaoStar(game, bound, Worst() if options.ties == "robust" else Mean(game), no_block=no_block)
+
+
+def _answer(writer: Writer, search: CheapestRun | LaoStar, status: Status) -> Answer:
+    solution = search.solution(floors=status == "optimal")
+    has_policy = status in ("optimal", "feasible")
+    return _said(
+        writer.task,
+        status,
+        PolicyBounds(solution.lower or ZERO, solution.upper),
+        human_plan=_in_time(writer.human_plan),
+        policy=writer.policy(solution) if has_policy else None,
+        steps=_in_time(partial(writer.plan, solution)) if has_policy else None,
+        reason="no-plan" if status == "infeasible" else None,
+        expanded=search.expanded,
+    )
+
+
+def _said(
+    task: Task,
+    status: Status,
+    bounds: PolicyBounds,
+    *,
+    human_plan: HumanPlan | None = None,
+    policy: Policy | None = None,
+    steps: tuple[Step, ...] | None = None,
+    reason: str | None = None,
+    expanded: int = 0,
+) -> Answer:
+    """An answer with the figures that follow from its bounds and from the human's plan alone."""
+    baseline = None if human_plan is None else task.cost_of(human_plan)
+    upper = bounds.upper
+    total = None if upper is None else sum(upper, Fraction(0))
+    saving = None if baseline is None or upper is None else baseline - upper[0]
+    return Answer(
+        status,
+        human_plan=human_plan,
+        reason=reason,
+        steps=steps,
+        cost=total,
+        objective=total,
+        lower_bound=None if status == "infeasible" else _least_sum(bounds),
+        baseline=baseline,
+        saving=saving,
+        saving_alone=None if baseline is None else Fraction(0),
+        opportunity=saving is not None and saving > 0,
+        expanded=expanded,
+        generated=None,
+        realised={},
+        bounds=bounds,
+        policy=policy,
+    )
+
+
+def _least_sum(bounds: PolicyBounds) -> Fraction:
+    """What both costs add up to at least, the human's coming first."""
+    lower, upper = bounds.lower, bounds.upper
+    return sum(lower, Fraction(0)) if upper is not None and lower[0] == upper[0] else lower[0]
+
+
+def _in_time(write: Callable[[], _T]) -> _T | None:
+    """What ``write`` returns; None where the time is up before it knows the prime's choices."""
+    try:
+        return write()
+    except LIMITS:
+        return None
+
+
+def joint_optimum(prepared: PreparedTask, deadline: Deadline | None = None) -> Costs | None:
+    """The bound on every policy from ``I``: both together, without turns, or a relaxation of it.
+
+    None where not even both together reach the goal.
+    """
+    game = Game(prepared, deadline or Deadline())
+    value = Bound(game)(game.init)
+    return None if value >= INFINITE_KEY else game.pair(value)

@@ -1,0 +1,261 @@
+"""What the prime still pays if the supporter provides whatever they need, in time.
+
+Their *private* fields are those that only they change, *provided* ones those that only the
+supporter changes.  Projected onto the private fields, each of their actions is a
+transition; conditions on other fields are dropped.  A dropped condition on a provided
+field that does not hold now is charged to the supporter, at the price of the cheapest
+action that makes it true, where it is certain that it is charged once at most: where
+every action that asks for it sets, for the first time, one and the same fact that
+nothing ever unsets.  No plan of both together, with turns or without, is cheaper.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import partial
+from typing import NamedTuple
+
+from search.engine.astar import AStar
+from search.modes.assistance.game.game import Game
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operator_index import OperatorIndex, most_asked
+from search.packed.operators import Operator
+
+Pair = tuple[int, int]
+"""A field and a value of it."""
+
+
+class ChargedStep(NamedTuple):
+    """One of the prime's actions, projected; ``charges`` are due where their bit is unset."""
+
+    need_mask: int
+    need: int
+    forbidden: tuple[Pair, ...]
+    keep: int
+    put: int
+    cost: int
+    charges: tuple[tuple[int, int, Pair], ...]
+    """Supporter's cost, the bit that is set for the first time, what is asked for."""
+
+
+_Known = dict[int, tuple[int, ChargedStep | None, int]]
+"""By projected state its exact value, the first step of a cheapest way, the state after it."""
+
+_Parents = dict[int, tuple[int, ChargedStep, int]]
+"""By projected state the state before it on a cheapest way, the step from there, its value."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Context:
+    """What is provided now: the steps under it, and what is known of states under it."""
+
+    steps: OperatorIndex[ChargedStep]
+    per_goal: dict[int, int]
+    """Least value of a step that sets a bit of the goal."""
+    known: _Known
+
+
+class RelaxedProvision:
+    """The bound; consistent over the moves of both."""
+
+    def __init__(self, game: Game) -> None:
+        self._game = game
+        packed = game.packed
+        by_prime = packed.changed_by(packed.own)
+        by_supporter = packed.changed_by(game.supporter_ops)
+        self._private = by_prime & ~by_supporter
+        self._provided = by_supporter & ~by_prime
+        self._monotone = _monotone(packed.own, self._private, packed.fields)
+        private = [field for field in packed.fields if field & self._private]
+        self._field = most_asked(private, ((op.need_mask, 1) for op in packed.own))
+        self._setters = self._find_setters()
+        self._charged = self._find_charged()
+        goal = game.goal
+        self._goal_mask = goal.need_mask & self._private
+        self._goal_need = goal.need & self._private
+        self._goal_forbidden = tuple((m, v) for m, v in goal.forbidden if m & self._private)
+        self._countable = self._find_countable()
+        self._contexts: dict[int, _Context] = {}
+
+    def __call__(self, state: int) -> int:
+        """A value that no policy undercuts from ``state``."""
+        if self._game.goal.need < 0:
+            return INFINITE_KEY
+        return self._search(self._context(state), state & self._private)
+
+    def wanted(self, state: int) -> frozenset[int]:
+        """Actions of the supporter that provide what a cheapest way is charged for."""
+        context = self._context(state)
+        at = state & self._private
+        if self._search(context, at) >= INFINITE_KEY:
+            return frozenset()
+        wanted: set[int] = set()
+        while True:
+            _, step, after = context.known[at]
+            if step is None:
+                return frozenset(wanted)
+            for _, bit, pair in step.charges:
+                if not at & bit:
+                    wanted.update(op.action for op in self._setters[pair])
+            at = after
+
+    def _find_setters(self) -> dict[Pair, list[Operator]]:
+        setters: dict[Pair, list[Operator]] = {}
+        for op in self._game.supporter_ops:
+            self._game.deadline.tick()
+            for field in self._game.packed.fields:
+                if field & self._provided and not field & op.keep:
+                    setters.setdefault((field, op.put & field), []).append(op)
+        return setters
+
+    def _asked(self, op: Operator) -> list[Pair]:
+        fields = self._game.packed.fields
+        mask = op.need_mask & self._provided
+        return [(field, op.need & field) for field in fields if field & mask] if mask else []
+
+    def _find_charged(self) -> dict[Pair, tuple[int, int]]:
+        """For each condition that is charged its price and the bit that is set with it."""
+        together: dict[Pair, int] = {}
+        for op in self._game.packed.own:
+            self._game.deadline.tick()
+            for pair in self._asked(op):
+                first_set = op.put & self._monotone
+                together[pair] = together.get(pair, first_set) & first_set
+        bits = {pair: bit & -bit for pair, bit in together.items() if bit and pair in self._setters}
+        charged = {}
+        for pair, bit in bits.items():
+            prices = []
+            for op in self._setters[pair]:
+                self._game.deadline.tick()
+                also = sum((field, op.put & field) in bits for field in self._fields_set(op))
+                prices.append(self._game.cost(op) // also)
+            charged[pair] = (min(prices), bit)
+        return charged
+
+    def _fields_set(self, op: Operator) -> list[int]:
+        return [field for field in self._game.packed.fields if not field & op.keep]
+
+    def _find_countable(self) -> int:
+        """Bits of the goal that each cost a step of their own; none if a step can set two."""
+        bits = self._goal_need & self._goal_mask & self._monotone
+        if any((op.put & bits).bit_count() > 1 for op in self._game.packed.own):
+            return 0
+        return bits
+
+    def _context(self, state: int) -> _Context:
+        provided = state & self._provided
+        context = self._contexts.get(provided)
+        if context is None:
+            context = self._contexts[provided] = self._make_context(provided)
+        return context
+
+    def _make_context(self, provided: int) -> _Context:
+        steps: OperatorIndex[ChargedStep] = OperatorIndex(self._field)
+        least: dict[int, Pair] = {}
+        for op in self._game.packed.own:
+            self._game.deadline.tick()
+            step = self._step(op, provided)
+            if step is None:
+                continue
+            steps.add(op.need_mask, op.need, step)
+            bit = op.put & self._countable
+            if bit:
+                charge = sum(price for price, set_with, _ in step.charges if set_with == bit)
+                cost, price = least.get(bit, (step.cost, charge))
+                least[bit] = (min(cost, step.cost), min(price, charge))
+        per_goal = {bit: (cost << self._game.unit_bits) + price for bit, (cost, price) in least.items()}
+        return _Context(steps, per_goal, {})
+
+    def _step(self, op: Operator, provided: int) -> ChargedStep | None:
+        """An op under what is provided; None if it can never be applied."""
+        private = self._private
+        charges = []
+        for pair in self._asked(op):
+            field, value = pair
+            if provided & field == value:
+                continue
+            if pair not in self._setters:
+                return None
+            if pair in self._charged:
+                price, bit = self._charged[pair]
+                charges.append((price, bit, pair))
+        forbidden = tuple((m, v) for m, v in op.forbidden if m & private)
+        return ChargedStep(
+            op.need_mask & private,
+            op.need & private,
+            forbidden,
+            op.keep,
+            op.put & private,
+            self._game.cost(op),
+            tuple(charges),
+        )
+
+    def _holds(self, at: int) -> bool:
+        if at & self._goal_mask != self._goal_need:
+            return False
+        return all(at & mask != value for mask, value in self._goal_forbidden)
+
+    def _least(self, context: _Context, at: int) -> int:
+        """Every bit of the goal that is missing costs a step."""
+        missing = self._countable & ~at
+        total = 0
+        while missing:
+            bit = missing & -missing
+            total += context.per_goal.get(bit, INFINITE_KEY)
+            missing -= bit
+        return min(total, INFINITE_KEY)
+
+    def _search(self, context: _Context, start: int) -> int:
+        """A* over the private fields; it ends at goals and at states whose value is known."""
+        known = context.known
+        if start in known:
+            return known[start][0]
+        deadline = self._game.deadline
+        search = AStar(start, partial(self._least, context), deadline, limit=INFINITE_KEY, deep_first=True)
+        parents: _Parents = {}
+        for at, spent in search:
+            if at not in known and self._holds(at):
+                known[at] = (0, None, at)
+            if at in known:
+                total = spent + known[at][0]
+                if total < INFINITE_KEY and (search.least is None or total <= search.least):
+                    return self._remember(known, parents, at)
+                # A known value may exceed the estimate that brought the state up.
+                search.postpone(at, total)
+                continue
+            for value, after, step in self._steps_from(context, at):
+                if search.reach(after, spent + value):
+                    parents[after] = at, step, value
+        known[start] = (INFINITE_KEY, None, start)
+        return INFINITE_KEY
+
+    @staticmethod
+    def _remember(known: _Known, parents: _Parents, end: int) -> int:
+        """Note the values of all states along a cheapest way, from its end on; that of its start."""
+        value, at = known[end][0], end
+        while at in parents:
+            before, step, weight = parents[at]
+            value += weight
+            known[before] = (value, step, at)
+            at = before
+        return value
+
+    def _steps_from(self, context: _Context, at: int) -> Iterable[tuple[int, int, ChargedStep]]:
+        """What the prime can do: its value with what is charged, the state after it, the step."""
+        for step in context.steps.candidates(at):
+            if at & step.need_mask != step.need or any(at & m == v for m, v in step.forbidden):
+                continue
+            after = at & step.keep | step.put
+            if after != at:
+                charge = sum(price for price, bit, _ in step.charges if not at & bit)
+                yield (step.cost << self._game.unit_bits) + charge, after, step
+
+
+def _monotone(ops: Iterable[Operator], private: int, fields: list[int]) -> int:
+    """The private single-bit fields that no action unsets."""
+    bits = 0
+    for field in fields:
+        if field & private and field.bit_count() == 1:
+            bits |= field
+    for op in ops:
+        bits &= op.keep | op.put
+    return bits

@@ -1,0 +1,166 @@
+"""Exact distances to a goal for every state of a transition system that is reachable from a query.
+
+A query explores what is reachable from its state, then runs Dijkstra backward over it; so
+a state costs work once.  Small closures are explored state by state, large ones by whole
+layers in arrays.
+"""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Final
+
+from search.engine.shortest_paths import backward
+from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operator_index import OperatorIndex, most_asked
+from search.packed.packed_task import PackedGoal
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
+
+if TYPE_CHECKING:
+    from search.modes.assistance.distances.layers import Layers
+    from search.modes.assistance.distances.perimeter import Perimeter
+
+SMALL: Final = 3_000
+"""States that are explored one by one before arrays take over."""
+
+MEDIUM: Final = 200_000
+"""States that are all looked at before only those near the goal are."""
+
+
+class Closure:
+    """Distances, filled in where they are asked for.
+
+    Args:
+        arcs: the transitions.
+        goal: where the distance is 0 (and nothing goes on).
+        fields: masks of the fields that a state consists of.
+        values: all values of each field.
+        limit: most states of one closure.
+        deadline: polled while tables are filled.
+    """
+
+    def __init__(
+        self,
+        arcs: list[Arc],
+        goal: PackedGoal,
+        fields: Sequence[int],
+        values: Sequence[Sequence[int]],
+        limit: int,
+        deadline: Deadline,
+    ) -> None:
+        self._arcs = [arc for arc in arcs if arc.condition.need >= 0]
+        self._goal = goal
+        self._fields = fields
+        self._values = values
+        self._limit = limit
+        self._deadline = deadline
+        self._known: dict[int, int] = {}
+        self._index: OperatorIndex[Arc] = OperatorIndex(
+            most_asked(fields, ((arc.condition.need_mask, 1) for arc in self._arcs))
+        )
+        for arc in self._arcs:
+            self._index.add(arc.condition.need_mask, arc.condition.need, arc)
+        self._layers: list[Layers] = []
+        self._balls: list[Perimeter] = []
+
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
+
+        Args:
+            state: a packed state.
+            limit: in the unit of the arcs' weights; at or above it any value that is not above the distance.
+
+        Raises:
+            ClosureTooLargeError: its closure exceeds the limit.
+        """
+        known = self._known.get(state)
+        if known is not None:
+            return known
+        for layers in self._layers:
+            distance = layers.distance(state)
+            if distance is not None:
+                self._known[state] = distance
+                return distance
+        for ball in self._balls:
+            distance = ball.key(state, limit)
+            if distance is not None:
+                if distance < limit or distance >= INFINITE_KEY:
+                    self._known[state] = distance
+                return distance
+        self._settle(state)
+        return self.key(state, limit)
+
+    def _settle(self, start: int) -> None:
+        predecessors: dict[int, list[tuple[int, int]]] = {start: []}
+        pending = [start]
+        seeds: list[tuple[int, int]] = []
+        known, holds = self._known, self._goal.holds
+        while pending:
+            state = pending.pop()
+            self._deadline.tick()
+            if state in known:
+                seeds.append((known[state], state))
+            elif holds(state):
+                seeds.append((0, state))
+            else:
+                for after, weight in self._successors(state):
+                    before = predecessors.get(after)
+                    if before is None:
+                        before = predecessors[after] = []
+                        pending.append(after)
+                    before.append((weight, state))
+            if len(predecessors) > min(SMALL, self._limit):
+                self._settle_many(start)
+                return
+        self._spread(seeds, predecessors)
+
+    def _successors(self, state: int) -> list[tuple[int, int]]:
+        """Where arcs lead from a state, and their weights; those that lead nowhere else are left out."""
+        found = []
+        for condition, keep, put, weight in self._index.candidates(state):
+            if state & condition.need_mask == condition.need and (
+                not condition.forbidden or condition.holds(state)
+            ):
+                after = state & keep | put
+                if after != state:
+                    found.append((after, weight))
+        return found
+
+    def _spread(self, seeds: list[tuple[int, int]], predecessors: dict[int, list[tuple[int, int]]]) -> None:
+        known = (seed for seed in seeds if seed[0] < INFINITE_KEY)
+        distances = backward(known, [predecessors], self._deadline)
+        for state in predecessors:
+            self._known[state] = distances.get(state, INFINITE_KEY)
+
+    def _settle_many(self, start: int) -> None:
+        """All of them where they are not too many; else what is near the goal; else all of them."""
+        if self._settle_in_layers(start, min(MEDIUM, self._limit)) or self._grow_ball(start):
+            return
+        if self._limit <= MEDIUM or not self._settle_in_layers(start, self._limit):
+            raise ClosureTooLargeError
+
+    def _settle_in_layers(self, start: int, limit: int) -> bool:
+        """Whether it could be done: with too many states, or too little memory for them, it can't."""
+        # Loads numpy: only a task with a large closure pays for it.
+        from search.modes.assistance.distances.layers import Layers
+
+        try:
+            self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._deadline))
+        except (ClosureTooLargeError, MemoryError):
+            return False
+        except LimitReachedError as limit_reached:
+            if limit_reached.reason != "memory-limit":
+                raise
+            return False
+        return True
+
+    def _grow_ball(self, start: int) -> bool:
+        """Whether there is a ball now that there was not before."""
+        from search.modes.assistance.distances.perimeter import ball_around
+
+        if self._balls:
+            return False
+        ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._deadline)
+        if ball is not None:
+            self._balls.append(ball)
+        return ball is not None

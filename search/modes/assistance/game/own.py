@@ -1,0 +1,114 @@
+"""The prime alone: their optimal (cost, length) from any state of the game.
+
+Facts that they do not change themselves are the *context* of their search; for each context
+a table over the rest is filled in where it is asked for.
+"""
+
+from typing import Final
+
+from search.human.individual_planner import IndividualPlanner
+from search.human.pattern_database import PatternDatabase
+from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.modes.assistance.distances.closure import Closure
+from search.modes.assistance.distances.watched import Watched
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedGoal, PackedTask
+from serendipity.model.resources.deadline import Deadline
+
+MAX_STATES: Final = 3_000_000
+"""The largest table of one context; beyond it each state is searched by itself."""
+
+
+class OwnCosts:
+    """The prime's optimal keys ``cost << ACTIONS_BITS | length``, with the supporter idle.
+
+    Args:
+        encoding: the packed task.
+        scaled: integer cost by the index of an op's cost.
+        deadline: polled while tables are filled.
+    """
+
+    def __init__(self, packed: PackedTask, scaled: list[int], deadline: Deadline) -> None:
+        self._packed = packed
+        self._deadline = deadline
+        self._weights = [(cost << ACTIONS_BITS) + 1 for cost in scaled]
+        self._changed = packed.changed_by(packed.own)
+        self._mask = packed.own_mask | packed.goal.mask
+        self._context: dict[int, Closure | None] = {}
+        self._index = Watched(packed.own, packed.fields, deadline)
+        self._single: IndividualPlanner | None = None
+        self._too_large = False
+
+    def cost_in(self, key: int) -> int:
+        """The scaled cost in a key."""
+        return key >> ACTIONS_BITS
+
+    def key(self, state: int, limit: int = INFINITE_KEY) -> int:
+        """The prime's optimal key; ``INFINITE_KEY`` without a plan; at or above ``limit`` any such value."""
+        context = state & self._mask & ~self._changed
+        if context in self._context:
+            table = self._context[context]
+        else:
+            table = self._context[context] = self._table(context)
+        if table is None:
+            return INFINITE_KEY
+        if not self._too_large:
+            try:
+                return table.key(state & self._changed, limit)
+            except ClosureTooLargeError:
+                self._too_large = True
+        return self._search(state, limit)
+
+    def optimal(self, state: int) -> list[tuple[Operator, int]]:
+        """Actions that start an optimal plan, ascending, with their successors."""
+        key = self.key(state)
+        if key >= INFINITE_KEY:
+            return []
+        found = []
+        for op in self._index.candidates(state):
+            if applicable(op, state):
+                after = state & op.keep | op.put
+                rest = key - self._weights[op.cost]
+                if after != state and self.key(after, rest + 1) == rest:
+                    found.append((op, after))
+        return found
+
+    def _table(self, context: int) -> Closure | None:
+        """The table of a context, still empty; None where the context denies the goal."""
+        changed = self._changed
+        goal = _within(self._packed.goal, changed, context)
+        if goal is None:
+            return None
+        arcs = []
+        for op in self._packed.own:
+            self._deadline.tick()
+            condition = _within(PackedGoal(op.need_mask, op.need, op.forbidden), changed, context)
+            if condition is not None:
+                arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))
+        fields = [field for field in self._packed.fields if field & changed]
+        values = [self._packed.values(field) for field in fields]
+        return Closure(arcs, goal, fields, values, MAX_STATES, self._deadline)
+
+    def _search(self, state: int, limit: int) -> int:
+        if self._single is None:
+            packed, weights = self._packed, self._weights
+            blind = PatternDatabase(0, {0: 0})
+            self._single = IndividualPlanner(
+                packed, packed.goal, lambda op: weights[op.cost], blind, self._deadline
+            )
+        return self._single.key(state, limit)
+
+
+def _within(condition: PackedGoal, changed: int, context: int) -> PackedGoal | None:
+    """What a condition asks of the ``changed`` fields; None if the context denies it."""
+    rest = condition.need_mask & ~changed
+    if condition.need < 0 or context & rest != condition.need & rest:
+        return None
+    forbidden = []
+    for field, value in condition.forbidden:
+        if field & changed:
+            forbidden.append((field, value))
+        elif context & field == value:
+            return None
+    return PackedGoal(condition.need_mask & changed, condition.need & changed, tuple(forbidden))

@@ -1,0 +1,89 @@
+"""How the prime's optimal actions count: the worst of them, or their mean."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, Protocol
+
+from search.modes.assistance.game.game import Game
+from search.modes.assistance.game.solution import Costs
+from search.packed.cost_vector import INFINITE_KEY
+
+Value = Any
+"""An ``int`` of the game (robust), or a pair of exact costs (expected); ordered by ``<``."""
+
+
+class ChoiceRule(Protocol):
+    """What robust and expected differ in."""
+
+    infinite: Value
+
+    def lift(self, value: int) -> Value:
+        """A value of the game in the rule's form."""
+
+    def add(self, value: int, rest: Value) -> Value:
+        """A move's value and what follows it."""
+
+    def combine(self, values: Sequence[Value]) -> Value:
+        """The value of a state in which the prime chooses."""
+
+    def costs(self, game: Game, value: Value) -> Costs | None:
+        """The costs in a value; None if infinite."""
+
+
+class Worst:
+    """Robust: the lexicographically greatest."""
+
+    infinite: Value = INFINITE_KEY
+
+    def lift(self, value: int) -> Value:
+        """See :class:`ChoiceRule`."""
+        return value
+
+    def add(self, value: int, rest: Value) -> Value:
+        """See :class:`ChoiceRule`."""
+        return min(value + rest, INFINITE_KEY)
+
+    def combine(self, values: Sequence[Value]) -> Value:
+        """See :class:`ChoiceRule`."""
+        return max(values)
+
+    def costs(self, game: Game, value: Value) -> Costs | None:
+        """See :class:`ChoiceRule`."""
+        return None if value >= INFINITE_KEY else game.pair(value)
+
+
+class Mean:
+    """Expected: the mean of each cost, all actions alike likely."""
+
+    infinite: Value = (INFINITE_KEY, INFINITE_KEY)
+
+    def __init__(self, game: Game) -> None:
+        self._unit = 1 << game.unit_bits
+
+    def lift(self, value: int) -> Value:
+        """See :class:`ChoiceRule`."""
+        return self.infinite if value >= INFINITE_KEY else divmod(value, self._unit)
+
+    def add(self, value: int, rest: Value) -> Value:
+        """See :class:`ChoiceRule`."""
+        if rest == self.infinite:
+            return rest
+        prime, supporter = divmod(value, self._unit)
+        return (prime + rest[0], supporter + rest[1])
+
+    def combine(self, values: Sequence[Value]) -> Value:
+        """See :class:`ChoiceRule`."""
+        if len(values) == 1:
+            return values[0]
+        if any(value == self.infinite for value in values):
+            return self.infinite
+        return (
+            Fraction(sum(value[0] for value in values), len(values)),
+            Fraction(sum(value[1] for value in values), len(values)),
+        )
+
+    def costs(self, game: Game, value: Value) -> Costs | None:
+        """See :class:`ChoiceRule`."""
+        if value == self.infinite:
+            return None
+        return Fraction(value[0]) / game.scale, Fraction(value[1]) / game.scale

@@ -1,0 +1,127 @@
+"""Writes solutions in the model's terms: names of facts and actions, plans by epochs."""
+
+from search.modes.assistance.game.game import NOOP, Game, Move
+from search.modes.assistance.game.solution import Costs, Solution
+from search.packed.cost_vector import INFINITE_KEY
+from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
+from serendipity.model.errors import LIMITS
+from serendipity.model.task.actions import NOOP as NOOP_NAME
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan
+
+
+class Writer:
+    """Names for one game.
+
+    Args:
+        game: the game.
+        ties: how the prime's optimal actions count.
+    """
+
+    def __init__(self, game: Game, ties: str) -> None:
+        self.task = game.task
+        self._game = game
+        self._ties = ties
+        packed = game.packed
+        self._named: dict[tuple[int, int], str] = {}
+        for fact, bits in enumerate(packed.fact_bits):
+            if bits is not None:
+                self._named[bits] = game.task.facts[fact]
+
+    def human_plan(self) -> HumanPlan | None:
+        """The prime's canonical optimal plan alone, or None where they have none."""
+        game, state = self._game, self._game.init
+        if game.alone(state) >= INFINITE_KEY:
+            return None
+        plan = []
+        while not game.goal.holds(state):
+            move = game.prime(state)[0]
+            plan.append(move.action)
+            state = move.after
+        return tuple(plan)
+
+    def policy(self, solution: Solution) -> Policy:
+        """The policy, with its lower bounds where there is time to write them down."""
+        decisions = tuple(
+            Decision(self._delta(state), self._name(entry.action), entry.value)
+            for state, entry in solution.policy.items()
+        )
+        try:
+            return Policy(decisions, self._floors(solution))
+        except LIMITS:
+            return Policy(decisions, None)
+
+    def _floors(self, solution: Solution) -> tuple[Floor, ...] | None:
+        if solution.floors is None:
+            return None
+        floors = []
+        for state, value in solution.floors.items():
+            self._game.deadline.tick()
+            floors.append(Floor(self._delta(state), value))
+        return tuple(floors)
+
+    def plan(self, solution: Solution) -> tuple[Step, ...] | None:
+        """The only run of a policy; None where the prime's choices make several."""
+        game, state, helping = self._game, self._game.init, True
+        steps: list[Step] = []
+        epoch = 0
+        while not game.goal.holds(state):
+            epoch += 1
+            entry = solution.policy.get(state) if helping else None
+            helping = entry is not None
+            rest: Costs | None = None
+            if entry is not None:
+                if entry.action != NOOP:
+                    steps.append(Step(epoch, entry.action))
+                    rest = self._less_supporter(entry.value, entry.action)
+                else:
+                    rest = entry.value
+                state = entry.after
+                if game.goal.holds(state):
+                    break
+            move = self._reply(state, solution, rest)
+            if move is None:
+                return None
+            if move.action != NOOP:
+                steps.append(Step(epoch, move.action))
+            state = move.after
+        return tuple(steps)
+
+    def _reply(self, state: int, solution: Solution, rest: Costs | None) -> Move | None:
+        """The prime's move, where it is determined."""
+        if self._game.alone(state) >= INFINITE_KEY:
+            return Move(0, state, NOOP)
+        moves = self._game.prime(state)
+        if self._ties == "fixed" or len(moves) == 1:
+            return moves[0]
+        if self._ties != "optimistic":
+            return None
+        return next((move for move in moves if self._attains(move, solution, rest)), moves[0])
+
+    def _attains(self, move: Move, solution: Solution, rest: Costs | None) -> bool:
+        """Whether the cheapest run goes on with this move."""
+        if rest is None:
+            return True
+        cost = self._game.pair(move.value)
+        if self._game.goal.holds(move.after):
+            return rest == cost
+        entry = solution.policy.get(move.after)
+        return entry is not None and (entry.value[0] + cost[0], entry.value[1] + cost[1]) == rest
+
+    def _less_supporter(self, value: Costs, action: int) -> Costs:
+        return value[0], value[1] - self._game.task.actions[action].cost
+
+    def _name(self, action: int) -> str:
+        return NOOP_NAME if action == NOOP else self._game.task.actions[action].name
+
+    def _delta(self, state: int) -> StateDelta:
+        packed, init = self._game.packed, self._game.init
+        differs = state ^ init
+        true, false = [], []
+        for field in packed.fields:
+            if differs & field:
+                now = self._named.get((field, state & field))
+                before = self._named.get((field, init & field))
+                true += [] if now is None else [now]
+                false += [] if before is None else [before]
+        return StateDelta(tuple(sorted(true)), tuple(sorted(false)))

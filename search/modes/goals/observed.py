@@ -1,0 +1,241 @@
+"""The human's optimal plans for each candidate goal that do, and don't, embed what was observed.
+
+A plan embeds the observations iff they are a subsequence of its action names.  Matching each
+observation as early as possible decides that, so a search over (state, number of observations
+matched) is exact; a plan that does not embed them never matches the last one.
+"""
+
+from collections.abc import Sequence
+from copy import copy
+from dataclasses import dataclass
+from fractions import Fraction
+
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask
+from search.engine.astar import AStar
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operator_index import by_most_asked
+from search.packed.operators import forms_of
+from search.packed.successor_generator import Lookup
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import HumanPlan, Task
+
+_At = tuple[int, int]
+"""A packed state, and how many observations have been matched."""
+
+
+@dataclass(frozen=True, slots=True)
+class Likelihood:
+    """What the observations cost a human who wants one goal.
+
+    Attributes:
+        with_observed: ``cost(G, O)``: least cost of their plans that embed them; None if none does.
+        without_observed: ``cost(G, not O)``: least cost of their other plans; None if there is none.
+        plan: the canonical one among the (cost, length)-optimal plans that embed them.
+    """
+
+    with_observed: Fraction | None
+    without_observed: Fraction | None
+    plan: HumanPlan | None
+
+
+class Explainer:
+    """What explains observations, for each of several goals; tables are kept from question to question.
+
+    Args:
+        task: the task; robots idle, its own goal plays no part.
+        goals: the candidate goals.
+    """
+
+    def __init__(self, task: Task, goals: Sequence[Condition]) -> None:
+        nothing = Condition()
+        self._prepared = [PreparedTask(task.with_goal(goal, nothing)) for goal in goals]
+        self._last: list[tuple[tuple[str, ...], Likelihood] | None] = [None] * len(goals)
+
+    def explain(
+        self, observed: Sequence[str], deadline: Deadline | None = None, *, canonical: bool = True
+    ) -> list[Likelihood]:
+        """One explanation for each goal; those that were found before a limit came are not lost.
+
+        Args:
+            observed: names of actions, in the order in which the human did them.
+            deadline: deadline and cancellation.
+            canonical: whether plans have to be the canonical ones; any others take less time.
+        """
+        deadline, names = deadline or Deadline(), tuple(observed)
+        found = []
+        for i, (prepared, last) in enumerate(zip(self._prepared, self._last, strict=True)):
+            earlier = None if last is None or names[: len(last[0])] != last[0] else last[1]
+            likelihood = _explanation(prepared, names, earlier, deadline, canonical=canonical)
+            self._last[i] = names, likelihood
+            found.append(likelihood)
+        return found
+
+    def at(self, state: frozenset[int]) -> "Explainer":
+        """The same from another state."""
+        moved = copy(self)
+        moved._prepared = [one.at(state) for one in self._prepared]
+        moved._last = [None] * len(moved._prepared)
+        return moved
+
+
+def explanations(
+    task: Task, goals: Sequence[Condition], observed: Sequence[str], deadline: Deadline | None = None
+) -> list[Likelihood]:
+    """One explanation for each goal; see :class:`Explainer`."""
+    return Explainer(task, goals).explain(observed, deadline)
+
+
+def _explanation(
+    prepared: PreparedTask,
+    observed: tuple[str, ...],
+    earlier: Likelihood | None,
+    deadline: Deadline,
+    *,
+    canonical: bool,
+) -> Likelihood:
+    """What explains observations, by what explained them before the last ones were made.
+
+    Plans that embed all of them embed those before, so they cost no less, and as much where the canonical
+    one goes on as observed.  Plans that don't embed all of them cost no more than those that don't embed
+    those before, and as much where these are as cheap as any.
+    """
+    if earlier is None:
+        search = _Search(prepared, observed, deadline)
+        known, plan = search.embedding(canonical=canonical)
+        return Likelihood(known, search.other(), plan)
+    known, other = earlier.with_observed, earlier.without_observed
+    goes_on = known is None or _embeds(prepared.task, earlier.plan or (), observed)
+    as_cheap = other is not None and (known is None or other <= known)
+    if goes_on and as_cheap:
+        return earlier
+    search = _Search(prepared, observed, deadline)
+    if not goes_on:
+        known, plan = search.embedding(canonical=canonical)
+    else:
+        plan = earlier.plan
+    return Likelihood(known, other if as_cheap else search.other(other), plan)
+
+
+def _embeds(task: Task, plan: HumanPlan, observed: Sequence[str]) -> bool:
+    """Whether a plan has the observations as a subsequence."""
+    names = iter(task.actions[i].name for i in plan)
+    return all(name in names for name in observed)
+
+
+class _Search:
+    """A* over what matters to one goal and to the observations."""
+
+    def __init__(self, prepared: PreparedTask, observed: tuple[str, ...], deadline: Deadline) -> None:
+        task = prepared.task
+        seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
+        asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
+        tables = prepared.plain(deadline)
+        if not all(map(tables.packed.is_useful, seen)):  # what they ask for is packed otherwise
+            tables = prepared.including(frozenset(asked), deadline)
+        context = SearchContext(prepared, Options(), deadline, tables=tables)
+        packed = context.packed
+        own = sorted({op.action for op in packed.own} | seen)
+        forms = forms_of((packed.op(i) for i in own), packed.all_ones, deadline)
+        self._lookup = Lookup(by_most_asked(forms, packed.fields, deadline), context.weights.alone)
+        self._keys = context.keys
+        self._names = {i: task.actions[i].name for i in own}
+        self._goal = packed.goal
+        self._bound = context.bound
+        self._observed = observed
+        self._deadline = deadline
+        self._start: _At = (packed.init, 0)
+
+    def embedding(self, *, canonical: bool) -> tuple[Fraction | None, HumanPlan | None]:
+        """``cost(G, O)``, and a plan that embeds the observations, the canonical one if that is asked for."""
+        key, plan = self._best_of_all() if canonical else self._first(embed=True, limit=INFINITE_KEY)
+        return None if plan is None else self._keys.cost(key), plan
+
+    def other(self, most: Fraction | None = None) -> Fraction | None:
+        """``cost(G, not O)``, known to be at most so much; None: it may be anything."""
+        limit = INFINITE_KEY if most is None else self._keys.of_cost(most)
+        key, plan = self._first(embed=False, limit=limit)
+        return most if plan is None else self._keys.cost(key)
+
+    def _first(self, *, embed: bool, limit: int) -> tuple[int, HumanPlan | None]:
+        """The least key, below ``limit``, of a plan that embeds the observations (or not), and the plan."""
+        all_seen = len(self._observed)
+        if not embed and not all_seen:
+            return INFINITE_KEY, None
+        search = AStar(self._start, self._missing, self._deadline, limit=limit, deep_first=True)
+        into: dict[_At, tuple[int, _At]] = {}
+        for at, key in search:
+            if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
+                return key, self._way(at, into)
+            for option in self._lookup.options(at[0]):
+                after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
+                if (embed or after[1] < all_seen) and search.reach(after, key + option.weight):
+                    into[after] = option.actions[0], at
+        return INFINITE_KEY, None
+
+    def _way(self, at: _At, into: dict[_At, tuple[int, _At]]) -> HumanPlan:
+        plan: list[int] = []
+        while at != self._start:
+            action, at = into[at]
+            plan.append(action)
+        return tuple(reversed(plan))
+
+    def _best_of_all(self) -> tuple[int, HumanPlan | None]:
+        """The least key of a plan that embeds the observations, and the canonical one.
+
+        Every place whose bound does not exceed the optimum is expanded, so that all optimal
+        plans are among the steps recorded.
+        """
+        all_seen = len(self._observed)
+        search = AStar(self._start, self._missing, self._deadline, limit=INFINITE_KEY)
+        into: dict[_At, list[tuple[int, _At, int]]] = {}
+        ends = []
+        for at, key in search:
+            if at[1] == all_seen and self._goal.holds(at[0]):
+                search.limit = min(search.limit, key + 1)
+                ends.append(at)
+            for option in self._lookup.options(at[0]):
+                after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
+                reached = key + option.weight
+                into.setdefault(after, []).append((option.actions[0], at, reached))
+                search.reach(after, reached)
+        if not ends:
+            return INFINITE_KEY, None
+        optimum = search.limit - 1
+        best = [at for at in ends if search.spent[at] == optimum]
+        return optimum, self._canonical(best, into, search.spent)
+
+    def _missing(self, at: _At) -> int:
+        """Lower bound of the key that is missing, whatever has been observed."""
+        return self._bound(at[0])
+
+    def _matched(self, count: int, action: int) -> int:
+        expected = self._observed[count] if count < len(self._observed) else None
+        return count + (self._names[action] == expected)
+
+    def _canonical(
+        self,
+        ends: list[_At],
+        into: dict[_At, list[tuple[int, _At, int]]],
+        distance: dict[_At, int],
+    ) -> HumanPlan:
+        """The canonical plan: at each step the smallest action of an optimal plan (semantics 1)."""
+        onward: dict[_At, list[tuple[int, _At]]] = {}
+        pending, seen = list(ends), set(ends)
+        while pending:
+            self._deadline.tick()
+            after = pending.pop()
+            for action, at, reached in into.get(after, ()):
+                if reached != distance[after]:
+                    continue
+                onward.setdefault(at, []).append((action, after))
+                if at not in seen:
+                    seen.add(at)
+                    pending.append(at)
+        plan, at = [], self._start
+        while at in onward:
+            action, at = min(onward[at])
+            plan.append(action)
+        return tuple(plan)

@@ -1,0 +1,151 @@
+"""The human's state machine: what they decide when they look up (semantics 6, steps 1 and 2)."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask, TaskTables
+from search.human.individual_planner import canonical
+from search.modes.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
+from search.modes.simulation.intention import Intention, Intentions
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import Operator, applicable, asked_by
+from search.packed.packed_task import PackedTask
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.visibility import Visible
+
+
+@dataclass(frozen=True, slots=True)
+class Glance:
+    """What a look makes of the human's plan; costs are scaled, None is infinite.
+
+    Attributes:
+        intention: what they mean to do now.
+        kept: ``c``, what their plan costs where it still works.
+        best: ``h``, their optimal cost alone; where it is None they wait.
+    """
+
+    intention: Intention
+    kept: int | None
+    best: int | None
+
+    @property
+    def replanned(self) -> bool:
+        """Whether the human has changed their mind."""
+        return self.best is not None and self.kept != self.best
+
+
+class Human:
+    """One human with their beliefs, plans and decisions, in packed states.
+
+    Args:
+        prepared: the task.
+        options: discount and weights.
+        deadline: polled.
+        human_model: ``observant`` or ``local``.
+        actions: ids of actions that will be asked about, beyond the useful ones.
+        visible: what a local human sees; None for the default.
+
+    Attributes:
+        context: the task as they see it.
+    """
+
+    def __init__(
+        self,
+        prepared: PreparedTask,
+        options: Options,
+        deadline: Deadline,
+        *,
+        human_model: str,
+        actions: Collection[int] = (),
+        visible: Visible | None = None,
+    ) -> None:
+        local = human_model == "local"
+        told = local and visible is not None
+        tables = _packing(prepared, actions, deadline, local=local, told=told)
+        self.context = SearchContext(prepared, options, deadline, tables=tables)
+        self.packed = tables.packed
+        self.weights = self.context.weights
+        self.keys = self.weights.keys
+        self.bound = self.context.bound
+        self.alone = self.context.alone
+        self.intentions = Intentions(self.packed, self.keys, self.weights.human)
+        self.eyes: Eyes = _eyes(prepared, self.packed, visible, deadline) if local else Everywhere()
+        self.concern = self.packed.own_mask | self.packed.goal.mask
+        task = prepared.task
+        for i in actions:
+            if task.actions[i].participants == (task.human,):
+                self.concern |= asked_by(self.packed.op(i))
+        self._looks: dict[tuple[int, int], Glance] = {}
+
+    def decide(self, belief: int, intention: Intention) -> Glance:
+        """Step 1: whether they keep their plan, make another, or wait."""
+        key = (belief & self.concern, intention.number)
+        look = self._looks.get(key)
+        if look is None:
+            look = self._looks[key] = self._decide(belief, intention)
+        return look
+
+    def _decide(self, belief: int, intention: Intention) -> Glance:
+        kept = intention.cost if intention.works(belief, self.packed.goal) else None
+        limit = INFINITE_KEY if kept is None else self.key_of(kept)
+        best = self.alone.key(belief, limit)
+        if best >= limit:
+            return Glance(intention, kept, kept)
+        plan = canonical(self.alone, belief)
+        return Glance(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
+
+    def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
+        """Step 2: whether the human takes part, ``best`` being their cost alone now."""
+        if not applicable(joint, belief):
+            return False
+        if best is None:
+            return True  # anything may be worth more than no plan at all
+        left = best - self.keys.scaled_cost(self.weights.human[joint.cost])
+        if left < 0:
+            return False
+        limit = self.key_of(left + 1)
+        return self.alone.key(belief & joint.keep | joint.put, limit) < limit
+
+    def stuck(self, state: int) -> bool:
+        """Whether the human has no plan alone from a packed state, as it truly is."""
+        return self.alone.key(state) >= INFINITE_KEY
+
+    def learn(self, belief: int, state: int, op: Operator) -> int:
+        """The belief after the human tried an action in vain: its preconditions as they are."""
+        mask = asked_by(op)
+        return belief & ~mask | state & mask
+
+    def key_of(self, cost: int) -> int:
+        """The least key of a scaled cost."""
+        return (cost << self.keys.cost_shift) + (cost << self.keys.objective_shift)
+
+
+def _packing(
+    prepared: PreparedTask, actions: Collection[int], deadline: Deadline, *, local: bool, told: bool
+) -> TaskTables:
+    """The task packed as the human sees it, with what the actions ask for."""
+    if told:
+        return prepared.complete(deadline)
+    plain = prepared.with_diversions(deadline)
+    missing = _missing(plain.packed, actions)
+    if local:
+        return prepared.doubting(missing, deadline) if missing else prepared.doubtful(deadline)
+    return prepared.including(missing, deadline, prepared.diversions(deadline)) if missing else plain
+
+
+def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
+    """Facts to pack for actions that can't contribute to a goal, but may be done or tried."""
+    task = packed.task
+    asked = {f for i in actions for f in (*task.actions[i].pre, *task.actions[i].neg)}
+    missing = asked if any(packed.fact_bits[f] is None for f in asked) else set()
+    for i in actions:
+        action = task.actions[i]
+        if action.participants == (task.human,) and not packed.is_useful(i):
+            missing |= {*action.pre, *action.neg, *action.add, *action.delete}
+    return frozenset(missing)
+
+
+def _eyes(prepared: PreparedTask, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:
+    return Nearby(packed, prepared.surroundings(deadline)) if visible is None else AsTold(packed, visible)

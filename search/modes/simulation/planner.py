@@ -1,0 +1,279 @@
+"""The best help that happens, with a human who replans on sight (semantics 6)."""
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask
+from search.engine.best_first import Incumbent, Node, Progress, best_first
+from search.engine.paths import path_steps, plan_steps
+from search.modes.simulation.human import Human
+from search.modes.simulation.simulator import way_on
+from search.modes.simulation.space import Reactive, Start
+from search.packed.cost_vector import INFINITE_KEY
+from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.strategies.first_answer import FirstAnswer
+from search.strategies.warm_start import WarmStart
+from serendipity.model.answers.answer import Answer, Status, saved
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.horizon import horizon_of
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.visibility import Visible
+
+
+def solve_for_human(
+    prepared: PreparedTask,
+    options: Options,
+    *,
+    human_plan: HumanPlan | None = None,
+    visible: Visible | None = None,
+    deadline: Deadline | None = None,
+    warm: WarmStart | None = None,
+) -> Iterator[Answer]:
+    """Answers with falling cost and rising lower bound; the last one is the best known.
+
+    The minimum is over the robots' action sequences of at most ``T`` epochs.  The human
+    produces prefix, window and suffix unasked, so an answer has no window, and ``K``
+    does not count.
+
+    Args:
+        prepared: the task.
+        options: options in force; ``human_model`` is not ``omniscient``.
+        human_plan: ``pi_H``, already replayed, or None to predict it.
+        visible: what a local human sees; None for the default.
+        deadline: deadline and cancellation.
+        warm: what is known before.
+
+    Raises:
+        UsageError: the horizon is shorter than ``pi_H``, or one is missing.
+    """
+    task, deadline = prepared.task, deadline or Deadline(options.time_limit)
+    first: FirstAnswer | None = None
+    plan = human_plan
+    try:
+        if plan is None:
+            context = SearchContext(prepared, options, deadline)
+            first = FirstAnswer(context, None)
+            yield from first.answers(bounded=True)
+            predicted = context.canonical_plan()
+            plan = None if predicted is None else predicted.actions
+    except LIMITS as limit:
+        reason = limit_reason(limit)
+        yield Answer("unknown", reason=reason) if first is None else first.last(reason)
+        return
+    if plan is None:
+        yield Answer("infeasible", reason="no-human-plan")
+        return
+    epochs = int(horizon_of(task, options, plan))
+    least = Fraction(0) if first is None else first.least
+    try:
+        if not task.robot_goal:
+            yield _left_alone(task, plan, epochs, least, given=human_plan is not None)
+        actions = human_plan or ()
+        human = Human(
+            prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
+        )
+        if human_plan is None:
+            human.alone.proved(human.packed.init, plan)
+    except LIMITS as limit:
+        if task.robot_goal:
+            yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
+        return
+    known = () if warm is None else warm.steps
+    call = _Call(task, options, human, plan, epochs, deadline, known, given=human_plan is not None)
+    for answer in call.answers():
+        yield answer._replace(lower_bound=_not_below(least, answer.lower_bound))
+
+
+def _not_below(least: Fraction, bound: Fraction | None) -> Fraction | None:
+    """A lower bound that is no lower than an earlier one."""
+    return None if bound is None else max(least, bound)
+
+
+def _left_alone(task: Task, plan: HumanPlan, epochs: int, least: Fraction, *, given: bool) -> Answer:
+    """Robots do nothing, and the human does what they were going to do.
+
+    What they gain alone is known only of an optimal plan.
+    """
+    cost = task.cost_of(plan)
+    return Answer(
+        "feasible",
+        human_plan=plan,
+        horizon=epochs,
+        steps=plan_steps(plan),
+        cost=cost,
+        objective=cost,
+        lower_bound=least,
+        baseline=cost,
+        saving=Fraction(0),
+        saving_alone=None if given else Fraction(0),
+    )
+
+
+class _Call:
+    """One planning call: its incumbents and its bound.
+
+    ``baseline`` leaves the human alone (or, with ``G_R``, follows ``pi_H`` beside the robots);
+    ``idle`` is what they do alone, if it reaches all goals; ``best`` is the incumbent over everything.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        human: Human,
+        plan: HumanPlan,
+        epochs: int,
+        deadline: Deadline,
+        known: Sequence[Step],
+        *,
+        given: bool,
+    ) -> None:
+        self.known = known
+        self.task = task
+        self.options = options
+        self.human = human
+        self.plan = plan
+        self.given = given
+        self.deadline = deadline
+        self.epochs = epochs
+        self.progress = Progress()
+        self.baseline = Incumbent(INFINITE_KEY)
+        self.idle = Incumbent(INFINITE_KEY)
+        self.best = Incumbent(INFINITE_KEY)
+        self.settled = False
+        """Whether it is known what the human does alone."""
+        self.limit: str | None = None
+
+    def answers(self) -> Iterator[Answer]:
+        """Each better answer, then the last one with what is proved of it."""
+        try:
+            self._follow()
+            self._search(self.idle, Progress(), idle=True)
+            self.settled = True
+            if not self.task.robot_goal:
+                self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
+            self._begin_with_known()
+            if self._has_answer():
+                yield self._outcome("feasible")
+            for _ in best_first(self._space(idle=False), self.best, self.progress, self.deadline):
+                yield self._outcome(self._unfinished())
+            status: Status = "optimal" if self._has_answer() else "infeasible"
+        except LIMITS as limit:
+            self.limit = limit_reason(limit)
+            status = self._unfinished()
+        yield self._outcome(status)
+
+    def _begin_with_known(self) -> None:
+        """The plan that was known before is the incumbent, where it works out and is better."""
+        played = way_on(self._start(), self.human, self.options, self.known, self.deadline)
+        if played is None or len(played.epochs) > self.epochs:
+            return
+        human, guarded = self.human, self.options.no_block is not False
+        node = Node(0, 0, human.packed.init, 0, 0, None, ())
+        for epoch in played.epochs:
+            if guarded and human.stuck(node.state):
+                return
+            node = human.context.after(node, [human.packed.op(i) for i in epoch.executed])
+        if node.key < self.best.key and not human.keys.exceeds(node.key, self._most_cost()):
+            self.best = Incumbent(node.key, node)
+
+    def _start(self) -> Start:
+        init = self.human.packed.init
+        return Start(init, init, self.human.intentions.of(self.plan))
+
+    def _follow(self) -> None:
+        """The plan in which the human does ``pi_H`` exactly, robots seeing to ``G_R`` beside them."""
+        context = self.human.context
+        steps = context.followed(self.plan)
+        if not self.task.robot_goal:
+            self.baseline.key = sum(option.weight for _, option in steps)
+            return
+        space = FixedHumanPlan(
+            initial=context.packed.init,
+            horizon=self.epochs,
+            steps=steps,
+            goals=context.goals,
+            successors=context.successors(),
+        )
+        for _ in best_first(space, self.baseline, Progress(), self.deadline):
+            pass
+
+    def _search(self, best: Incumbent, progress: Progress, *, idle: bool) -> None:
+        for _ in best_first(self._space(idle=idle), best, progress, self.deadline):
+            pass
+
+    def _space(self, *, idle: bool) -> Reactive:
+        return Reactive(
+            self.human,
+            self.human.context.successors(idle=idle),
+            start=self._start(),
+            horizon=self.epochs,
+            no_block=self.options.no_block is not False,
+            most_cost=None if idle else self._most_cost(),
+            sees_all=self.options.human_model == "observant",
+        )
+
+    def _most_cost(self) -> int | None:
+        """``max_cost`` (eq. 11), scaled and rounded down."""
+        return self.human.keys.most_cost(self.options.max_cost, self.baseline.key)
+
+    def _unfinished(self) -> Status:
+        return "feasible" if self._has_answer() else "unknown"
+
+    def _has_answer(self) -> bool:
+        """Without ``G_R``, leaving the human alone is always an answer."""
+        return self.best.key < INFINITE_KEY or not self.task.robot_goal
+
+    def _helps(self) -> bool:
+        """Whether the incumbent costs less than ``pi_H``, and than what the human does alone."""
+        keys, found = self.human.keys, self.best.key
+        if found >= self.idle.key or not self.settled:
+            return False
+        rivals = [key for key in (self.baseline.key, self.idle.key) if key < INFINITE_KEY]
+        return all(keys.cost(found) < keys.cost(key) for key in rivals)
+
+    def _outcome(self, status: Status) -> Answer:
+        helps, keys = self._helps(), self.human.keys
+        answer = self.best if helps or self.task.robot_goal else self.baseline
+        known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
+        baseline = None if self.baseline.key == INFINITE_KEY else keys.cost(self.baseline.key)
+        cost = keys.cost(answer.key) if known else None
+        return Answer(
+            status,
+            human_plan=self.plan,
+            horizon=self.epochs,
+            reason={"infeasible": "no-plan-within-horizon", "unknown": self.limit}.get(status),
+            steps=self._steps(answer) if known else None,
+            cost=cost,
+            objective=cost,
+            lower_bound=cost if status == "optimal" else self._lower_bound(status),
+            baseline=baseline,
+            saving=saved(baseline, cost, opportunity=helps),
+            saving_alone=self._saving_alone(baseline) if known else None,
+            opportunity=helps,
+            expanded=self.progress.expanded,
+            generated=self.progress.generated,
+        )
+
+    def _saving_alone(self, baseline: Fraction | None) -> Fraction | None:
+        """What the human gains alone; not compared where robots have goals."""
+        if baseline is None or (not self.settled and (self.given or self.task.robot_goal)):
+            return None
+        if not self.given or self.task.robot_goal or self.idle.key == INFINITE_KEY:
+            return Fraction(0)
+        return max(baseline - self.human.keys.cost(self.idle.key), Fraction(0))
+
+    def _lower_bound(self, status: Status) -> Fraction | None:
+        if status == "infeasible":
+            return None
+        return self.human.keys.objective(min(self.progress.bound, self.best.key, self.baseline.key))
+
+    def _steps(self, answer: Incumbent) -> tuple[Step, ...]:
+        if answer is self.baseline and answer.node is None:
+            return plan_steps(self.plan)
+        assert answer.node is not None, "an incumbent of the search has a node"
+        return tuple(sorted(path_steps(answer.node) + plan_steps(answer.tail, answer.end)))

@@ -1,0 +1,343 @@
+"""Plays a composite plan against a human who replans, epoch by epoch (semantics 6)."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from search.call.prepared_task import PreparedTask
+from search.modes.simulation.human import Glance, Human
+from search.modes.simulation.intention import Intention
+from search.modes.simulation.space import Start
+from search.packed.operators import Operator, applicable
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.visibility import Visible
+
+INAPPLICABLE, CONFLICT, REFUSED = "inapplicable", "conflict", "refused"
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """An action of the plan that did not happen: its id, and why."""
+
+    action: int
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class Epoch:
+    """What happened in one epoch.
+
+    Attributes:
+        epoch: from 1.
+        saw: ids of the facts that the human found other than expected, with their truth.
+        kept: ``c``: cost of their former plan where it still works, undiscounted.
+        best: ``h``: their optimal cost alone.
+        replanned: whether they have made another plan.
+        plan: what they mean to do, from this epoch on.
+        accepted: the joint action that they take part in, or None.
+        own: what they do alone, or None.
+        failed: whether ``own`` turned out to be impossible.
+        robots: what robots do without them.
+        skipped: what the plan says and does not happen.
+    """
+
+    epoch: int
+    saw: tuple[tuple[int, bool], ...]
+    kept: Fraction | None
+    best: Fraction | None
+    replanned: bool
+    plan: tuple[int, ...]
+    accepted: int | None
+    own: int | None
+    failed: bool
+    robots: tuple[int, ...]
+    skipped: tuple[Skipped, ...]
+
+    @property
+    def executed(self) -> tuple[int, ...]:
+        """Ids of the actions that took place."""
+        his = () if self.own is None or self.failed else (self.own,)
+        return (*his, *(() if self.accepted is None else (self.accepted,)), *self.robots)
+
+
+@dataclass(frozen=True, slots=True)
+class Simulated:
+    """A plan as it turned out.
+
+    Attributes:
+        epochs: until the goals hold, the horizon, or nothing can happen any more.
+        goals_hold: whether the goals hold after the last of them.
+        cost: of the actions that took place, for the team.
+        limit: which limit came before the end (as ``Result.reason`` has it), or None.
+    """
+
+    epochs: tuple[Epoch, ...]
+    goals_hold: bool
+    cost: Fraction
+    limit: str | None = None
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The actions that took place."""
+        return tuple(Step(e.epoch, i) for e in self.epochs for i in sorted(e.executed))
+
+    def realised(self, promised: Fraction) -> bool | None:
+        """Whether the plan works out at the promised cost or less; None where a limit left that open."""
+        if self.cost > promised or any(epoch.skipped for epoch in self.epochs):
+            return False
+        return self.goals_hold if self.limit is None else None
+
+
+def simulate(
+    prepared: PreparedTask,
+    options: Options,
+    human_plan: HumanPlan,
+    steps: Iterable[Step],
+    *,
+    human_model: str,
+    horizon: int | None,
+    visible: Visible | None = None,
+    deadline: Deadline | None = None,
+) -> Simulated:
+    """What becomes of the robots' part of a plan with a human who replans.
+
+    Args:
+        prepared: the task.
+        options: discount and interference.
+        human_plan: their plan at the beginning; empty where they have none.
+        steps: the composite plan; what it wants the human to do alone is not looked at.
+        human_model: ``observant`` or ``local``.
+        horizon: ``T``, or None for any.
+        visible: what a local human sees; None for the default.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline ran out in the first epoch, or before it.
+    """
+    task, deadline = prepared.task, deadline or Deadline()
+    planned = _by_epoch(task, steps)
+    asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
+    human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
+    init = human.packed.init
+    start = Start(init, init, human.intentions.of(human_plan))
+    return _Run(task, options, human, planned, start, deadline).play(horizon)
+
+
+def simulate_from(
+    start: Start,
+    human: Human,
+    options: Options,
+    steps: Iterable[Step],
+    *,
+    horizon: int | None,
+    deadline: Deadline,
+) -> Simulated:
+    """The same from any moment, with a human who is there already.
+
+    Args:
+        start: where it begins.
+        human: the human; every action of ``steps`` is packed.
+        options: discount and interference.
+        steps: the composite plan, its epochs counted from the start.
+        horizon: ``T``, or None for any.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline ran out in the first epoch, or before it.
+    """
+    task = human.packed.task
+    return _Run(task, options, human, _by_epoch(task, steps), start, deadline).play(horizon)
+
+
+def way_on(
+    start: Start, human: Human, options: Options, steps: Sequence[Step], deadline: Deadline
+) -> Simulated | None:
+    """What becomes of a plan that was made for another moment; None where it does not lead to the goals.
+
+    Args:
+        start: where it begins.
+        human: the human.
+        options: discount and interference.
+        steps: the plan, its epochs counted from the start.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline ran out in the first epoch, or before it.
+    """
+    if not steps or not all(human.packed.is_useful(step.action) for step in steps):
+        return None
+    played = simulate_from(start, human, options, steps, horizon=None, deadline=deadline)
+    return played if played.goals_hold and not any(epoch.skipped for epoch in played.epochs) else None
+
+
+def _by_epoch(task: Task, steps: Iterable[Step]) -> dict[int, list[int]]:
+    """What robots take part in, epoch by epoch."""
+    planned: dict[int, list[int]] = {}
+    for step in steps:
+        if task.actions[step.action].participants != (task.human,):
+            planned.setdefault(step.epoch, []).append(step.action)
+    return planned
+
+
+def variants(task: Task, action: int) -> tuple[int, ...]:
+    """The ids of the ground actions that are the same action to people: it comes first."""
+    same = task.actions[action]
+    others = task.named[same.name]
+    return (action, *(i for i in others if i != action and task.actions[i].participants == same.participants))
+
+
+class _Run:
+    """One simulation: true state, the human's belief, what they expect to see next."""
+
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        human: Human,
+        planned: dict[int, list[int]],
+        start: Start,
+        deadline: Deadline,
+    ) -> None:
+        self.task = task
+        self.deadline = deadline
+        self.strict = options.strict
+        self.human = human
+        self.packed = human.packed
+        self.planned = planned
+        self.settled = False
+        self.state, self.expected = start.state, start.belief
+        self.intention = start.intention
+
+    def play(self, horizon: int | None) -> Simulated:
+        intention = self.intention
+        last = max(self.planned, default=0)
+        epochs: list[Epoch] = []
+        limit = None
+        while not self._done() and (horizon is None or len(epochs) < horizon):
+            before = self.expected
+            try:
+                self.deadline.check()
+                epoch, intention = self._epoch(len(epochs) + 1, intention)
+            except LIMITS as error:
+                if not epochs:
+                    raise
+                limit = limit_reason(error)
+                break
+            epochs.append(epoch)
+            if epoch.epoch >= last and not epoch.executed and self.expected == before:
+                break  # nothing will ever change again
+        return Simulated(tuple(epochs), self._done(), self._cost(epochs), limit)
+
+    def _epoch(self, number: int, intention: Intention) -> tuple[Epoch, Intention]:
+        human, packed = self.human, self.packed
+        belief = human.eyes.look(self.expected, self.state)
+        saw = self._differences(self.expected, belief)
+        look = self._look(belief, intention)
+        intention = look.intention
+        offered = [self._variant(i) for i in sorted(self.planned.get(number, ()))]
+        joint, skipped = self._joint(offered, belief, look)
+        own = intention.op if joint is None and look.best is not None else None
+        failed = own is not None and not applicable(own, self.state)
+        did = joint if joint is not None else None if failed else own
+        robots = self._robots(offered, did, skipped)
+        self.settled = own is not None and not failed
+        if failed and own is not None:
+            self.expected = human.learn(belief, self.state, own)
+        else:
+            self.expected = belief if did is None else belief & did.keep | did.put
+        self._apply([packed.op(i) for i in robots] + ([] if did is None else [did]))
+        epoch = Epoch(
+            number,
+            saw,
+            self._exact(look.kept),
+            self._exact(look.best),
+            look.replanned,
+            intention.actions,
+            None if joint is None else joint.action,
+            None if own is None else own.action,
+            failed,
+            tuple(robots),
+            tuple(skipped),
+        )
+        return epoch, intention.rest if own is not None and not failed else intention
+
+    def _look(self, belief: int, intention: Intention) -> Glance:
+        """Step 1; while all goes as the human expected, the rest of an optimal plan is optimal."""
+        if self.settled and not (belief ^ self.expected) & self.human.concern:
+            return Glance(intention, intention.cost, intention.cost)
+        return self.human.decide(belief, intention)
+
+    def _joint(
+        self, offered: Sequence[int], belief: int, look: Glance
+    ) -> tuple[Operator | None, list[Skipped]]:
+        """The joint action with the human that takes place, and those that do not."""
+        taken: Operator | None = None
+        skipped = []
+        for i in offered:
+            op = self.packed.op(i)
+            if not op.agents & self.packed.human_bit:
+                continue
+            if not applicable(op, self.state):
+                skipped.append(Skipped(i, INAPPLICABLE))
+            elif taken is not None:
+                skipped.append(Skipped(i, CONFLICT))
+            elif self.human.accepts(op, belief, look.best):
+                taken = op
+            else:
+                skipped.append(Skipped(i, REFUSED))
+        return taken, skipped
+
+    def _robots(self, offered: Sequence[int], his: Operator | None, skipped: list[Skipped]) -> list[int]:
+        """What robots do without the human; the human has priority, and among robots the smaller id."""
+        done: list[int] = []
+        taken = [] if his is None else [his.action]
+        for i in offered:
+            op = self.packed.op(i)
+            if op.agents & self.packed.human_bit:
+                continue
+            if not applicable(op, self.state):
+                skipped.append(Skipped(i, INAPPLICABLE))
+            elif not all(self.packed.compatible(i, j, self.strict) for j in (*taken, *done)):
+                skipped.append(Skipped(i, CONFLICT))
+            else:
+                done.append(i)
+        return done
+
+    def _variant(self, action: int) -> int:
+        """One that is applicable among ground actions with one name and the same agents."""
+        possible = variants(self.task, action)
+        return next((i for i in possible if applicable(self.packed.op(i), self.state)), action)
+
+    def _apply(self, ops: Sequence[Operator]) -> None:
+        keep, put = -1, 0
+        for op in ops:
+            keep &= op.keep
+            put |= op.put
+        self.state = self.state & keep | put
+
+    def _done(self) -> bool:
+        return self.packed.goal.holds(self.state) and self.packed.robot_goal.holds(self.state)
+
+    def _differences(self, expected: int, found: int) -> tuple[tuple[int, bool], ...]:
+        different = (expected ^ found) & self.human.concern
+        if not different:
+            return ()
+        return tuple(
+            (fact, found & bits[0] == bits[1])
+            for fact, bits in enumerate(self.packed.fact_bits)
+            if bits is not None
+            and bits[0] & different
+            and (expected & bits[0] == bits[1]) != (found & bits[0] == bits[1])
+        )
+
+    def _exact(self, scaled: int | None) -> Fraction | None:
+        return None if scaled is None else Fraction(scaled, self.human.keys.scale)
+
+    def _cost(self, epochs: Iterable[Epoch]) -> Fraction:
+        human = self.human
+        keys = sum(human.weights.team(self.packed.op(i)) for epoch in epochs for i in epoch.executed)
+        return human.keys.cost(keys)

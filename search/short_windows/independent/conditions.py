@@ -1,0 +1,84 @@
+"""Where robots may be looked at one by one."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from search.classical.mutexes import Pairs
+from search.packed.operators import Operator, asked_by
+from search.packed.packed_task import PackedTask
+from search.short_windows.independent.rows import Rows, column
+from serendipity.model.resources.deadline import Deadline
+
+
+def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
+    """Whether every action has one participant, and robots leave the human what they need in the same epoch.
+
+    Where a robot may take away what an action of the human's only asks for, while that is being done,
+    what the human pays after a window is no bound on what they pay in it.
+
+    Args:
+        packed: the packed task.
+        deadline: polled.
+        strict: strict interference, which forbids the latter.
+    """
+    if packed.joint or any(op.agents & op.agents - 1 for op in packed.others):
+        return False
+    if strict:
+        return True
+    pairs = None
+    for own, other in _in_the_way(packed, deadline):
+        if packed.compatible(own.action, other.action, strict=False):
+            pairs = pairs or _pairs(packed, deadline)
+            if pairs.may_share_a_state(own, other):
+                return False
+    return True
+
+
+def _pairs(packed: PackedTask, deadline: Deadline) -> Pairs:
+    fields = ((field, packed.values(field)) for field in packed.fields)
+    return Pairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, deadline)
+
+
+def lost_values(packed: PackedTask) -> dict[int, set[int]]:
+    """By field of the human's goal the values from which they alone never get to what it asks for."""
+    lost = {}
+    for field in packed.fields:
+        if packed.goal.need_mask & field:
+            moves = [op for op in packed.own if field & ~op.keep]
+            good, known = {packed.goal.need & field}, 0
+            while len(good) > known:
+                known = len(good)
+                for op in moves:
+                    if op.put & field in good:
+                        good.update([op.need & field] if op.need_mask & field else packed.values(field))
+            lost[field] = set(packed.values(field)) - good
+    return lost
+
+
+def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operator, Operator]]:
+    """The human's actions with robots' ones that may happen in the same state and undo what they ask for."""
+    words = max(1, -(-packed.all_ones.bit_length() // 64))
+    others = packed.others
+    concerned = [own for own in deadline.each(packed.own) if packed.outside & asked_by(own)]
+    if not others or not concerned:
+        return
+    need_mask, need = (
+        _table(words, [op.need_mask for op in others]),
+        _table(words, [op.need for op in others]),
+    )
+    keep = _table(words, [op.keep & packed.all_ones for op in others])
+    put = _table(words, [op.put for op in others])
+    for own in deadline.each(concerned):
+        mask, value = column(own.need_mask, words), column(own.need, words)
+        disabled = (((value & keep | put) ^ value) & mask).any(axis=0)
+        for field, forbidden in own.forbidden:
+            sets = (~keep & column(field, words)).any(axis=0)
+            disabled |= sets & (put & column(field, words) == column(forbidden, words)).all(axis=0)
+        together = ~((need ^ value) & need_mask & mask).any(axis=0)
+        for place in np.flatnonzero(disabled & together):
+            yield own, others[place]
+
+
+def _table(words: int, masks: Sequence[int]) -> Rows:
+    return np.concatenate([column(mask, words) for mask in masks], axis=1)

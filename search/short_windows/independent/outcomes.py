@@ -1,0 +1,201 @@
+"""What robots leave behind for the human, each on its own, and all of them together.
+
+An outcome is told by its difference from what is there without any robot.  Where several robots set the same
+field, one of them was the last: so each may do without what another could have set, and no two of them differ
+in one field.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from search.short_windows.independent.rows import Amounts, Rows, agree, cheapest, column
+from search.short_windows.independent.timeline import Layer, TooManyStatesError
+from serendipity.model.resources.deadline import Deadline
+
+MOST_OUTCOMES: Final = 500_000
+"""Of a robot, and of all together: sorting as many takes 0.1 s, in which nobody looks at the clock."""
+
+_MOST_PAIRS: Final = 50_000_000
+
+_AT_ONCE: Final = 500_000
+
+Parts = NDArray[np.int32]
+"""Per outcome of all robots the places of those of each of them."""
+
+
+class Outcomes(NamedTuple):
+    """Differences, each once at its least cost.
+
+    Attributes:
+        rows: per outcome the bits that differ.
+        amounts: what robots pay for it, at least.
+    """
+
+    rows: Rows
+    amounts: Amounts
+
+
+def outcomes(
+    layer: Layer,
+    base: int,
+    fields: Sequence[int],
+    shared: int,
+    lost: Mapping[int, Collection[int]],
+    deadline: Deadline,
+) -> Outcomes:
+    """What a robot can leave behind.
+
+    Args:
+        layer: what it can have made of the world.
+        base: the packed state without any robot.
+        fields: those that the robot sets and that matter to the human.
+        shared: those that others set, too.
+        lost: by field the values from which the human can't get to their goal.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: there are too many, or the deadline came.
+    """
+    words = layer.rows.shape[0]
+    rows = (layer.rows ^ column(base, words)) & column(sum(fields), words)
+    found = _least(rows, layer.amounts, deadline)
+    for field in fields:
+        if field & shared:
+            bits = column(field, words)
+            without = (found.rows & bits).any(axis=0)
+            if len(found.amounts) + int(np.count_nonzero(without)) > MOST_OUTCOMES:
+                raise TooManyStatesError
+            rows = np.concatenate([found.rows, found.rows[:, without] & ~bits], axis=1)
+            amounts = np.concatenate([found.amounts, found.amounts[without]])
+            found = _least(rows, amounts, deadline)
+    hopeful = np.ones(len(found.amounts), dtype=np.bool_)
+    for field in fields:
+        for value in lost.get(field, ()):
+            if value != base & field:
+                hopeful &= ~agree(found.rows, field, (base ^ value) & field)
+    return Outcomes(found.rows[:, hopeful], found.amounts[hopeful])
+
+
+class Together:
+    """What robots leave behind together.
+
+    Args:
+        apart: what each of them can leave behind.
+        nets: per robot and outcome what it costs, less the most that it saves the human.
+        fields: those that they set and that matter to the human.
+        most: where the sum of nets is as much, outcomes are left out.
+        most_paid: the same for the sum of what they cost.
+        deadline: polled; asked for memory.
+
+    Attributes:
+        found: what they leave behind together.
+
+    Raises:
+        LimitReachedError: there are too many, or the deadline came.
+    """
+
+    def __init__(
+        self,
+        apart: Sequence[Outcomes],
+        nets: Sequence[Amounts],
+        fields: Sequence[int],
+        most: int,
+        most_paid: int,
+        deadline: Deadline,
+    ) -> None:
+        self._deadline = deadline
+        self._most_paid = most_paid
+        self._fields = [column(field, apart[0].rows.shape[0]) for field in fields]
+        best = [int(net.min(initial=0)) for net in nets]
+        self.found, self._parts = _only(apart[0])
+        self._nets = nets[0]
+        self._keep(self._nets < most - sum(best[1:]))
+        for number, more in enumerate(apart[1:], 1):
+            self._join(more, nets[number], most - sum(best[number + 1 :]))
+
+    def parts(self, place: int) -> list[int]:
+        """Places of each robot's own outcome, for one of all together."""
+        return [int(part) for part in self._parts[:, place]]
+
+    def _keep(self, chosen: NDArray[Any]) -> None:
+        """Leave out all others."""
+        found = self.found
+        self.found, self._parts = (
+            Outcomes(found.rows[:, chosen], found.amounts[chosen]),
+            self._parts[:, chosen],
+        )
+        self._nets = self._nets[chosen]
+
+    def _join(self, more: Outcomes, nets: Amounts, most: int) -> None:
+        """One more robot; ``most``: where the sum of nets is as much, outcomes are left out."""
+        order = nets.argsort(kind="stable")
+        nets, rows, paid = nets[order], more.rows[:, order], more.amounts[order]
+        most_paid = self._most_paid
+        known, parts, known_nets = self.found, self._parts, self._nets
+        ends = np.searchsorted(nets, most - known_nets)
+        if int(ends.sum()) > _MOST_PAIRS:
+            raise TooManyStatesError
+        mine, theirs = self._mentioned(known.rows), self._mentioned(rows)
+        self._keep(np.zeros(0, dtype=np.intp))
+        self._parts = np.concatenate([self._parts, self._parts[:1]])
+        batch = _Batch()
+        for i in ends.nonzero()[0]:
+            self._deadline.check()
+            end = int(ends[i])
+            fits = ~(theirs[:, :end] & mine[:, i : i + 1]).any(axis=0)
+            fits &= paid[:end] < most_paid - known.amounts[i]
+            chosen = np.flatnonzero(fits)
+            places = order[chosen]
+            batch.rows.append(rows[:, chosen] | known.rows[:, i : i + 1])
+            batch.amounts.append(more.amounts[places] + known.amounts[i])
+            batch.nets.append(nets[chosen] + known_nets[i])
+            batch.parts.append(
+                np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [places]])
+            )
+            batch.size += len(chosen)
+            if batch.size > _AT_ONCE:
+                self._add(batch)
+                batch = _Batch()
+        self._add(batch)
+
+    def _add(self, batch: "_Batch") -> None:
+        every = np.concatenate([self.found.rows, *batch.rows], axis=1)
+        paid = np.concatenate([self.found.amounts, *batch.amounts])
+        parts = np.concatenate([self._parts, *batch.parts], axis=1)
+        nets = np.concatenate([self._nets, *batch.nets])
+        self._deadline.require(3 * every.nbytes)
+        kept = cheapest(every, paid, self._deadline)
+        if len(kept) > MOST_OUTCOMES:
+            raise TooManyStatesError
+        self.found, self._parts = Outcomes(every[:, kept], paid[kept]), parts[:, kept].astype(np.int32)
+        self._nets = nets[kept]
+
+    def _mentioned(self, rows: Rows) -> Rows:
+        """The fields in which outcomes differ from what is there without any robot, whole."""
+        found = np.zeros_like(rows)
+        for field in self._fields:
+            found |= np.where((rows & field).any(axis=0), field, np.uint64(0))
+        return found
+
+
+def _least(rows: Rows, amounts: Amounts, deadline: Deadline) -> Outcomes:
+    kept = cheapest(rows, amounts, deadline)
+    return Outcomes(rows[:, kept], amounts[kept])
+
+
+def _only(outcomes: Outcomes) -> tuple[Outcomes, Parts]:
+    return outcomes, np.arange(len(outcomes.amounts), dtype=np.int32).reshape(1, -1)
+
+
+class _Batch:
+    """What is put together before it is compared with what was found."""
+
+    def __init__(self) -> None:
+        self.rows: list[Rows] = []
+        self.amounts: list[Amounts] = []
+        self.nets: list[Amounts] = []
+        self.parts: list[Parts] = []
+        self.size = 0

@@ -1,0 +1,174 @@
+"""Windows of one epoch, all agents at once: every state beside the human's timetable, epoch by epoch.
+
+Where robots take from one another all the time, what each can do by itself says little.  But as long as
+the human follows ``pi_H`` robots are in their way, and there may be few enough states to look at all.
+"""
+
+from collections.abc import Collection, Iterator
+from typing import Final
+
+from search.call.context import SearchContext
+from search.classical.problem import MOST_WEIGHT, ClassicalProblem
+from search.engine.best_first import Incumbent, Progress
+from search.human.own_problem import own_planner
+from search.kernel.library import library
+from search.packed.cost_vector import ACTIONS_BITS, own_costs
+from search.short_windows.independent.conditions import lost_values
+from search.short_windows.joint.epochs import Epochs, Leaving
+from search.spaces.factory import suffix_rule
+from search.spaces.from_composite import Suggestions
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import HumanPlan
+
+_HOPEFUL: Final = 3
+"""One part in so many of the epochs has to be behind it to be worth going on at once: states multiply at
+first, and are fewer where goals have been reached."""
+
+_MOST_ACTIONS: Final = 2_000
+"""Every pair of them is told apart."""
+
+_MOST_AGENTS: Final = 63
+
+_MOST_COST_BITS: Final = 24
+"""Of an action, and of the unit of what follows: so that what all agents do in an epoch can be added up."""
+
+
+class AllTogether:
+    """Windows of one epoch, the earliest first, looked at in one go or in several.
+
+    Args:
+        context: of the call, in a mode with windows.
+        plan: ``pi_H``.
+        horizon: ``T``.
+        best: the incumbent, which is made better.
+        progress: what is known so far, which is brought up to date.
+        longer: no plan with a longer window has a smaller key.
+    """
+
+    def __init__(
+        self,
+        context: SearchContext,
+        plan: HumanPlan,
+        horizon: int,
+        best: Incumbent,
+        progress: Progress,
+        longer: int,
+    ) -> None:
+        self._context = context
+        self._plan = plan
+        self._horizon = horizon
+        self._best = best
+        self._progress = progress
+        self._longer = longer
+        self._suffix = suffix_rule(context, plan)
+        self._epochs: Epochs | None = None
+        self._epoch = 1
+        self._left: list[Leaving] | None = None
+        """What can be left behind in that epoch and was not looked at yet, the least total last."""
+        self._is_over = False
+
+    @property
+    def is_hopeful(self) -> bool:
+        """Whether a good part of the epochs is behind it."""
+        return _HOPEFUL * self._epoch >= len(self._plan)
+
+    def windows(self, most: int, deadline: Deadline) -> Iterator[None]:
+        """Yield whenever the incumbent has become better; raise the bound after all epochs.
+
+        It goes on from where it ended the last time.
+
+        Args:
+            most: so many states, and it ends.
+            deadline: polled.
+
+        Raises:
+            LimitReachedError: the deadline came.
+        """
+        if self._is_over:
+            return
+        fits = self._amount(self._best.key) < MOST_WEIGHT
+        self._epochs = self._epochs or (_epochs(self._context, deadline) if fits else None)
+        if self._epochs is None:
+            self._is_over = True
+        else:
+            yield from self._windows(self._epochs, most, deadline)
+
+    def _windows(self, epochs: Epochs, most: int, deadline: Deadline) -> Iterator[None]:
+        """All that are left, unless there are too many states."""
+        while self._epoch <= len(self._plan):
+            if self._left is None:
+                left = epochs.leave(self._amount(self._best.key - self._start()), most, deadline)
+                if left is None:
+                    break
+                self._left = left[::-1]
+            yield from self._look(epochs, self._left)
+            if self._epoch < len(self._plan):
+                op = self._context.packed.op(self._plan[self._epoch - 1])
+                limit = self._amount(self._best.key - self._context.keys.epoch_weight)
+                if not epochs.advance(op, limit, most, deadline):
+                    break
+            self._epoch, self._left = self._epoch + 1, None
+        else:
+            self._is_over = True
+            self._progress.bound = max(self._progress.bound, min(self._longer, self._best.key))
+        self._is_over = self._is_over or epochs.is_hopeless
+
+    def _start(self) -> int:
+        """Key of a window in the epoch that is looked at."""
+        keys = self._context.keys
+        return keys.epoch_weight + keys.of_start(self._epoch, self._horizon)
+
+    def _look(self, epochs: Epochs, left: list[Leaving]) -> Iterator[None]:
+        """Whether things that can be left behind make the incumbent better."""
+        context, best, start = self._context, self._best, self._start()
+        while left and start + context.amount_key(left[-1].total) < best.key:
+            limit = best.key - start - context.amount_key(left[-1].paid)
+            state, epochs_left = epochs.end(left[-1]), self._horizon - self._epoch
+            if self._suffix.key(state, epochs_left, self._epoch, limit) < limit:
+                suggestions = Suggestions(context, self._plan, self._horizon, None, best.key)
+                for found in suggestions.exactly(epochs.ways(left[-1])):
+                    best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
+                    yield
+            left.pop()
+        left.clear()
+
+    def _amount(self, limit: int) -> int:
+        """The least amount of which the key is not below a limit; ``MOST_WEIGHT``: too much."""
+        return self._context.amount_from(limit, MOST_WEIGHT)
+
+
+def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
+    """What the kernel looks at; None where it can't."""
+    packed, kernel = context.packed, library()
+    operators = (*packed.own, *packed.joint, *packed.others)
+    if kernel is None or len(operators) > _MOST_ACTIONS or len(context.task.agents) > _MOST_AGENTS:
+        return None
+    after = own_planner(packed, packed.goal, context.relevant, deadline)
+    costs = [context.weights.scaled_cost(op) for op in operators]
+    if after is None or max(costs).bit_length() > _MOST_COST_BITS:
+        return None
+    fields = tuple((field, len(packed.values(field))) for field in packed.fields)
+    weights = tuple((cost << ACTIONS_BITS) + 1 for cost in costs)
+    problem = ClassicalProblem(fields, operators, weights, packed.goal, 1)
+    own, lost = own_costs(packed), lost_values(packed)
+    dead = b"".join(_flags(field, values, lost.get(field, ())) for field, values in fields)
+    ratio = next((context.weights.scaled_cost(op) // own[op.cost] for op in packed.own if own[op.cost]), 1)
+    if (after.problem.unit * ratio).bit_length() > _MOST_COST_BITS:
+        return None
+    return Epochs(
+        kernel,
+        context.task,
+        problem,
+        after,
+        dead,
+        after.problem.unit * ratio,
+        packed.init,
+        deadline,
+        strict=context.options.strict,
+    )
+
+
+def _flags(field: int, values: int, chosen: Collection[int]) -> bytes:
+    """For each value of a field 1 if it is among some."""
+    lowest = field & -field
+    return bytes(value * lowest in chosen for value in range(values))

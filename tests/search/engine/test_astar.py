@@ -1,0 +1,80 @@
+"""A* finds least costs, with any consistent estimate, below its limit and in a known order."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from search.engine.astar import AStar
+from serendipity.model.resources.deadline import Deadline
+from tests.search.engine.graphs import NODES, Edges, distances, graphs, turned
+
+FAR = 1000
+
+
+def estimates(edges: Edges, goal: int, share: int) -> dict[int, int]:
+    """A consistent estimate of the way to a goal: a share (in quarters) of the distance, rounded up."""
+    exact = distances({goal: 0}, turned(edges))
+    return {node: -(-exact.get(node, FAR) * share // 4) for node in range(NODES)}
+
+
+@given(graphs(), st.integers(0, NODES - 1), st.integers(0, 4), st.booleans(), st.integers(1, 12))
+def test_least_costs_below_the_limit(
+    edges: Edges, goal: int, share: int, deep_first: bool, limit: int
+) -> None:
+    estimate, exact = estimates(edges, goal, share), distances({0: 0}, edges)
+    search = AStar(0, estimate.__getitem__, Deadline(), limit=limit, deep_first=deep_first)
+    met = {}
+    for node, spent in search:
+        assert node not in met
+        met[node] = spent
+        for weight, after in edges[node]:
+            search.reach(after, spent + weight)
+    assert met == {node: cost for node, cost in exact.items() if node in met}
+    if exact.get(goal, FAR) < limit:
+        assert goal in met
+    assert search.least is None or search.least >= limit
+
+
+@given(graphs(), st.integers(0, NODES - 1), st.booleans())
+def test_the_limit_may_be_lowered(edges: Edges, goal: int, deep_first: bool) -> None:
+    estimate, exact = estimates(edges, goal, 4), distances({0: 0}, edges)
+    search = AStar(0, estimate.__getitem__, Deadline(), limit=FAR, deep_first=deep_first)
+    parents: dict[int, tuple[int, int]] = {}
+    for node, spent in search:
+        if node == goal:
+            search.limit = spent
+        for weight, after in edges[node]:
+            if search.reach(after, spent + weight):
+                parents[after] = node, weight
+    assert search.limit == exact.get(goal, FAR)
+    cost, node = 0, goal
+    while search.limit < FAR and node != 0:
+        node, weight = parents[node]
+        cost += weight
+    assert cost == (search.limit if search.limit < FAR else 0)
+
+
+def test_ties_go_by_what_has_been_spent_and_by_the_state() -> None:
+    for deep_first, expected in ((True, [0, 2, 3, 1]), (False, [0, 1, 2, 3])):
+        search = AStar(0, {0: 3, 1: 2, 2: 1, 3: 1}.__getitem__, Deadline(), limit=9, deep_first=deep_first)
+        met = []
+        for node, _ in search:
+            met.append(node)
+            if not node:
+                for spent, after in ((2, 3), (1, 1), (2, 2)):
+                    search.reach(after, spent)
+        assert met == expected
+
+
+def test_what_is_postponed_comes_up_again_in_its_turn() -> None:
+    search = AStar(0, lambda _: 0, Deadline(), limit=9)
+    met = []
+    for node, spent in search:
+        met.append(node)
+        if node == 0:
+            search.reach(1, 1)
+            search.reach(2, 3)
+        elif node == 1 and met.count(1) == 1:
+            search.postpone(1, 5)
+            assert search.least == 3
+        assert spent == {0: 0, 1: 1, 2: 3}[node]
+    assert met == [0, 1, 2, 1]

@@ -1,0 +1,95 @@
+"""What arrays say of many states is what is found state by state, and by brute force."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from search.modes.assistance.distances import closure
+from search.modes.assistance.distances.closure import Arc, Closure
+from search.modes.assistance.distances.perimeter import ball_around
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
+from search.packed.packed_task import PackedGoal
+from serendipity.model import Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
+from tests.search.modes.assistance.strategies import games
+from tests.search.modes.assistance.test_search_equals_brute_force import solve
+
+
+@contextmanager
+def everything_is_large(medium: int) -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(closure, "SMALL", 0)
+        patch.setattr(closure, "MEDIUM", medium)
+        yield
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust"])
+@given(task=games(), no_block=st.booleans(), medium=st.sampled_from([0, 1000]))
+def test_values_do_not_depend_on_the_tables(ties: str, task: Task, no_block: bool, medium: int) -> None:
+    tree = explore(task, fixed=ties == "fixed", no_block=no_block)
+    with everything_is_large(medium):
+        assert solve(task, ties, no_block=no_block) == by_rounds(tree, max if ties == "robust" else min)
+
+
+@given(task=games(), medium=st.sampled_from([0, 1000]))
+def test_expected_value_does_not_depend_on_the_tables(task: Task, medium: int) -> None:
+    with everything_is_large(medium):
+        answer = solve(task, "expected")
+    least = mean_over_all_policies(explore(task, fixed=False, no_block=False), 400)
+    if least != "too many":
+        assert answer == least
+
+
+FIELDS = [0b11, 0b100, 0b1000, 0b110000]
+VALUES = [[0, 1, 2, 3], [0, 4], [0, 8], [0, 16, 32]]
+
+
+@st.composite
+def systems(draw: st.DrawFn) -> tuple[list[Arc], PackedGoal]:
+    """Arcs over four fields, some of which change together; no step is free."""
+
+    def condition() -> PackedGoal:
+        chosen = draw(st.lists(st.integers(0, 3), max_size=2, unique=True))
+        need = sum(draw(st.sampled_from(VALUES[i])) for i in chosen)
+        barred = [i for i in range(4) if i not in chosen and draw(st.integers(0, 5)) == 0]
+        forbidden = tuple((FIELDS[i], draw(st.sampled_from(VALUES[i]))) for i in barred)
+        return PackedGoal(sum(FIELDS[i] for i in chosen), need, forbidden)
+
+    def arc() -> Arc:
+        changed = draw(st.lists(st.integers(0, 3), min_size=1, max_size=2, unique=True))
+        put = sum(draw(st.sampled_from(VALUES[i])) for i in changed)
+        keep = 0b111111 & ~sum(FIELDS[i] for i in changed)
+        cost = draw(st.sampled_from([0, 1, 1, 2]))
+        return Arc(condition(), keep, put, (cost << ACTIONS_BITS) + draw(st.integers(1, 2)))
+
+    return [arc() for _ in range(draw(st.integers(1, 8)))], condition()
+
+
+@given(system=systems(), start=st.tuples(*map(st.sampled_from, VALUES)).map(sum), limit=st.integers(0, 6))
+def test_ball_knows_the_distance_of_every_state_in_reach(
+    system: tuple[list[Arc], PackedGoal], start: int, limit: int
+) -> None:
+    arcs, goal = system
+    known = Closure(arcs, goal, FIELDS, VALUES, 1000, Deadline())
+    ball = ball_around(arcs, goal, FIELDS, VALUES, start, Deadline())
+    assert ball is not None
+    pending, seen = [start], {start}
+    while pending:
+        state = pending.pop()
+        distance = known.key(state)
+        rough = ball.key(state, limit << ACTIONS_BITS)
+        assert (
+            rough == distance
+            if distance < limit << ACTIONS_BITS
+            else limit << ACTIONS_BITS <= rough <= distance
+        )
+        assert ball.key(state, INFINITE_KEY) == distance
+        for arc in arcs:
+            after = state & arc.keep | arc.put
+            if arc.condition.holds(state) and after not in seen:
+                seen.add(after)
+                pending.append(after)

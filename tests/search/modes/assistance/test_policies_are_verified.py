@@ -1,0 +1,171 @@
+"""The checker proves what the search answers, and refutes answers that were tampered with."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity import Result, Task
+from serendipity.model import Deadline, Decision, Options, Policy
+from serendipity.model.answers.answer import PolicyBounds
+from serendipity.model.numbers import as_written
+from serendipity.testing.cases import case_5, case_6
+from tests.search.modes.assistance.strategies import games
+from verify.policy import check_policy
+
+TIES = ("optimistic", "fixed", "robust", "expected")
+
+
+def verdicts(task: Task, result: Result) -> dict[str, str]:
+    return {claim.claim: claim.verdict for claim in check_policy(task, result, Deadline())}
+
+
+@given(task=games(), ties=st.sampled_from(TIES), no_block=st.booleans())
+def test_answers_are_proved(task: Task, ties: str, no_block: bool) -> None:
+    result = serendipity.plan(task, mode="assistance", ties=ties, no_block=no_block)
+    claims = ["replay", "cost", "optimal", "lower_bound"]
+    expected = ["infeasible"] if result.status == "infeasible" else claims
+    assert verdicts(task, result) == dict.fromkeys(expected, "proved")
+
+
+def idle(result: Result, policy: Policy) -> Result:
+    """The same answer with a policy that does nothing, and every figure as if that were the best."""
+    cost = result.human_cost
+    value = as_written(cost), Fraction(0)
+    return replace(
+        result,
+        policy=policy,
+        plan=None,
+        agent_costs=dict.fromkeys(result.agent_costs, 0.0) | {"h": cost},
+        cost=cost,
+        objective=cost,
+        lower_bound=cost,
+        saving=0.0,
+        opportunity=False,
+        bounds=PolicyBounds(value, value),
+    )
+
+
+@given(task=games(), ties=st.sampled_from(TIES))
+def test_idle_policy_is_proved_only_where_it_is_optimal(task: Task, ties: str) -> None:
+    result = serendipity.plan(task, mode="assistance", ties=ties)
+    if result.human_cost is None or result.status == "infeasible":
+        return
+    forged = idle(result, replace(result.policy, decisions=()))
+    found = verdicts(task, forged)
+    assert (found["replay"], found["cost"]) == ("proved", "proved")
+    assert found["optimal"] == ("proved" if forged.agent_costs == result.agent_costs else "undecided")
+
+
+@given(task=games(), data=st.data())
+def test_floors_above_the_value_are_not_believed(task: Task, data: st.DataObject) -> None:
+    """Raised floors must not make doing nothing pass for optimal where help is better."""
+    result = serendipity.plan(task, mode="assistance", ties="expected")
+    if result.status == "infeasible" or result.human_cost is None or result.saving == 0:
+        return
+    step = Fraction(data.draw(st.integers(1, 3)))
+    raised = tuple(
+        replace(floor, value=(floor.value[0] + step, floor.value[1])) for floor in result.policy.floors
+    )
+    assert verdicts(task, idle(result, Policy((), raised)))["optimal"] != "proved"
+
+
+def tampered(policy: Policy, i: int, **changes: object) -> Policy:
+    decisions = list(policy.decisions)
+    decisions[i] = replace(decisions[i], **changes)
+    return replace(policy, decisions=tuple(decisions))
+
+
+def refuted(task: Task, result: Result, policy: Policy) -> str:
+    """The text of the claim that is refuted."""
+    claims = check_policy(task, replace(result, policy=policy), Deadline())
+    return next(claim.reason for claim in claims if claim.verdict == "refuted")
+
+
+@pytest.mark.parametrize("ties", TIES)
+def test_wrong_value_is_refuted(ties: str) -> None:
+    result = serendipity.plan(case_6(), mode="assistance", ties=ties)
+    wrong = tampered(result.policy, 0, value=(Fraction(0), Fraction(1)))
+    assert "make (0, 2)" in refuted(case_6(), result, wrong)
+
+
+def test_impossible_action_is_refuted() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    assert "can't do 'carry s a g'" in refuted(
+        case_6(), result, tampered(result.policy, 0, action="carry s a g")
+    )
+
+
+def test_policy_that_waits_for_ever_is_refuted() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    second: Decision = result.policy.decisions[1]
+    waits = tampered(result.policy, 1, action="noop", value=second.value)
+    assert "for ever" in refuted(case_6(), result, waits)
+
+
+def test_missing_state_is_refuted() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    half = replace(result.policy, decisions=result.policy.decisions[:1])
+    assert "idles" in refuted(case_6(), result, half)
+
+
+def test_blocking_is_refuted_where_it_is_forbidden() -> None:
+    result = serendipity.plan(case_6(), mode="assistance")
+    strict = replace(result, options=result.options.but(no_block=True))
+    assert "without a plan" in refuted(case_6(), strict, result.policy)
+
+
+def test_totals_must_be_those_of_the_policy() -> None:
+    result = serendipity.plan(case_5(), mode="assistance", ties="expected")
+    assert verdicts(case_5(), replace(result, agent_costs={"p": 1.0, "s": 1.0}))["cost"] == "refuted"
+
+
+def infeasible() -> Result:
+    """The false answer that case 5 has none."""
+    return Result(
+        "assistance",
+        "infeasible",
+        "p",
+        Options(mode="assistance"),
+        reason="no-plan",
+        bounds=PolicyBounds((Fraction(0), Fraction(0)), None),
+    )
+
+
+def test_false_infeasibility_is_refuted() -> None:
+    assert verdicts(case_5(), infeasible())["infeasible"] == "refuted"
+
+
+def test_plan_must_be_a_run_of_the_policy() -> None:
+    result = serendipity.plan(case_5(), mode="assistance")
+    late = replace(result, plan=tuple(replace(step, epoch=step.epoch + 1) for step in result.plan))
+    assert "would not wait" in refuted(case_5(), late, late.policy)
+
+
+def test_certificate_of_the_facade_covers_policies() -> None:
+    certificate = serendipity.verify(case_6(), serendipity.plan(case_6(), mode="assistance", ties="robust"))
+    assert certificate.verdict == "proved"
+    assert [claim.claim for claim in certificate.claims] == ["replay", "cost", "optimal", "lower_bound"]
+
+
+@pytest.mark.parametrize("ties", TIES)
+def test_check_walks_through_the_policy(ties: str) -> None:
+    result = serendipity.plan(case_6(), mode="assistance", ties=ties)
+    claims = serendipity.check(case_6(), result).claims
+    assert [(claim.claim, claim.verdict) for claim in claims] == [
+        ("replay", "proved"),
+        ("cost", "proved"),
+        ("optimal", "not_in_scope"),
+        ("lower_bound", "not_in_scope"),
+    ]
+    wrong = replace(result, policy=tampered(result.policy, 0, value=(Fraction(0), Fraction(1))))
+    assert serendipity.check(case_6(), wrong).verdict == "refuted"
+
+
+def test_check_says_what_it_did_not_examine() -> None:
+    (claim,) = serendipity.check(case_5(), infeasible()).claims
+    assert (claim.claim, claim.verdict) == ("infeasible", "not_in_scope")
+    assert "verify" in claim.reason

@@ -1,0 +1,50 @@
+"""The published problems of silent assistance: proved under all ties, values in their order."""
+
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from benchmarks.assistance import domain_of, number, problems
+from search import PreparedTask
+from search.modes.assistance import joint_optimum
+from serendipity import Task
+from serendipity.testing.oracle.assistance import Costs
+
+PROBLEMS = [
+    *(("car_assistance1", n) for n in (2, 12, 17)),
+    *(("teleport_assistance1", n) for n in (4, 19, 35, 37)),
+    *(("visitall_assistance", n) for n in (0, 2, 5, 8)),
+]
+
+
+def load(folder: Path, problem: int) -> Task:
+    prime, supporter = next(
+        (p, s) for _, p, s in problems(folder.parent) if p.parent == folder and number(p) == problem
+    )
+    return serendipity.load_agents(
+        {"prime": (domain_of(prime), prime), "supporter": (domain_of(supporter), supporter)}, human="prime"
+    )
+
+
+def proved(task: Task, ties: str) -> Costs:
+    result = serendipity.plan(task, mode="assistance", ties=ties)
+    assert result.status == "optimal"
+    assert result.bounds is not None
+    return result.bounds.lower
+
+
+@pytest.mark.parametrize(("domain", "problem"), PROBLEMS)
+def test_values_stand_in_order(spa: Path, domain: str, problem: int) -> None:
+    task = load(spa / domain, problem)
+    values = {ties: proved(task, ties) for ties in ("optimistic", "fixed", "expected", "robust")}
+    assert joint_optimum(PreparedTask(task)) <= values["optimistic"] <= values["fixed"]
+    assert values["optimistic"] <= values["expected"] <= values["robust"]
+
+
+@pytest.mark.parametrize(("domain", "problem"), [("teleport_assistance1", 37), ("car_assistance1", 12)])
+@pytest.mark.parametrize("ties", ["optimistic", "fixed", "expected", "robust"])
+def test_certificate_proves_the_answer(spa: Path, domain: str, problem: int, ties: str) -> None:
+    task = load(spa / domain, problem)
+    certificate = serendipity.verify(task, serendipity.plan(task, mode="assistance", ties=ties))
+    assert [claim.verdict for claim in certificate.claims] == ["proved"] * 4

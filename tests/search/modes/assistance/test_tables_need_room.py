@@ -1,0 +1,90 @@
+"""Where memory has no room for a table, what is asked of it is found without one."""
+
+import numpy as np
+import pytest
+
+import serendipity
+from search.modes.assistance.distances import closure
+from search.modes.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
+from search.modes.assistance.distances.layers import Layers
+from search.modes.assistance.distances.perimeter import PackedPlaces, ball_around
+from search.packed.cost_vector import ACTIONS_BITS
+from search.packed.packed_task import PackedGoal
+from serendipity.model import Deadline, LimitReachedError
+from serendipity.testing.cases import case_5
+from serendipity.testing.countdown import Countdown
+
+
+class Full(Deadline):
+    """No memory is left for anything that is asked for."""
+
+    def require(self, size: float) -> None:
+        """See :class:`Deadline`."""
+        raise LimitReachedError("memory-limit")
+
+
+class Late(Deadline):
+    """No time is left."""
+
+    def check(self) -> None:
+        """See :class:`Deadline`."""
+        raise LimitReachedError("time-limit")
+
+
+def line(length: int) -> tuple[list[Arc], PackedGoal, int]:
+    """Steps from 0 to ``length - 1``, one after another; the last one is the goal."""
+    mask = (1 << length.bit_length()) - 1
+    arcs = [Arc(PackedGoal(mask, at, ()), ~mask, at + 1, (1 << ACTIONS_BITS) + 1) for at in range(length - 1)]
+    return arcs, PackedGoal(mask, length - 1, ()), mask
+
+
+def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(closure, "SMALL", 1)
+    arcs, goal, mask = line(40)
+    values = [list(range(40))]
+    assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
+    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.perimeter._LARGE", 0)
+    with pytest.raises(ClosureTooLargeError):
+        Closure(arcs, goal, [mask], values, 1000, Full()).key(0)
+    with pytest.raises(LimitReachedError):
+        Closure(arcs, goal, [mask], values, 1000, Late()).key(0)
+
+
+def test_a_ball_asks_for_all_it_may_touch() -> None:
+    arcs, goal, mask = line(40)
+    values = [list(range(40))]
+    assert ball_around(arcs, goal, [mask], values, 0, Deadline()) is not None
+    assert ball_around(arcs, goal, [mask], values, 0, Full()) is None
+    assert PackedPlaces(arcs, [mask], values, 0, Deadline()).item == np.dtype(np.uint32).itemsize
+
+
+def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
+    arcs, goal, mask = line(40)
+    Layers(arcs, goal, [mask], 0, 1000, Full())  # little is not asked for
+    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
+    with pytest.raises(LimitReachedError):
+        Layers(arcs, goal, [mask], 0, 1000, Full())
+
+
+def test_the_clock_is_looked_at_between_sorts() -> None:
+    _, goal, mask = line(40)
+    deadline = Countdown(100)
+    Layers([], goal, [mask], 0, 1000, deadline)
+    assert deadline.left_over[0] < 95
+
+
+def test_edges_are_in_order_of_their_targets() -> None:
+    arcs, goal, mask = line(40)
+    layers = Layers(arcs, goal, [mask], 0, 1000, Deadline())
+    values = np.random.default_rng(1).integers(0, 1 << 20, 5000).astype(np.int32)
+    assert (layers._ordered(values) == np.argsort(values, kind="stable")).all()
+
+
+@pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
+def test_answers_are_the_same_without_tables(ties: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    full = serendipity.plan(case_5(), mode="assistance", ties=ties)
+    monkeypatch.setattr(closure, "SMALL", 1)
+    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
+    answer = serendipity.plan(case_5(), mode="assistance", ties=ties, deadline=Full())
+    assert (answer.status, answer.bounds) == (full.status, full.bounds)

@@ -1,0 +1,45 @@
+"""Candidate goals for the small tasks of ``serendipity.testing.strategies``; everything by construction."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from hypothesis import strategies as st
+
+from search.modes.goals import Candidate
+from serendipity.model import Condition, Task
+from serendipity.testing.oracle import optimal_human_plan
+from serendipity.testing.strategies import tasks
+from serendipity.testing.strategies.tasks import walks
+
+WEIGHTS = (Fraction(1, 2), Fraction(1, 4), Fraction(9, 10))
+
+
+@st.composite
+def reachable_goals(draw: st.DrawFn, task: Task) -> Condition:
+    """One literal that holds after a random walk of the human."""
+    state = draw(walks(task, 4))
+    changed = sorted(state ^ task.init) or sorted(range(len(task.facts)))
+    fact = draw(st.sampled_from(changed))
+    return Condition((fact,), ()) if fact in state else Condition((), (fact,))
+
+
+@st.composite
+def rivals(draw: st.DrawFn) -> tuple[Task, list[Candidate]]:
+    """A task without goals of the robots' own, and two goals that the human can reach alone.
+
+    The first is the task's own where the human can reach it, since robots are most often of use there.
+    """
+    task = replace(draw(tasks()), robot_goal=Condition())
+    weight = draw(st.sampled_from(WEIGHTS))
+    first = task.goal if optimal_human_plan(task) is not None else draw(reachable_goals(task))
+    found = []
+    for share, goal in ((weight, first), (1 - weight, draw(reachable_goals(task)))):
+        plan = optimal_human_plan(replace(task, goal=goal))
+        assert plan is not None, "a walk of his leads there"
+        found.append(Candidate(goal, plan, share))
+    return task, found
+
+
+def literals(task: Task, goal: Condition) -> list[str]:
+    """A goal as callers write it."""
+    return [task.facts[f] for f in goal.positive] + [f"!{task.facts[f]}" for f in goal.negative]

@@ -1,0 +1,320 @@
+"""Answers for several goals are proved by code of the verifier's own; doctored ones are refuted."""
+
+import json
+from collections.abc import Callable
+from copy import deepcopy
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import serendipity
+from search.modes.goals import Candidate
+from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
+from serendipity.testing.builders import task as build
+from serendipity.testing.oracle.goals import best_expected, robots_sets
+from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
+from tests.search.modes.goals.strategies import literals, rivals
+from tests.search.modes.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
+from tests.search.modes.goals.test_worked_cases import helped, workshop
+from verify.base.optimal_plans import OptimalPlans
+from verify.calls.call import Call
+from verify.goals import together
+from verify.goals.beliefs import compiled
+from verify.limits import limited
+
+_FAR = (Fraction(10**9), Fraction(10**9))
+
+
+def _verdicts(certificate: Certificate) -> dict[str, tuple[str, str]]:
+    return {claim.claim: (claim.verdict, claim.reason) for claim in certificate.claims}
+
+
+@given(rivals(), _OPTIONS, st.data())
+@settings(max_examples=50)
+def test_every_answer_is_proved(
+    rivalry: tuple[Task, list[Candidate]], options: Options, data: st.DataObject
+) -> None:
+    task, candidates = rivalry
+    goals = [
+        {"name": f"goal {k}", "goal": literals(task, c.goal), "prior": str(c.weight)}
+        for k, c in enumerate(candidates)
+    ]
+    his = sorted({task.actions[i].name for c in candidates for i in c.plan})
+    seen = data.draw(st.lists(st.sampled_from(his), max_size=2)) if his else []
+    given_options = {k: v for k, v in options.to_dict().items() if k != "mode"}
+    answer = serendipity.plan(task, goals=goals, observed=seen, **given_options)
+    certificate = serendipity.verify(task, answer)
+    assert certificate.verdict == "proved", (answer, certificate)
+    wanted = "optimal" if answer.opportunity else "no_opportunity"
+    assert _verdicts(certificate)["infeasible" if answer.cost is None else wanted][0] == "proved"
+
+
+@given(rivals(), _OPTIONS)
+@settings(max_examples=25)
+def test_what_is_played_is_what_brute_force_finds(
+    rivalry: tuple[Task, list[Candidate]], options: Options
+) -> None:
+    task, candidates = rivalry
+    horizon = max(len(candidate.plan) for candidate in candidates)
+    if not horizon or len(robots_sets(task, strict=options.strict)) ** horizon > _MOST_PLANS:
+        return  # too many for brute force
+    calls = []
+    for candidate in candidates:
+        own = Task(
+            task.name,
+            task.agents,
+            task.human,
+            task.facts,
+            task.init,
+            candidate.goal,
+            task.actions,
+        )
+        calls.append(Call(own, options.but(horizon=horizon), candidate.plan, OptimalPlans(own)))
+    everything = together.Together(calls, [candidate.weight for candidate in candidates])
+    best = best_expected(task, options, candidates, horizon)
+    assert everything.floor() <= best
+    found = everything.better(_FAR)
+    assert found is not None
+    assert found.rank == best
+    assert everything.better(best) is None
+
+
+def test_observations_become_a_counter() -> None:
+    """With z's action seen, p costs 10: it has to be done on the way; without it, 5."""
+    task = workshop("!q -> z @ 5")
+    p = Condition((task.facts.index("p"),))
+    costs = {}
+    for embed in (True, False):
+        own = compiled(task, p, ["keep h"], Deadline(), embed=embed)
+        worth = OptimalPlans(own).worth(own.init)
+        costs[embed] = None if worth is None else worth[0]
+    assert costs == {True: 10, False: 5}
+
+
+def _answer() -> tuple[Task, dict[str, Any]]:
+    task = workshop("!q -> z @ 5")
+    answer = helped(task, 1, 1)
+    assert serendipity.verify(task, answer).verdict == "proved"
+    return task, deepcopy(answer.to_dict())
+
+
+def _edit(path: str, value: object) -> Callable[[dict[str, Any]], None]:
+    """Set what a path like ``statistics.goals.0.cost`` leads to; a callable gets the old value."""
+
+    def edit(answer: dict[str, Any]) -> None:
+        *way, last = [int(part) if part.isdigit() else part for part in path.split(".")]
+        at: Any = answer
+        for part in way:
+            at = at[part]
+        at[last] = value(at[last]) if callable(value) else value
+
+    return edit
+
+
+def _left_alone(answer: dict[str, Any]) -> None:
+    """The answer that nothing helps."""
+    for entry, cost in zip(answer["statistics"]["goals"], (5.0, 5.0), strict=True):
+        human = [
+            {"epoch": 1, "agents": ["h"], "action": entry["human_plan"][0], "cost": 5.0},
+        ]
+        entry |= {"cost": cost, "window": None, "plan": human}
+    answer |= {"plan": [], "cost": 5.0, "objective": 5.0, "lower_bound": 5.0, "saving": 0.0}
+    answer |= {"opportunity": False, "agent_costs": {"h": 5.0, "r": 0.0}}
+
+
+def _only_for_one(answer: dict[str, Any]) -> None:
+    """Robots are said to idle if the goal is z."""
+    entry = answer["statistics"]["goals"][1]
+    entry["plan"] = [step for step in entry["plan"] if step["agents"] != ["r"]]
+    entry["cost"] = 5.0
+
+
+def _shared_help(answer: dict[str, Any]) -> None:
+    """What robots do for all goals is said to be done with the human."""
+    answer["plan"].append({"epoch": 2, "agents": ["h"], "action": "prepare h", "cost": 1.0})
+
+
+DOCTORED: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
+    "a prior": (_edit("statistics.recognition.goals.0.prior", 0.6), "replay", "priors do not add up"),
+    "a posterior": (_edit("statistics.recognition.goals.0.posterior", 0.6), "replay", "posterior is 0.5"),
+    "a likelihood": (_edit("statistics.recognition.goals.0.likelihood", 0.5), "replay", "likelihood is 1"),
+    "a cost of recognition": (
+        _edit("statistics.recognition.goals.0.cost_with_observed", 4.0),
+        "replay",
+        "cost with the observations is 5.0",
+    ),
+    "a plan of recognition": (
+        _edit("statistics.recognition.goals.0.plan", ["prepare h", "do1 h"]),
+        "replay",
+        "not the canonical one",
+    ),
+    "an observation made up": (
+        _edit("statistics.recognition.observed", ["keep h"]),
+        "replay",
+        "cost with the observations is 10.0",
+    ),
+    "a strange observation": (_edit("statistics.recognition.observed", ["lift r"]), "replay", "does alone"),
+    "explained denied": (_edit("statistics.recognition.explained", False), "replay", "explained is true"),
+    "an unknown fact": (_edit("statistics.recognition.goals.0.goal", ["x"]), "replay", "no fact 'x'"),
+    "a field lost": (_edit("statistics.recognition.goals.0.prior", None), "replay", "'prior' is missing"),
+    "no recognition": (_edit("statistics.recognition", None), "replay", "recognition is not an object"),
+    "goals of another form": (_edit("statistics.goals", {}), "replay", "goals is not a list"),
+    "a goal left out": (_edit("statistics.goals", lambda old: old[:1]), "replay", "to consider are p, z"),
+    "a probability": (_edit("statistics.goals.0.probability", 0.6), "replay", "the probability is 0.5"),
+    "another plan of his": (_edit("statistics.goals.1.human_plan", ["do1 h"]), "replay", "human_plan"),
+    "another horizon": (_edit("horizon", 3), "replay", "the horizon is 2"),
+    "a window of the whole": (_edit("window", {"start": 1, "end": 2}), "replay", "single goals"),
+    "an action too late": (_edit("statistics.goals.0.plan.0.epoch", 2), "replay", "precondition"),
+    "an action lost": (_edit("statistics.goals.1.plan", lambda old: old[1:]), "replay", "goal does not hold"),
+    "help for one goal only": (_only_for_one, "replay", "robots do something else"),
+    "his action in the plan": (_shared_help, "replay", "what robots do without the human"),
+    "a window lost": (_edit("statistics.goals.0.window", None), "replay", "left alone"),
+    "a step's cost": (_edit("statistics.goals.0.plan.1.cost", 0.5), "cost", "step-cost"),
+    "a cost of one goal": (_edit("statistics.goals.0.cost", 1.0), "cost", "goal 'p': cost"),
+    "the expected cost": (_edit("cost", 3.5), "cost", "expected cost is 4"),
+    "his expected cost": (_edit("human_cost", 6.0), "cost", "expected human_cost is 5"),
+    "the saving": (_edit("saving", 2.0), "cost", "expected saving is 1"),
+    "the objective": (_edit("objective", 4.0), "cost", "expected objective is 1004"),
+    "an agent's share": (_edit("agent_costs.r", 0.5), "cost", "agent_costs of r is 1"),
+    "K": (_edit("options.window_weight", 10.0), "cost", "expected objective is 14"),
+    "saving_alone": (_edit("saving_alone", 0.5), "cost", "saving_alone is 0"),
+    "a window that starts late": (
+        _edit("statistics.goals.0.window", {"start": 2, "end": 3}),
+        "window",
+        "window-range",
+    ),
+    "a bound": (_edit("lower_bound", 1003.0), "lower_bound", "lower_bound is 1003"),
+    "an opportunity denied": (_left_alone, "no_opportunity", "expected cost 4, objective 1004"),
+}
+
+
+@pytest.mark.parametrize("way", DOCTORED)
+def test_doctored_answers_are_refuted(way: str) -> None:
+    task, answer = _answer()
+    doctor, claim, words = DOCTORED[way]
+    doctor(answer)
+    refuted = serendipity.verify(task, Result.from_dict(answer)).refuted
+    assert refuted is not None
+    assert (refuted.claim, words in refuted.reason) == (claim, True), refuted
+
+
+def test_a_plan_that_is_broken() -> None:
+    """Lifting in epoch 1 makes the second action of the human's plan for z inapplicable."""
+    task = workshop("ready !q -> z @ 4")
+    answer = deepcopy(helped(workshop("!q -> z @ 5"), 1, 1).to_dict())
+    entry = answer["statistics"]["goals"][1]
+    entry["human_plan"] = ["prepare h", "keep h"]
+    entry["plan"] = [
+        {"epoch": 1, "agents": ["r"], "action": "lift r", "cost": 1.0},
+        {"epoch": 1, "agents": ["h"], "action": "prepare h", "cost": 1.0},
+        {"epoch": 2, "agents": ["h"], "action": "keep h", "cost": 4.0},
+    ]
+    answer["statistics"]["recognition"]["goals"][1]["plan"] = ["prepare h", "keep h"]
+    refuted = serendipity.verify(task, Result.from_dict(answer)).refuted
+    assert refuted is not None
+    assert refuted.claim == "replay"
+    assert refuted.reason == (
+        "goal 'z': precondition (semantics 2): epoch 2: 'keep h': precondition: 'q' is true"
+    )
+
+
+def test_dearer_help_is_not_the_best() -> None:
+    actions = {
+        "do1 h": "-> p @ 5",
+        "do2 h": "q -> p @ 1",
+        "keep h": "!q -> z @ 5",
+        "strain r": "-> q @ 2",
+        "prepare h": "-> ready @ 1",
+    }
+    dear = helped(build(goal="p", actions=actions), 3, 1)
+    task = build(goal="p", actions=actions | {"lift r": "-> q @ 1"})
+    refuted = serendipity.verify(task, dear).refuted
+    assert refuted is not None
+    assert (refuted.claim, refuted.reason) == (
+        "optimal",
+        "better for all goals: expected cost 3, objective 1003",
+    )
+    assert [(step.epoch, step.action) for step in refuted.counterexample or ()] == [(1, "lift r")]
+
+
+def test_rules_alone() -> None:
+    task, answer = _answer()
+    verdicts = _verdicts(serendipity.check(task, Result.from_dict(answer)))
+    assert {name: verdict for name, (verdict, _) in verdicts.items()} == {
+        "replay": "proved",
+        "cost": "proved",
+        "window": "proved",
+        "optimal": "not_in_scope",
+        "lower_bound": "not_in_scope",
+    }
+    answer["cost"] = 1.0
+    assert serendipity.check(task, Result.from_dict(answer)).verdict == "refuted"
+
+
+def test_one_goal_is_section_3() -> None:
+    task = workshop("!q -> z @ 5")
+    answer = helped(task, 1, 0)
+    assert serendipity.verify(task, answer).verdict == "proved"
+    doctored = deepcopy(answer.to_dict())
+    doctored["statistics"]["goals"][0]["cost"] = 1.0
+    refuted = serendipity.verify(task, Result.from_dict(doctored)).refuted
+    assert refuted is not None
+    assert refuted.reason == "goal 'p': the entry is not the answer"
+
+
+def test_nobody_reaches_anything() -> None:
+    task = workshop("nothing -> z")
+    answer = serendipity.plan(task, goals=[{"goal": ["z"]}, {"goal": ["nothing"]}])
+    assert _verdicts(serendipity.verify(task, answer))["infeasible"][0] == "proved"
+    possible = deepcopy(answer.to_dict())
+    for name in ("recognition", "goals"):
+        possible["statistics"][name] = helped(workshop("!q -> z @ 5"), 1, 1).to_dict()["statistics"][name]
+    assert serendipity.verify(workshop("!q -> z @ 5"), Result.from_dict(possible)).verdict == "refuted"
+
+
+def test_limits_leave_it_undecided() -> None:
+    task, doctored = _answer()
+    answer = helped(task, 1, 1)
+    assert _verdicts(serendipity.verify(task, answer, time_limit=0))["optimal"][0] == "undecided"
+    _left_alone(doctored)  # what each goal by itself allows does not settle it
+    with limited(robots_plans=0):
+        certificate = serendipity.verify(task, Result.from_dict(doctored))
+    assert _verdicts(certificate)["no_opportunity"] == ("undecided", "more than 0 robots' plans")
+
+
+def test_bounds_of_unfinished_answers() -> None:
+    task, answer = _answer()
+    answer |= {"status": "feasible", "lower_bound": 1003.0}
+    assert serendipity.verify(task, Result.from_dict(answer)).verdict == "proved"
+    _left_alone(answer)
+    answer["lower_bound"] = 4.0
+    assert serendipity.verify(task, Result.from_dict(answer)).verdict == "proved"
+    answer["lower_bound"] = 4.5
+    assert _verdicts(serendipity.verify(task, Result.from_dict(answer)))["lower_bound"][0] == "refuted"
+
+
+def test_another_human_is_bad_input() -> None:
+    task, answer = _answer()
+    answer["human"] = "r"
+    with pytest.raises(InputError, match="another task"):
+        serendipity.verify(task, Result.from_dict(answer))
+
+
+def test_command_line(run: Callable[[str], Run]) -> None:  # noqa: F811
+    Path("goals.txt").write_text("9: conducted_triage commx room1\n1: conducted_triage commx hall1\n")
+    call = "plan --example room2 --discount 0.9 --goals goals.txt"
+    assert "checker: proves replay" in run(f"{call} --verify").out
+    assert run(f"{call} --verify -o answer.json").code == 0
+    assert json.loads(Path("answer.json").read_text())["certificate"]["verdict"] == "proved"
+    done = run("verify --example room2 answer.json --format json")
+    assert (done.code, done.err) == (0, "")
+    certificate = json.loads(done.out)
+    assert certificate["verdict"] == "proved"
+    answer = json.loads(Path("answer.json").read_text())
+    answer["saving"] += 1
+    Path("answer.json").write_text(json.dumps(answer))
+    assert run("verify --example room2 answer.json").code == 1

@@ -1,0 +1,33 @@
+"""An explainer that is asked again after each action says what one that is asked for the first time says."""
+
+from random import Random
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from search.modes.goals import Explainer, explanations
+from serendipity.model import Condition, Task
+from serendipity.model.task.actions import apply
+from serendipity.testing.strategies import tasks, usar_tasks
+
+
+@given(st.one_of(tasks(), usar_tasks()), st.integers(0, 2**32))
+def test_action_by_action(task: Task, seed: int) -> None:
+    dice = Random(seed)
+    goals = [task.goal, *(Condition((fact,)) for fact in dice.choices(range(len(task.facts)), k=2))]
+    asked, quick = Explainer(task, goals), Explainer(task, goals)
+    observed, state = list[str](), task.init
+    for epoch in range(5):
+        possible = [i for i in task.human_actions if task.actions[i].applicable(state)]
+        if not possible:
+            break
+        action = task.actions[dice.choice(possible)]
+        observed.append(action.name)
+        state = apply(state, action)
+        if epoch != 2:
+            fresh = explanations(task, goals, observed)
+            assert asked.explain(observed) == fresh
+            told = [
+                (one.with_observed, one.without_observed) for one in quick.explain(observed, canonical=False)
+            ]
+            assert told == [(one.with_observed, one.without_observed) for one in fresh]

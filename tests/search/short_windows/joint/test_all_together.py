@@ -1,0 +1,171 @@
+"""All agents at once beside the human's timetable: the best window of one epoch, against brute force."""
+
+from contextlib import suppress
+from fractions import Fraction
+from math import lcm
+from random import Random
+
+import pytest
+
+import serendipity
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask
+from search.engine.best_first import Incumbent, Progress
+from search.kernel.library import library
+from search.packed.cost_vector import INFINITE_KEY
+from search.short_windows.joint import epochs
+from search.short_windows.joint.all_together import AllTogether
+from serendipity.evaluation.crosscheck import random_call
+from serendipity.model import Options, Task
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.numbers import as_written
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import conflicting
+from serendipity.testing.builders import task as build
+from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+from serendipity.testing.oracle import best
+
+pytestmark = pytest.mark.skipif(library() is None, reason="the kernel is not compiled here")
+
+ONE_EPOCH = Options(mode="serendipity", max_window=1)
+
+
+def _of_family(seed: int) -> tuple[Task, Options]:
+    dice = Random(seed)
+    family = dice.choice(sorted(FAMILIES))
+    size, agents = dice.choice(SMALL[family])
+    rules = {
+        "discount": dice.choice(["0", "1/2", "9/10", "1"]),
+        "interference": dice.choice(["paper", "strict"]),
+    }
+    return FAMILIES[family](dice, size, AGENTS[:agents]), ONE_EPOCH.but(**rules)
+
+
+def _drawn(seed: int) -> tuple[Task, Options]:
+    """With joint actions, negative preconditions and costs of all kinds."""
+    call = random_call(seed)
+    rules = {name: call.options[name] for name in ("discount", "interference") if name in call.options}
+    return call.task, ONE_EPOCH.but(**rules)
+
+
+def _largest_cost(task: Task, options: Options) -> int:
+    """In whole units: the kernel's layers are for those that are not too many."""
+    costs = [task.team_cost(action, options.discount) for action in task.actions]
+    return int(max(costs) * lcm(*(cost.denominator for cost in costs)))
+
+
+def _looked_at(
+    task: Task, options: Options, most: tuple[int, ...] = (300_000,)
+) -> tuple[SearchContext, Incumbent, Progress] | None:
+    """What is found from ``pi_H`` as the incumbent; None where the human has no plan, or needs none."""
+    context = SearchContext(PreparedTask(task), options, Deadline())
+    optimal = context.canonical_plan()
+    if optimal is None or not optimal.actions:
+        return None
+    keys, plan = context.keys, optimal.actions
+    idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
+    incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
+    progress = Progress()
+    together = AllTogether(context, plan, len(plan), incumbent, progress, INFINITE_KEY)
+    for states in most:
+        for _ in together.windows(states, context.deadline):
+            pass
+    return context, incumbent, progress
+
+
+@pytest.mark.parametrize("most", [(300_000,), (3, 12, 300_000), (3, 300_000)])
+@pytest.mark.parametrize("draw", [_of_family, _drawn])
+def test_the_best_window_of_one_epoch_is_found(draw: object, most: tuple[int, ...]) -> None:
+    """In one go, and where the first looks end after a few states."""
+    better = 0
+    for seed in range(250):
+        task, options = draw(seed)  # type: ignore[operator]
+        asked = not task.robot_goal and _largest_cost(task, options) < 1 << 20
+        found = _looked_at(task, options, most) if asked else None
+        if found is None:
+            continue
+        context, incumbent, progress = found
+        optimum = best(task, options)
+        assert context.keys.cost(incumbent.key) == optimum.cost, seed
+        assert progress.bound == incumbent.key, seed
+        if incumbent.node is not None:
+            better += 1
+            assert optimum.window is not None
+            assert incumbent.node.start == optimum.window.start, seed
+    assert better > 30
+
+
+def test_a_call_that_it_settles() -> None:
+    """Two robots who hand things to each other, so that neither does any good by itself."""
+    others = "-few-nodes,-robots-apart,-robots-by-numbers"
+    for seed in range(40):
+        task, options = _of_family(seed)
+        asked = {"discount": options.discount, "interference": options.interference}
+        answer = serendipity.plan(task, strategies=others, **asked)
+        if answer.status == "optimal":
+            assert as_written(answer.objective or 0.0) == best(task, answer.options).objective
+            assert serendipity.check(task, answer).verdict != "refuted"
+
+
+def test_too_many_states_are_given_up() -> None:
+    task = FAMILIES["blocks"](Random(1), 3, AGENTS[:2])
+    found = _looked_at(task, ONE_EPOCH, (0, 0))
+    assert found is not None
+    assert found[2].bound == 0
+
+
+def test_the_kernel_goes_on_where_memory_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It asks for more, bit by bit."""
+    monkeypatch.setattr(epochs, "ROOM", 1 << 10)
+    robots, places = 2, 5
+    actions = {f"work_h_{i} h": f"-> done_{i} @ 3" for i in range(places)}
+    for robot in range(robots):
+        for place in range(places):
+            actions[f"turn_{robot}_{place} r{robot}"] = f"-> on_{robot}_{place} @ 1"
+        needed = " ".join(f"on_{robot}_{place}" for place in range(3))
+        actions[f"work_{robot} r{robot}"] = f"{needed} -> done_{places - 1 - robot} @ 1"
+    goal = " ".join(f"done_{place}" for place in range(places))
+    agents = " ".join(["h", *(f"r{i}" for i in range(robots))])
+    task = build(agents=agents, init="", goal=goal, actions=actions)
+    options = ONE_EPOCH.but(discount="9/10")
+    found = _looked_at(task, options)
+    assert found is not None
+    assert found[0].keys.cost(found[1].key) == Fraction(3 * places - 6) + Fraction("0.8")
+
+
+@pytest.mark.parametrize("strict", [False, True])
+def test_what_may_not_share_an_epoch(strict: bool) -> None:
+    for seed in range(60):
+        task = random_call(seed).task
+        packed = PreparedTask(task).plain(Deadline()).packed
+        operators = [*packed.own, *packed.joint, *packed.others]
+        found = epochs.conflicts(task, operators, Deadline(), strict=strict)
+        for row, one in enumerate(operators):
+            for column, other in enumerate(operators):
+                if not one.agents & other.agents:
+                    actions = task.actions[one.action], task.actions[other.action]
+                    assert found[row, column] == conflicting(*actions, strict=strict)
+
+
+def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
+    """One state may have thousands of ways to act, each with a bound to be found."""
+    robots, choices = 3, 26
+    actions = {f"work_h_{i} h": f"-> done_{i} @ 3" for i in range(8)}
+    for robot in range(robots):
+        for choice in range(choices):
+            actions[f"turn_{robot}_{choice} r{robot}"] = f"!on_{robot}_{choice} -> on_{robot}_{choice} @ 1"
+            actions[f"use_{robot}_{choice} h"] = f"on_{robot}_{choice} -> done_{choice % 8} @ 1"
+    agents = " ".join(["h", *(f"r{i}" for i in range(robots))])
+    task = build(agents=agents, goal=" ".join(f"done_{i}" for i in range(8)), actions=actions)
+    context = SearchContext(PreparedTask(task), ONE_EPOCH.but(discount="9/10"), Deadline(0.3))
+    optimal = context.canonical_plan()
+    assert optimal is not None
+    incumbent = Incumbent(INFINITE_KEY - 1)
+    progress = Progress()
+    with suppress(LimitReachedError):
+        for _ in AllTogether(context, optimal.actions, 8, incumbent, progress, INFINITE_KEY).windows(
+            10_000_000, context.deadline
+        ):
+            pass
+    assert progress.bound == 0, "there was not enough time for all"
+    assert context.deadline.elapsed() < 0.5
