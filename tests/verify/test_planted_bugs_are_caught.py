@@ -21,7 +21,7 @@ QUICK = (
     "prefix of actions of pi_H: joint actions before the window",
     "opening a window: it is said to start an epoch later",
     "limits of the window space: horizon: an epoch more",
-    "improving a given plan: it is taken for optimal",
+    "whether a given plan can be improved: it is taken for optimal",
     "distances in the pattern database: doubled",
     "bound if the window opens now: nobody helps",
     "robots' walks in the transition graph: robots can't walk",
