@@ -3,7 +3,7 @@
 An answer to the same question from the same state stands: it is given at once where it is proved, and
 no later one is worse.  Once the world has moved on, what is left of a plan is what the next search
 begins with, if it is a plan of that call at all; and what was proved of the answers stays proved where
-that follows from the semantics (docs/decisions.md says where, and why).
+that follows from the semantics (serendipity/DECISIONS.md says where, and why).
 """
 
 from collections import OrderedDict

@@ -14,10 +14,14 @@ from serendipity.cli.app import main
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
+OTHERS = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/DECISIONS.md")])
+"""What is written beside the documentation, and links to it."""
 
 _FENCE = re.compile(r"^``` *(?P<info>[^\n]*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 _SIMPLE = re.compile(r"(serendipity ([^\n$|<>;&*#]|\\\n)*\n)+")
 """Nothing but calls of the program: these run in this process, which is faster."""
+
+_LINKED = re.compile(r"\]\(([\w/-]+\.pddl)\)")
 
 _SKIPPED = "..."
 
@@ -46,6 +50,11 @@ def blocks(page: Path) -> Iterator[Block]:
         title = re.search(r'title="([^"]*)"', info)
         words = re.sub(r'[{}.]|title="[^"]*"', " ", info).split()
         yield Block(words[0] if words else "", found["text"], title[1] if title else "", "slow" in words)
+
+
+def linked_files(page: Path) -> list[Path]:
+    """The PDDL files to which a page links, which its readers save."""
+    return [page.parent / link for link in _LINKED.findall(page.read_text(encoding="utf-8"))]
 
 
 def run(block: Block, folder: Path) -> str:

@@ -1,10 +1,11 @@
 """Every code block of the documentation runs, page by page in one folder, and prints what is shown."""
 
+import shutil
 from pathlib import Path
 
 import pytest
 
-from tests.docs.blocks import PAGES, ROOT, Block, assert_shown, blocks, run
+from tests.docs.blocks import PAGES, ROOT, Block, assert_shown, blocks, linked_files, run
 
 RUN = ("bash", "python")
 SHOWN = ("pddl", "text")
@@ -21,6 +22,8 @@ def name(page: Path) -> str:
 @pytest.mark.parametrize("page", pages_with(slow=False), ids=name)
 def test_blocks_run(page: Path, tmp_path: Path) -> None:
     printed: str | None = None
+    for file in linked_files(page):
+        shutil.copy(file, tmp_path)
     for block in blocks(page):
         if block.language in RUN and not block.slow:
             printed = run(block, tmp_path)

@@ -11,7 +11,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.on_demand import NAMES
-from tests.docs.blocks import PAGES, ROOT
+from tests.docs.blocks import OTHERS, PAGES, ROOT
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
@@ -27,11 +27,11 @@ def test_anchors_are_those_of_markdown() -> None:
     assert anchor("3.1 Serendipity: windows") == "31-serendipity-windows"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", [*PAGES, *OTHERS], ids=lambda page: str(page.relative_to(ROOT)))
 def test_links_lead_somewhere(page: Path) -> None:
     text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
     for link in LINK.findall(text):
-        if link.startswith("https://"):
+        if link.startswith(("https://", "http://")):
             continue
         path, _, fragment = link.partition("#")
         target = (page.parent / path).resolve() if path else page

@@ -1,4 +1,4 @@
-"""What docs/howto/control-loop.md promises of threads, processes, pickling and cancellation."""
+"""What docs/execution.md promises of threads, processes, pickling and cancellation."""
 
 import multiprocessing
 import pickle

@@ -1,0 +1,8 @@
+(define (problem bread)
+  (:domain kitchen)
+  (:objects mia - person arm - robot pantry table stove - place)
+  (:init (path table pantry) (path pantry table) (path table stove) (path stove table)
+         (flour-at pantry) (table-at table) (oven-at stove)
+         (at mia table) (at arm stove) (= (total-cost) 0))
+  (:goal (bread))
+  (:metric minimize (total-cost)))

@@ -1,0 +1,12 @@
+(define (problem delivery)
+  (:domain warehouse)
+  (:objects lea - person lift1 lift2 - lift
+            gate aisle junction short long1 long2 long3 bay - place)
+  (:init (path gate aisle) (path aisle junction)
+         (path junction short) (path short dock) (path dock short)
+         (path junction long1) (path long1 long2) (path long2 long3) (path long3 dock)
+         (path bay dock) (path dock bay)
+         (free gate) (free aisle) (free junction) (free long1) (free long2) (free long3) (free dock) (free bay)
+         (pair lift1 lift2)
+         (at lea gate) (at lift1 dock) (at lift2 bay))
+  (:goal (signed)))

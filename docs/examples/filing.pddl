@@ -1,0 +1,8 @@
+(define (problem filing)
+  (:domain office)
+  (:objects tom - person porter - robot desk corridor hall reception nook vault - place key1 key2 - key)
+  (:init (path desk corridor) (path corridor desk) (path corridor hall) (path hall corridor)
+         (path hall reception) (path reception hall) (path hall nook) (path nook hall)
+         (door hall vault) (archive vault)
+         (at tom desk) (lies key1 reception) (at porter nook) (holds porter key2))
+  (:goal (filed)))
