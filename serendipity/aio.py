@@ -18,7 +18,7 @@ from serendipity._siblings import require_siblings
 require_siblings("search", "verify")
 
 from serendipity.facade import certify, planning, session  # noqa: E402  # checked before
-from serendipity.facade.session import AnytimeOptions, SessionOptions  # noqa: E402
+from serendipity.facade.planning import AnytimeOptions, SessionOptions  # noqa: E402
 from serendipity.model import Certificate, Deadline, PlanStep, Result, Task, UsageError  # noqa: E402
 from serendipity.model.keywords import listing  # noqa: E402
 

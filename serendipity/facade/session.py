@@ -2,45 +2,23 @@
 
 import threading
 import weakref
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 from serendipity.facade.call import Given
 from serendipity.facade.memory import Memory
-from serendipity.facade.planning import planned, planned_anytime
+from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model.answers.result import Result
 from serendipity.model.arguments import BY_NAME, expect
 from serendipity.model.errors import PlanError, UsageError
-from serendipity.model.keywords import PlanOptions, listing
-from serendipity.model.numbers import Number
-from serendipity.model.resources.deadline import Deadline
+from serendipity.model.keywords import listing
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.task.facts import Facts
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import HumanPlan, Task, canonical_name, several
-from serendipity.model.task.visibility import Visible
-
-if TYPE_CHECKING:
-    from serendipity.recognition import GoalsGiven, ObservedGiven
-
-
-class AnytimeOptions(PlanOptions, total=False):
-    """What each of a session's calls of ``plan_anytime`` may say."""
-
-    visible: Visible | None
-    deadline: Deadline | None
-
-
-class SessionOptions(AnytimeOptions, total=False):
-    """What each of a session's calls of ``plan`` may say: the arguments of :func:`serendipity.plan`."""
-
-    goals: "GoalsGiven | None"
-    observed: "ObservedGiven"
-    beta: Number
-    on_improvement: Callable[[Result], None] | None
 
 
 class Session:
@@ -103,7 +81,7 @@ class Session:
         self._cancelled.clear()
         chosen: dict[str, Any] = {**self._options, **options}
         known = self._known_plan(chosen)
-        answer = planned(self._prepared, known, cancelled=self._cancelled, memory=self._memory, **chosen)
+        answer = planned(self._prepared, known, self._cancelled, self._memory, **chosen)
         self._learn(answer)
         return answer
 
@@ -112,10 +90,8 @@ class Session:
         """Answers as they get better; :meth:`cancel` ends them with the incumbent."""
         self._cancelled.clear()
         chosen: dict[str, Any] = {**self._options, **options}
-        known, memory = self._known_plan(chosen), self._memory
-        for answer in planned_anytime(
-            self._prepared, known, cancelled=self._cancelled, memory=memory, **chosen
-        ):
+        known = self._known_plan(chosen)
+        for answer in planned_anytime(self._prepared, known, self._cancelled, self._memory, **chosen):
             self._learn(answer)
             yield answer
 

@@ -136,7 +136,7 @@ def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str
     modules = ["serendipity.facade.planning", "serendipity.facade.certify", "serendipity.cli.text.answers"]
     if mode == "assistance":
         modules += [
-            "serendipity.facade.assistance",
+            "search.modes.assistance",
             "search.modes.assistance.distances.layers",
             "search.modes.assistance.distances.perimeter",
             "verify.policy",

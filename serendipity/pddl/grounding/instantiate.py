@@ -110,7 +110,7 @@ class Instantiator:
         if operator.conditional or operator.choices:
             cases = Cases(operator, unit, self.relations, self.facts, self.work)
             records = self._block(operator, unit, participants, product).records()
-            for record in self.work.polled(cases.expanded(records, product)):
+            for record in self.work.deadline.each(cases.expanded(records, product)):
                 self._add(record)
         elif product.everything:
             self._blocks.append(self._block(operator, unit, participants, product))

@@ -149,7 +149,7 @@ class _Join:
         if len(taken) > 1:
             self._require(prod(len(table.rows) for table in taken), width)
         names, rows = combined(taken)
-        return names, self.work.polled(rows)
+        return names, self.work.deadline.each(rows)
 
     def _require(self, rows: int, width: int) -> None:
         if rows > _MANY:
@@ -191,7 +191,7 @@ class _Join:
         before, after = picker(old), picker(tuple(new.values()))
         checks = [(i, self.domains[term]) for term, i in new.items()]
         index: dict[Row, list[Row]] = {}
-        for atom in self.work.polled(self.relations.table(pattern[0])):
+        for atom in self.work.deadline.each(self.relations.table(pattern[0])):
             if (
                 all(atom[i] in domain for i, domain in checks)
                 and all(atom[i] == value for i, value in fixed)
@@ -204,7 +204,7 @@ class _Join:
         self, table: Table, look_up: Callable[[Row], Row], index: dict[Row, list[Row]], new: tuple[str, ...]
     ) -> Table:
         """The rows of a table, each with all that an index has for it."""
-        polled = self.work.polled
+        polled = self.work.deadline.each
         if len(table.rows) * max(map(len, index.values()), default=0) > _MANY:
             number = sum(len(index.get(look_up(row), ())) for row in polled(table.rows))
             self._require(number, len(table.variables) + len(new))

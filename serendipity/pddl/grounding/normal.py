@@ -170,7 +170,7 @@ def _expand_effects(
         if effect.condition is None and not effect.parameters:
             simple.append(effect.literal)
             continue
-        for values in work.polled(assignments(effect.parameters, unit)):
+        for values in work.deadline.each(assignments(effect.parameters, unit)):
             literal = Literal(ground_key(effect.literal.key, values), effect.literal.positive)
             if effect.condition is None:
                 simple.append(literal)

@@ -30,7 +30,7 @@ def read_initial(section: Node, scope: Scope, work: Work) -> Initial:
     """
     initial = Initial()
     fitting = _Fitting(scope)
-    for i in work.polled(range(1, len(section.items))):
+    for i in work.deadline.each(range(1, len(section.items))):
         node = node_at(section, i, "an atom")
         key = fitting.atom(node)
         if key is not None:

@@ -79,7 +79,7 @@ def _domain(form: Form, work: Work) -> Domain:
     predicates = _signatures(form.section(":predicates"), "predicate", types, work)
     functions = _signatures(form.section(":functions"), "function", types, work)
     schemas: dict[str, Schema] = {}
-    for section in work.polled(form.actions):
+    for section in work.deadline.each(form.actions):
         schema = _schema(section, Scope(types, predicates, functions, constants, work))
         first = schemas.setdefault(schema.name, schema)
         if first is not schema:
@@ -92,7 +92,7 @@ def _domain(form: Form, work: Work) -> Domain:
 
 def _signatures(section: Node, what: str, types: Types, work: Work) -> dict[str, tuple[Type, ...]]:
     found: dict[str, tuple[Type, ...]] = {}
-    for name, line, parameters in work.polled(signatures(section, what)):
+    for name, line, parameters in work.deadline.each(signatures(section, what)):
         with naming(f"{what} {quoted(name)}"):
             for typed in parameters:
                 check_type(typed.type, types, typed.line)
