@@ -136,33 +136,25 @@ class Memory:
             self._known[key] = _moved(before, known, state, epochs)
 
 
+@dataclass(frozen=True, slots=True)
 class Question:
-    """A question of a call, with what is known of it.
+    """A question of a call, and the answers to it that are known.
 
-    Args:
-        memory: what remembers the answers.
+    Attributes:
+        memory: remembers the answers.
         options: as they are asked for.
         visible: what the human sees.
         about: candidate goals and what was observed, where goals are not known.
         human_plan: what the human is going to do, where that is known.
-        known: what is known of it.
+        known: of it, or None.
     """
 
-    def __init__(
-        self,
-        memory: Memory,
-        options: Options,
-        visible: Visible | None,
-        about: Hashable,
-        human_plan: tuple[str, ...] | None,
-        known: _Known | None,
-    ) -> None:
-        self._memory = memory
-        self._options = options
-        self._visible = visible
-        self._about = about
-        self._human_plan = human_plan
-        self._known = known
+    memory: Memory
+    options: Options
+    visible: Visible | None
+    about: Hashable
+    human_plan: tuple[str, ...] | None
+    known: _Known | None
 
     @property
     def proved(self) -> Answer | None:
@@ -171,22 +163,22 @@ class Question:
         if answer is None or answer.status not in ("optimal", "infeasible"):
             return None
         has_saving = answer.human_plan is not None or answer.cost is None
-        if self._known is not None and self._known.options.mode == "composite" and not has_saving:
+        if self.known is not None and self.known.options.mode == "composite" and not has_saving:
             return None  # a limit may have come before it was known
         return _told_again(answer)
 
     @property
     def _answer(self) -> Answer | None:
-        return None if self._known is None else self._known.answer
+        return None if self.known is None else self.known.answer
 
     @property
     def warm(self) -> WarmStart | None:
         """What a search may begin with."""
-        return None if self._known is None else self._known.warm
+        return None if self.known is None else self.known.warm
 
     def better(self, found: Answer) -> Answer:
         """An answer, or the one that is known where that is better."""
-        return found if self._answer is None else _better(self._answer, found, self._options)
+        return found if self._answer is None else _better(self._answer, found, self.options)
 
     def unless_worse(self, task: Task, answer: Answer, limit: str | None) -> Answer:
         """An answer; none where a limit left nothing but one that is worse than to finish what was begun.
@@ -199,22 +191,22 @@ class Question:
         warm = self.warm
         if limit is None or answer.status != "feasible" or warm is None or not warm.is_sure:
             return answer
-        return not_now(answer, limit) if is_better(warm, answer, task, self._options) else answer
+        return not_now(answer, limit) if is_better(warm, answer, task, self.options) else answer
 
     def answered(self, task: Task, answer: Answer) -> None:
         """Remember an answer about a task."""
         if answer.status == "unknown":
             return
         answer = answer._replace(realised=answer.realised or None)  # where it is empty, time was up
-        warm, plan = WarmStart(), self._human_plan
-        if answer.steps is None and self._known is not None:
-            warm = self._known.warm  # which can still be finished
+        warm, plan = WarmStart(), self.human_plan
+        if answer.steps is None and self.known is not None:
+            warm = self.known.warm  # which can still be finished
         elif answer.ties is None and answer.goals is None and answer.bounds is None:
-            bound, is_best = _bound(answer, self._options), answer.status == "optimal"
+            bound, is_best = _bound(answer, self.options), answer.status == "optimal"
             warm = WarmStart(answer.steps or (), answer.window, True, bound, is_best, answer.horizon)
             if answer.human_plan is not None:
                 plan = tuple(task.actions[i].name for i in answer.human_plan)
-        self._memory.keep(self._about, _Known(self._options, answer, warm, plan, self._visible))
+        self.memory.keep(self.about, _Known(self.options, answer, warm, plan, self.visible))
 
 
 def _written(task: Task, known: _Known) -> dict[str, Any]:

@@ -6,18 +6,8 @@ from serendipity.lint.report import Finding
 from serendipity.lint.requirements import requirement_findings
 from serendipity.lint.task_rules import listed
 from serendipity.model import Task
-from serendipity.pddl.parsing.lifted import (
-    And,
-    Expression,
-    Formula,
-    FunctionValue,
-    Literal,
-    Operation,
-    Or,
-    Quantified,
-    Schema,
-    Unit,
-)
+from serendipity.pddl.grounding.quantifiers import literals
+from serendipity.pddl.parsing.lifted import Expression, FunctionValue, Literal, Operation, Schema, Unit
 
 
 def file_findings(task: Task, units: Sequence[Unit]) -> Iterator[Finding]:
@@ -90,18 +80,6 @@ def _read(units: Sequence[Unit], schemas: Iterable[Schema]) -> Iterator[Literal]
         for effect in schema.effects:
             if effect.condition is not None:
                 yield from literals(effect.condition)
-
-
-def literals(formula: Formula) -> Iterator[Literal]:
-    """The literals of a formula."""
-    match formula:
-        case Literal():
-            yield formula
-        case And() | Or():
-            for part in formula.parts:
-                yield from literals(part)
-        case Quantified():
-            yield from literals(formula.body)
 
 
 def _names(expression: Expression) -> Iterator[str]:
