@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from heapq import heappop, heappush
 from typing import NamedTuple
 
 from serendipity.model import GroundAction, Task
+from serendipity.testing.oracle.alone import Alone
+from serendipity.testing.oracle.epochs import State, after, holds, usable
 
-State = frozenset[int]
 Costs = tuple[Fraction, Fraction]
 
 FREE: Costs = (Fraction(0), Fraction(0))
@@ -37,78 +37,41 @@ class Tree:
 
     def final(self, state: State) -> bool:
         """Whether the prime's goal holds."""
-        return self.task.goal.holds(state)
-
-
-def after(action: GroundAction, state: State) -> State:
-    """The state after an action."""
-    return state.difference(action.delete).union(action.add)
-
-
-def alone(task: Task, start: State) -> tuple[Fraction, int] | None:
-    """The prime's optimal (cost, length) alone, or None."""
-    queue: list[tuple[Fraction, int, list[int]]] = [(Fraction(0), 0, sorted(start))]
-    closed: set[State] = set()
-    while queue:
-        cost, length, facts = heappop(queue)
-        state = frozenset(facts)
-        if task.goal.holds(state):
-            return cost, length
-        if state in closed:
-            continue
-        closed.add(state)
-        for i in task.human_actions:
-            action = task.actions[i]
-            if action.applicable(state):
-                heappush(queue, (cost + action.cost, length + 1, sorted(after(action, state))))
-    return None
-
-
-def optimal_actions(task: Task, state: State) -> list[GroundAction]:
-    """Those that start one of the prime's optimal plans, in the order of names."""
-    optimum = alone(task, state)
-    found = []
-    for i in task.human_actions:
-        action = task.actions[i]
-        if optimum is not None and action.applicable(state):
-            rest = alone(task, after(action, state))
-            if rest is not None and (rest[0] + action.cost, rest[1] + 1) == optimum:
-                found.append(action)
-    return found
+        return holds(self.task.goal, state)
 
 
 def explore(task: Task, *, fixed: bool, no_block: bool) -> Tree:
     """All states that can come up, whatever the supporter does."""
-    robot = task.robots[0]
+    alone, robot = Alone(task), task.robots[0]
     idle = GroundAction("noop", (robot,), (), (), (), (), Fraction(0))
     moves = [idle, *(action for action in task.actions if action.participants == (robot,))]
     choices: dict[State, list[Choice]] = {}
     pending = [frozenset(task.init)]
     while pending:
         state = pending.pop()
-        if state in choices or task.goal.holds(state):
+        if state in choices or holds(task.goal, state):
             continue
         found = choices[state] = []
         for move in moves:
-            if move.applicable(state):
-                choice = _choice(task, state, move, fixed=fixed, no_block=no_block)
+            if usable(move, state):
+                choice = _choice(alone, state, move, fixed=fixed, no_block=no_block)
                 if choice is not None:
                     found.append(choice)
                     pending.extend(outcome.state for outcome in choice.outcomes)
     return Tree(task, choices)
 
 
-def _choice(task: Task, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Choice | None:
-    middle = after(move, state)
-    if task.goal.holds(middle):
+def _choice(alone: Alone, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Choice | None:
+    middle, actions = after(state, [move]), alone.task.actions
+    if holds(alone.task.goal, middle):
         return Choice(move.cost, ())
-    actions = optimal_actions(task, middle)
-    if not actions:
-        if no_block and move.name != "noop" and alone(task, state) is not None:
+    ways = alone.optimal(middle)
+    if not ways:
+        if no_block and move.name != "noop" and alone.worth(state) is not None:
             return None
         return Choice(move.cost, (Outcome(Fraction(0), middle),))
-    chosen = actions[:1] if fixed else actions
-    return Choice(move.cost, tuple(Outcome(action.cost, after(action, middle)) for action in chosen))
+    chosen = ways[:1] if fixed else ways
+    return Choice(move.cost, tuple(Outcome(actions[i].cost, onward) for i, onward in chosen))
 
 
 def by_rounds(tree: Tree, worst: Callable[[list[Costs]], Costs]) -> Costs | None:

@@ -5,7 +5,7 @@ from random import Random
 from typing import Final
 
 from serendipity.model import Task
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families.parts import negated, pairs, prices, with_goals
 
 _TABLE: Final = "table"

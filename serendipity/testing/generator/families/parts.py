@@ -6,7 +6,7 @@ from random import Random
 from typing import Final
 
 from serendipity.model import Task
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 
 _COSTS: Final = ("1", "1", "2", "3", "0", "0.5", "0.1", "2.5")
 

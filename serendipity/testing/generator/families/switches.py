@@ -4,7 +4,7 @@ from random import Random
 
 from serendipity.model import Condition, Task
 from serendipity.model.task.actions import apply
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families.parts import negated, pairs, prices
 
 
