@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Final
 
 from search import PreparedTask, WarmStart
-from serendipity.facade.memory import Question
+from serendipity.facade.memory import RememberedQuestion
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import UsageError
 from serendipity.model.options import Options
@@ -20,7 +20,7 @@ _ANSWER_SHARE: Final = 0.05
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
+class Request:
     """What one call asks for.
 
     Attributes:
@@ -39,7 +39,7 @@ class Call:
     visible: Visible | None
     limits: Deadline
     deadline: Deadline
-    question: Question | None = None
+    question: RememberedQuestion | None = None
 
     @property
     def task(self) -> Task:
@@ -60,7 +60,7 @@ class Call:
 Given = Callable[[], HumanPlan] | None
 """What the human is going to do, replayed when it is asked for; None to predict it."""
 
-Solver = Callable[[Call], Iterator[Answer]]
+Solver = Callable[[Request], Iterator[Answer]]
 """Answers to a call, each better than the one before or better proved; the last one is the best known."""
 
 
@@ -84,7 +84,7 @@ def checked_call(
     visible: Visible | None,
     cancelled: threading.Event | None,
     outer: Deadline | None,
-) -> Call:
+) -> Request:
     """The call that keyword arguments of :func:`serendipity.plan` ask for; its time starts now.
 
     Raises:
@@ -103,4 +103,4 @@ def checked_call(
             raise UsageError(f"mode: 'assistance' is for one robot, the task has {robots}")
     elif human_plan is not None:
         options = options.but(ties="fixed")  # there is but one plan
-    return Call(prepared, options, human_plan, visible, limits, limits.sooner(_ANSWER_SHARE))
+    return Request(prepared, options, human_plan, visible, limits, limits.sooner(_ANSWER_SHARE))

@@ -59,7 +59,7 @@ class Rest(NamedTuple):
     discount: Fraction
 
 
-class Memory:
+class SessionMemory:
     """What is known of the last few questions."""
 
     def __init__(self) -> None:
@@ -71,7 +71,7 @@ class Memory:
         visible: Visible | None,
         about: Hashable,
         human_plan: tuple[str, ...] | None,
-    ) -> "Question":
+    ) -> "RememberedQuestion":
         """A question, and what is known of it.
 
         Args:
@@ -88,7 +88,7 @@ class Memory:
             if options.windowed and not _is_open(options, warm.window):  # its bound is beside that plan
                 warm = replace(warm, bound=None, is_best=False)
             known = replace(known, answer=None, warm=warm)
-        return Question(self, options, visible, about, human_plan, known)
+        return RememberedQuestion(self, options, visible, about, human_plan, known)
 
     def keep(self, about: Hashable, known: _Known) -> None:
         """Remember an answer."""
@@ -137,7 +137,7 @@ class Memory:
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class RememberedQuestion:
     """A question of a call, and the answers to it that are known.
 
     Attributes:
@@ -149,7 +149,7 @@ class Question:
         known: of it, or None.
     """
 
-    memory: Memory
+    memory: SessionMemory
     options: Options
     visible: Visible | None
     about: Hashable

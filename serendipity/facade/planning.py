@@ -7,9 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 from search import PreparedTask
-from serendipity.facade.call import Call, Given, checked_call, options_from
+from serendipity.facade.call import Given, Request, checked_call, options_from
 from serendipity.facade.logs import record, recorded
-from serendipity.facade.memory import Memory
+from serendipity.facade.memory import SessionMemory
 from serendipity.facade.one_plan import with_verdicts
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import to_result
@@ -107,7 +107,7 @@ def planned(
     prepared: PreparedTask,
     given: Given,
     cancelled: threading.Event | None,
-    memory: Memory | None = None,
+    memory: SessionMemory | None = None,
     **asked: Unpack[SessionOptions],
 ) -> Result:
     """:func:`plan` for those who hold a prepared task, and may remember answers."""
@@ -150,7 +150,7 @@ def planned_anytime(
     prepared: PreparedTask,
     given: Given,
     cancelled: threading.Event | None,
-    memory: Memory | None = None,
+    memory: SessionMemory | None = None,
     **asked: Unpack[AnytimeOptions],
 ) -> Iterator[Result]:
     """:func:`plan_anytime` for those who hold a prepared task, and may remember answers."""
@@ -169,12 +169,12 @@ def _begun(
     prepared: PreparedTask,
     given: Given,
     cancelled: threading.Event | None,
-    memory: Memory | None,
+    memory: SessionMemory | None,
     asked: Mapping[str, Any],
     goals: "GoalsGiven | None" = None,
     observed: "ObservedGiven" = (),
     beta: Number = 1,
-) -> tuple[Call, Iterator[Answer]]:
+) -> tuple[Request, Iterator[Answer]]:
     """A call whose time has started, and its answers as they get better."""
     options = {**asked}
     visible, deadline = options.pop("visible", None), options.pop("deadline", None)
@@ -200,7 +200,7 @@ def _begun(
     return call, solver(call)
 
 
-def _results(call: Call, answers: Iterator[Answer]) -> Iterator[Result]:
+def _results(call: Request, answers: Iterator[Answer]) -> Iterator[Result]:
     result = None
     while True:
         with no_collection():  # only while it plans: what the caller does with an answer is the caller's
@@ -246,7 +246,7 @@ def _given(task: Task, names: Iterable[str] | None) -> Given:
     return None if names is None else partial(task.plan_from_names, several(names, "human plan"))
 
 
-def _result(call: Call, answer: Answer, *, last: bool = True) -> Result:
+def _result(call: Request, answer: Answer, *, last: bool = True) -> Result:
     question = call.question
     if question is not None:
         limit = call.deadline.reached() or call.limits.reached()

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any, Unpack
 
 from serendipity.facade.call import Given
-from serendipity.facade.memory import Memory
+from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
@@ -49,7 +49,7 @@ class Session:
         self._is_outdated = False
         """Whether it is known not to be what a human would do who looks up."""
         self._cancelled = threading.Event()
-        self._memory = Memory()
+        self._memory = SessionMemory()
 
     def __repr__(self) -> str:
         return f"Session({self.task!r:.90})"

@@ -3,7 +3,7 @@
 from typing import Final
 
 from serendipity.model import InputError
-from serendipity.pddl.parsing.tree import Node, expected, quoted
+from serendipity.pddl.parsing.tree import SExpression, expected, quoted
 
 SUPPORTED: Final = frozenset(
     {
@@ -50,7 +50,7 @@ UNSUPPORTED: Final = {
 """What other planners know, in words."""
 
 
-def read_requirements(section: Node) -> frozenset[str]:
+def read_requirements(section: SExpression) -> frozenset[str]:
     """The words of a section ``(:requirements ...)``.
 
     Raises:

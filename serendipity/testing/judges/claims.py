@@ -26,7 +26,7 @@ _UNASKED: Final = ("ties", "human_model", "no_block")
 
 
 @dataclass(frozen=True, slots=True)
-class Claim:
+class Proposal:
     """A planner's answer.
 
     Attributes:
@@ -56,7 +56,7 @@ class OutsideJudge:
     """
 
     name: str
-    answer: Callable[[PlanCall, Deadline], Claim]
+    answer: Callable[[PlanCall, Deadline], Proposal]
     unit_costs: bool = False
     every_mode: bool = False
 
@@ -95,7 +95,7 @@ class Proved(Protocol):
         """Whether help pays."""
 
 
-def fault_of_joint(call: PlanCall, claim: Claim, result: Proved | None) -> str | None:
+def fault_of_joint(call: PlanCall, claim: Proposal, result: Proved | None) -> str | None:
     """Why a claim about the joint question can't be so; None if it can.
 
     Args:
@@ -122,7 +122,7 @@ def fault_of_joint(call: PlanCall, claim: Claim, result: Proved | None) -> str |
     return None
 
 
-def said(call: PlanCall, claim: Claim) -> str:
+def said(call: PlanCall, claim: Proposal) -> str:
     """A claim in words."""
     words = (
         claim.status if claim.plan is None else f"{claim.status}, cost {float(cost_of(call, claim.plan)):g}"

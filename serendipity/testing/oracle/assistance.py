@@ -14,18 +14,18 @@ Costs = tuple[Fraction, Fraction]
 FREE: Costs = (Fraction(0), Fraction(0))
 
 
-class Outcome(NamedTuple):
+class Reached(NamedTuple):
     """What one of the prime's optimal actions leads to, from before their move."""
 
     cost: Fraction
     state: State
 
 
-class Choice(NamedTuple):
+class Ply(NamedTuple):
     """One thing that the supporter may do, and what may come of it; none where it ends the game."""
 
     cost: Fraction
-    outcomes: tuple[Outcome, ...]
+    outcomes: tuple[Reached, ...]
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Tree:
     """The whole game from ``I``: per state with the supporter to move all its choices."""
 
     task: Task
-    choices: dict[State, list[Choice]]
+    choices: dict[State, list[Ply]]
 
     def final(self, state: State) -> bool:
         """Whether the prime's goal holds."""
@@ -45,7 +45,7 @@ def explore(task: Task, *, fixed: bool, no_block: bool) -> Tree:
     alone, robot = Alone(task), task.robots[0]
     idle = GroundAction("noop", (robot,), (), (), (), (), Fraction(0))
     moves = [idle, *(action for action in task.actions if action.participants == (robot,))]
-    choices: dict[State, list[Choice]] = {}
+    choices: dict[State, list[Ply]] = {}
     pending = [frozenset(task.init)]
     while pending:
         state = pending.pop()
@@ -61,17 +61,17 @@ def explore(task: Task, *, fixed: bool, no_block: bool) -> Tree:
     return Tree(task, choices)
 
 
-def _choice(alone: Alone, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Choice | None:
+def _choice(alone: Alone, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Ply | None:
     middle, actions = after(state, [move]), alone.task.actions
     if holds(alone.task.goal, middle):
-        return Choice(move.cost, ())
+        return Ply(move.cost, ())
     ways = alone.optimal(middle)
     if not ways:
         if no_block and move.name != "noop" and alone.worth(state) is not None:
             return None
-        return Choice(move.cost, (Outcome(Fraction(0), middle),))
+        return Ply(move.cost, (Reached(Fraction(0), middle),))
     chosen = ways[:1] if fixed else ways
-    return Choice(move.cost, tuple(Outcome(actions[i].cost, onward) for i, onward in chosen))
+    return Ply(move.cost, tuple(Reached(actions[i].cost, onward) for i, onward in chosen))
 
 
 def by_rounds(tree: Tree, worst: Callable[[list[Costs]], Costs]) -> Costs | None:
@@ -89,7 +89,7 @@ def by_rounds(tree: Tree, worst: Callable[[list[Costs]], Costs]) -> Costs | None
 
 
 def _value(
-    tree: Tree, choice: Choice, values: dict[State, Costs], worst: Callable[[list[Costs]], Costs]
+    tree: Tree, choice: Ply, values: dict[State, Costs], worst: Callable[[list[Costs]], Costs]
 ) -> Costs | None:
     if not choice.outcomes:
         return (Fraction(0), choice.cost)
@@ -118,7 +118,7 @@ def mean_over_all_policies(tree: Tree, most: int) -> Costs | str | None:
     return best
 
 
-def _policies(tree: Tree, policy: dict[State, Choice], pending: list[State]) -> Iterator[dict[State, Choice]]:
+def _policies(tree: Tree, policy: dict[State, Ply], pending: list[State]) -> Iterator[dict[State, Ply]]:
     pending = [state for state in pending if state not in policy and not tree.final(state)]
     if not pending:
         yield policy
@@ -128,7 +128,7 @@ def _policies(tree: Tree, policy: dict[State, Choice], pending: list[State]) -> 
         yield from _policies(tree, {**policy, state: choice}, rest + [o.state for o in choice.outcomes])
 
 
-def _mean(tree: Tree, policy: dict[State, Choice], start: State) -> Costs | None:
+def _mean(tree: Tree, policy: dict[State, Ply], start: State) -> Costs | None:
     """The mean costs of a policy; None if a run may not end."""
     ending = {state for state, choice in policy.items() if not choice.outcomes}
     grows = True
