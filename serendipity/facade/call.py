@@ -16,12 +16,12 @@ from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.visibility import Visible
 
 _ANSWER_SHARE: Final = 0.05
-"""What of the time limit is kept for the end: dropping what the search has made takes time, too."""
+"""The share of the time limit that is kept for the end: dropping what the search has made takes time, too."""
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What one call asks for.
+    """One planning call, its options checked.
 
     Attributes:
         prepared: the task.
@@ -53,12 +53,12 @@ class Request:
 
     @property
     def warm(self) -> WarmStart | None:
-        """What is known before."""
+        """The warm start of its search, or None."""
         return None if self.question is None else self.question.warm
 
 
 Given = Callable[[], HumanPlan] | None
-"""What the human is going to do, replayed when it is asked for; None to predict it."""
+"""The plan of the human, replayed when it is asked for; None to predict it."""
 
 Solver = Callable[[Request], Iterator[Answer]]
 """Answers to a call, each better than the one before or better proved; the last one is the best known."""

@@ -313,7 +313,7 @@ def _informative(savings: dict[Window, Fraction | None]) -> set[Window]:
 
 
 def removal(former: tuple[str, ...], executed: tuple[str, ...]) -> Removal:
-    """What of ``former`` is gone in ``executed``: common beginning and end are left out."""
+    """The part of ``former`` that is gone in ``executed``: common beginning and end are left out."""
     shortest = min(len(former), len(executed))
     begin = next((k for k in range(shortest) if former[k] != executed[k]), shortest)
     rest = shortest - begin

@@ -1,4 +1,4 @@
-"""What a session knows of the questions that it was asked: its answers, and what is left of them later.
+"""Answers to the last questions of a session, and the rest of their plans once the world has moved on.
 
 An answer to the same question from the same state stands: it is given at once where it is proved, and
 no later one is worse.  Once the world has moved on, what is left of a plan is what the next search
@@ -35,7 +35,7 @@ _MOST: Final = 8
 
 @dataclass(frozen=True, slots=True)
 class _Known:
-    """What is known of one question.
+    """Knowledge of one question.
 
     Attributes:
         options: as they were asked for, with the limits of the last call.
@@ -53,14 +53,14 @@ class _Known:
 
 
 class Rest(NamedTuple):
-    """What is left of a plan, and the discount that it was made with."""
+    """The rest of a plan, and the discount that it was made with."""
 
     steps: tuple[Step, ...]
     discount: Fraction
 
 
 class SessionMemory:
-    """What is known of the last few questions."""
+    """Knowledge of the last few questions."""
 
     def __init__(self) -> None:
         self._known: OrderedDict[_Key, _Known] = OrderedDict()
@@ -112,7 +112,7 @@ class SessionMemory:
 
     @property
     def rest(self) -> "Rest | None":
-        """What is left of the plan of the last answer, if all has gone as planned."""
+        """The rest of the plan of the last answer, if all has gone as planned."""
         if not self._known:
             return None
         known = next(reversed(self._known.values()))
@@ -173,7 +173,7 @@ class RememberedQuestion:
 
     @property
     def warm(self) -> WarmStart | None:
-        """What a search may begin with."""
+        """The warm start of the next search, or None."""
         return None if self.known is None else self.known.warm
 
     def better(self, found: Answer) -> Answer:
@@ -273,7 +273,7 @@ def _rank(answer: Answer, options: Options) -> tuple[object, ...]:
 
 
 def _bound(answer: Answer, options: Options) -> Fraction | None:
-    """What no plan's objective is below, the window included; None where the answer does not say."""
+    """A lower bound on the objective of all plans, the window included; None where none is known."""
     least = answer.lower_bound
     if least is None or not options.windowed:
         return least
@@ -285,7 +285,7 @@ def _bound(answer: Answer, options: Options) -> Fraction | None:
 
 
 def _moved(before: Task, known: _Known, state: frozenset[int], epochs: int) -> _Known:
-    """What is left of what is known in another state.
+    """The knowledge that is left in another state.
 
     Where the next epoch of the plan leads to that state, the rest is the rest of a plan; where nothing has
     changed, it is as it was; otherwise it may be a plan by luck.

@@ -11,7 +11,7 @@ from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.task.task import HumanPlan
 
 _VERDICT_SHARE: Final = 0.02
-"""What verdicts on humans who replan may add to the time limit; on the way, what they take of the rest."""
+"""The share of time that verdicts on humans who replan add to the limit, or take of the rest on the way."""
 
 
 def answers(call: Request) -> Iterator[Answer]:

@@ -61,14 +61,14 @@ class Session:
 
     @property
     def human_plan(self) -> tuple[str, ...] | None:
-        """What the human is going to do; None until it is given or predicted."""
+        """The plan of the human; None until it is given or predicted."""
         if self._human_plan is None:
             return self._given
         return tuple(self.task.actions[i].name for i in self._human_plan)
 
     @property
     def rest(self) -> tuple[PlanStep, ...] | None:
-        """What is left of the last answer's plan, its epochs counted from now; None once the world deviates.
+        """The rest of the last answer's plan, its epochs counted from now; None once the world deviates.
 
         It can be finished, whatever the question from the present state would be answered with.
         """
@@ -96,7 +96,7 @@ class Session:
             yield answer
 
     def _remembered(self) -> dict[str, Any]:
-        """What another session that stands where this one does has to be reminded of, as plain values."""
+        """The knowledge that another session in the same state needs, as plain values."""
         return {"predicted": self._predicted, "answers": self._memory.written(self.task)}
 
     def _remind(self, remembered: Mapping[str, Any]) -> None:
@@ -114,7 +114,7 @@ class Session:
         return None if unknown else self._replayed
 
     def _replayed(self) -> HumanPlan:
-        """What the human is going to do.
+        """The plan of the human, replayed.
 
         Raises:
             PlanError: the names that were given are no plan.

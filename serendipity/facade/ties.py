@@ -17,7 +17,7 @@ _A_FEW: Final = 4
 
 
 _SHARE: Final = 0.5
-"""What of the time that is left all optimal plans may take together, where some plan is at hand."""
+"""The share of the time that is left for all optimal plans together, where some plan is at hand."""
 
 
 def answers(call: Request) -> Iterator[Answer]:

@@ -37,7 +37,7 @@ _FIXED: Final[dict[str, object]] = {"ties": "fixed", "human_model": "omniscient"
 def settled(
     call: Request, goals: GoalsGiven, observed: ObservedGiven, beta: Number
 ) -> tuple[Request, Solver]:
-    """What is left to answer once the posterior is known, and what answers it.
+    """The call that is left once the posterior is known, and its solver.
 
     With several goals that is the robots' plan of least expected cost; with one, section 3 for
     that goal.  Goals of posterior 0, or that the human can't reach alone, are not considered.
@@ -67,7 +67,7 @@ def settled(
 
 
 def asked_about(task: Task, goals: GoalsGiven, observed: ObservedGiven, beta: Number) -> Hashable:
-    """What tells one question from another.
+    """The identity of a question about goals.
 
     Raises:
         InputError: a file or an entry of it is wrong.

@@ -1,4 +1,4 @@
-"""What the files show: names that are declared and not used, and actions that can never be applied."""
+"""Findings that take files: names that are declared and not used, and actions that can never be applied."""
 
 from collections.abc import Iterable, Iterator, Sequence
 

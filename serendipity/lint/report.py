@@ -29,7 +29,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class TaskReport(Output):
-    """How large a task is, and what is found about it.
+    """The size of a task, and the findings about it.
 
     Attributes:
         task: its name.

@@ -1,4 +1,4 @@
-"""What answers look like to people: in one line, as text, and as a table in a notebook."""
+"""Answers for people: in one line, as text, and as a table in a notebook."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence

@@ -55,7 +55,7 @@ class Work:
 def within_limits(
     load: Callable[[Work], T], deadline: Deadline | None = None, on_progress: OnProgress | None = None
 ) -> T:
-    """What ``load`` makes.
+    """The value that ``load`` makes.
 
     Args:
         load: does the work, and polls what it is given.

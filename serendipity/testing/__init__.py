@@ -1,4 +1,4 @@
-"""What planners are tested with: ours, and yours.
+"""The kit that planners are tested with: ours, and yours.
 
 Everything public is importable from here and loads when it is first used; what draws at random with
 hypothesis needs the extra ``testing``::

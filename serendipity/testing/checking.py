@@ -31,7 +31,7 @@ OPTIONS: Final = (
     "keep_prefix",
     "horizon",
 )
-"""What calls may differ in, beside ``human_plan``."""
+"""The options that calls may differ in, beside ``human_plan``."""
 
 HUMAN_PLAN: Final = "human_plan"
 BRUTE_FORCE: Final = "brute force"
@@ -40,7 +40,7 @@ JOINT_MODE: Final = "joint"
 
 @dataclass(frozen=True, slots=True)
 class Draw:
-    """Which random calls a planner is asked.
+    """The random calls that a planner is asked.
 
     Attributes:
         modes: drawn from.
@@ -95,7 +95,7 @@ class Draw:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """What is checked: the optimum of a mode, or a law in all modes.
+    """A check: the optimum of a mode, or a law in all modes.
 
     Attributes:
         name: ``brute force`` or the law's.
@@ -113,7 +113,7 @@ class Check:
 
 @dataclass(frozen=True, slots=True)
 class Tried:
-    """What a check has come to.
+    """The outcome of a check.
 
     Attributes:
         calls: how many were asked.
@@ -129,7 +129,7 @@ class Tried:
 
 
 def checks(judge: OutsideJudge, scope: Draw) -> list[Check]:
-    """What can be checked of a planner: each of its modes, and the laws that speak of them."""
+    """The checks of a planner: each of its modes, and the laws that speak of them."""
     if not judge.every_mode:
         return [Check(BRUTE_FORCE, JOINT_MODE), *map(Check, JOINT)]
     modes = set(scope.modes)

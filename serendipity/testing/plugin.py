@@ -146,5 +146,5 @@ class _PlannerItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, None, str]:
-        """Where it stands, for summaries: nowhere, so by its name."""
+        """Its place, for summaries: nowhere, so its name."""
         return self.config.rootpath, None, self.nodeid

@@ -1,4 +1,4 @@
-"""What is wrong with a planner, in words and as files."""
+"""Reports on a planner that is wrong, in words and as files."""
 
 import re
 from collections.abc import Callable, Sequence

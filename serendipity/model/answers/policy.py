@@ -43,7 +43,7 @@ class StateDelta(Written):
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What the supporter does in a state in which it is to move.
+    """The supporter's action in a state in which it is to move.
 
     Attributes:
         state: the state.
@@ -74,7 +74,7 @@ class Floor:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Policy(Output):
-    """What the supporter does in each state that can be reached while it helps.
+    """The supporter's action in each state that can be reached while it helps.
 
     In a state that is not listed it does nothing, and goes on doing nothing for ever.
 

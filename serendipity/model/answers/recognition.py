@@ -1,4 +1,4 @@
-"""What recognition answers, and its JSON form (schema ``serendipity.recognition/1``)."""
+"""The answer of goal recognition, and its JSON form (schema ``serendipity.recognition/1``)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ UNEXPLAINED: Final = "no goal explains what was observed: the posterior is the p
 
 @dataclass(frozen=True, slots=True)
 class GoalPosterior:
-    """What is known of one candidate goal; costs are the human's own, in the domain's unit.
+    """The posterior of one candidate goal; costs are the human's own, in the domain's unit.
 
     Attributes:
         name: for people.

@@ -26,12 +26,12 @@ _REASONS: Final = {
     "no-human-plan": "the human can't reach the goal alone, so there is no plan to preserve",
     "no-plan": "no plan reaches the goals within the horizon",
 }
-"""What the commonest reasons of an infeasible result mean."""
+"""The commonest reasons of an infeasible result, in words."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Result(Tabular, Output):
-    """What ``plan`` answers; fields as in ``docs/reference`` (costs in the domain's unit).
+    """The answer of ``plan``; fields as in ``docs/reference`` (costs in the domain's unit).
 
     ``status``: ``optimal`` (proved), ``feasible`` (a plan; the limit came first),
     ``infeasible`` (proved; ``reason`` says why) or ``unknown`` (the limit came first).
@@ -156,7 +156,7 @@ def _robots(result: Result) -> list[str]:
 
 
 def opening(result: Result, robots: Sequence[str]) -> Iterator[Line | Grid]:
-    """What is answered, and the plan in parallel columns."""
+    """The headlines of an answer, and the plan in parallel columns."""
     yield from map(Line, _headlines(result))
     if result.plan is not None and (result.plan or result.human_plan):
         yield from (Line(), _columns(result, robots), Line())
@@ -220,7 +220,7 @@ def _gap(result: Result) -> str:
 
 
 def _least_cost(result: Result) -> str:
-    """What the lower bound of an unproved answer means for costs: without the price of the window itself."""
+    """The lower bound of an unproved answer as a bound on costs: without the price of the window itself."""
     assert result.lower_bound is not None
     bound, weight = as_written(result.lower_bound), result.options.window_weight
     paid = "paid, announcements included" if result.options.communication_weight else "paid"
@@ -257,7 +257,7 @@ def _columns(result: Result, robots: Sequence[str]) -> Grid:
 
 
 def closing(result: Result) -> Iterator[str]:
-    """What else is to be said of an answer."""
+    """The last lines of an answer: ties, verdicts on humans who replan, time."""
     if result.saving_alone:
         yield f"{result.human} could save {plain(result.saving_alone)} alone: the given plan is not the best"
     elif _may_be_dear(result):

@@ -17,7 +17,7 @@ WHY: Final = {
     "conflict": "it gets in the way of another action",
     "refused": "it would cost the human more than going on alone",
 }
-"""Why a step of the plan does not happen, in words."""
+"""Reasons why a step of the plan does not happen, in words."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""How long and in how much memory a call may work: polled often, and cheaply.
+"""Limits on time and memory of a call: polled often, and cheaply.
 
 Reading, searching and verifying share this, and nothing else, with each other.  It is no risk to
 the verifier's independence: all that a deadline can do is to leave a claim undecided.

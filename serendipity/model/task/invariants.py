@@ -42,7 +42,7 @@ _Facts = Mapping[int, frozenset[Part]]
 
 @dataclass(frozen=True, slots=True)
 class _Change:
-    """What an action does to the facts that mention an object.
+    """The changes of an action to the facts that mention an object.
 
     Attributes:
         needs: what has to be true.
@@ -142,7 +142,7 @@ def _mentioning(thing: str, facts: Iterable[int], atoms: Sequence[_Atom]) -> _Fa
 
 
 def _by_part(changes: Iterable[_Change]) -> dict[Part, list[_Change]]:
-    """Which changes add or delete what is of a part."""
+    """The changes that add or delete facts of each part."""
     found: dict[Part, list[_Change]] = {}
     for change in changes:
         parts = frozenset().union(*change.adds.values(), *change.deletes.values())

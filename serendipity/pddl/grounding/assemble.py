@@ -154,7 +154,7 @@ def _numbered(
     robot_goals: Sequence[Goal],
     work: Work,
 ) -> Numbering:
-    """What can be executed, in its final order; goals lose what is known of them."""
+    """The executable actions in their final order; goals lose what is known of them."""
     goals = (goal, *robot_goals)
     for literal in chain.from_iterable(one.named() for one in goals):
         _ = facts[literal.key]  # has an id from here on

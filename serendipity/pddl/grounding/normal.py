@@ -117,7 +117,7 @@ def require_literals(number: int, place: str, work: Work) -> None:
 
 
 def _expanded(formula: Formula, unit: Unit) -> int:
-    """How many literals a precondition comes to; what exists becomes a parameter."""
+    """The number of literals of a precondition; what exists becomes a parameter."""
     match formula:
         case And(parts) | Or((_,) as parts):
             return sum(_expanded(part, unit) for part in parts)
@@ -130,7 +130,7 @@ def _expanded(formula: Formula, unit: Unit) -> int:
 
 @dataclass(slots=True)
 class _Needs:
-    """What a condition needs in every case, and the choices that it leaves."""
+    """The literals that a condition needs in every case, and the choices that it leaves."""
 
     unit: Unit
     work: Work

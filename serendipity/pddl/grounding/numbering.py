@@ -14,7 +14,7 @@ from serendipity.pddl.work import Work
 
 
 class Changes:
-    """Which facts the actions that can be executed change.
+    """The facts that executable actions change.
 
     Args:
         facts: ids of ground atoms, in ascending order.
@@ -164,7 +164,7 @@ def _renumbered(column: Column, ids: Mapping[int, int]) -> Column:
 
 
 def _without(deleted: Column, added: Column) -> Column:
-    """What is deleted and not added at the same time."""
+    """The deleted facts that are not added at the same time."""
     if {*deleted.facts()}.isdisjoint(added.facts()):
         return deleted
     pairs = [*zip(deleted.places, added.places, strict=True)]

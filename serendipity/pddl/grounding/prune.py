@@ -1,4 +1,4 @@
-"""Which ground actions can ever be executed: delete-relaxed reachability over all agents."""
+"""Executable ground actions, by delete-relaxed reachability over all agents."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence, Set
@@ -54,7 +54,7 @@ def _reachable(blocks: Iterable[Block], init: frozenset[int], work: Work) -> lis
 
 
 class _Reachability:
-    """What is reached so far; an action waits for one fact at a time that is not."""
+    """The facts reached so far; an action waits for one fact at a time that is not."""
 
     def __init__(self, blocks: Sequence[Block], init: Iterable[int], work: Work) -> None:
         self.pre = [*chain.from_iterable(block.pre.rows() for block in work.deadline.each(blocks, 1))]

@@ -15,7 +15,7 @@ from serendipity.pddl.work import Work
 
 @dataclass(slots=True)
 class Initial:
-    """What a section ``(:init ...)`` says; see :class:`~serendipity.pddl.parsing.lifted.Problem`."""
+    """The contents of a section ``(:init ...)``; see :class:`~serendipity.pddl.parsing.lifted.Problem`."""
 
     true: dict[Key, None] = field(default_factory=dict)
     false: dict[Key, int] = field(default_factory=dict)

@@ -17,7 +17,7 @@ _BLANK: Final = re.compile(r"[\s,]*")
 
 
 class FileItem(NamedTuple):
-    """What stands in a file, and on which line; None where there is no file."""
+    """A value of a file, and its line; None where there is no file."""
 
     value: Any
     line: int | None

@@ -74,7 +74,7 @@ RESERVED: Final = frozenset(
 
 
 class Scope:
-    """What names may occur in a place.
+    """The names that may occur in a place.
 
     Args:
         types: the types.
@@ -273,7 +273,7 @@ def calculate(operator: str, values: Iterable[Fraction]) -> Fraction:
 
 
 def cost_fault(value: Fraction) -> str | None:
-    """What is wrong with the cost of an action, or None."""
+    """The fault in the cost of an action, or None."""
     if max(abs(value.numerator), value.denominator) >= 10**_MOST_DIGITS:
         return f"expected a cost of at most {_MOST_DIGITS} digits"
     return f"expected a cost of at least 0, got {float(value):g}" if value < 0 else None

@@ -1,4 +1,4 @@
-"""What stands in sections: typed lists, signatures of predicates and functions, actions."""
+"""Contents of sections: typed lists, signatures of predicates and functions, actions."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -32,7 +32,7 @@ class Declaration(NamedTuple):
 
 @dataclass(slots=True)
 class ActionText:
-    """What stands in a section ``(:action ...)``.
+    """The parts of a section ``(:action ...)``.
 
     Attributes:
         name: of the action.

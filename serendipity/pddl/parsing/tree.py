@@ -23,7 +23,7 @@ _LISTED: Final = 8
 
 
 class SExpression:
-    """What stands between two brackets.
+    """A list in brackets.
 
     Attributes:
         line: of the opening bracket, from 1.
@@ -119,7 +119,7 @@ def _parts(text: str) -> Iterator[str]:
 
 
 def _find(text: str, what: str, start: int) -> int:
-    """Where something is found from ``start`` on; the length of the text where it is not."""
+    """The place of something from ``start`` on; the length of the text where it is not."""
     found = text.find(what, start)
     return len(text) if found < 0 else found
 

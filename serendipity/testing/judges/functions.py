@@ -123,7 +123,7 @@ def _joint(task: Task, said: Any) -> Proposal:
 
 
 def _in_epochs(task: Task, said: Any) -> Proposal:
-    """What a function of every mode said.
+    """The claim of a function of every mode.
 
     Raises:
         ValueError: it is no answer, or there is no action of a name.

@@ -17,7 +17,7 @@ _HELD: Final = ("replay", "window")
 
 
 def fault(call: PlanCall, claim: Proposal, proved: Proved | None) -> str | None:
-    """Why a claim can't be so; None if it can.
+    """The fault in a claim, or None.
 
     Args:
         call: what was asked.

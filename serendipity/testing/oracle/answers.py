@@ -16,7 +16,7 @@ from serendipity.testing.oracle.suffixes import suffix_rule
 
 @dataclass(frozen=True, slots=True)
 class Optimum:
-    """What an exact planner has to answer; costs as in ``Result``, but exact.
+    """The answer of an exact planner; costs as in ``Result``, but exact.
 
     ``actions`` counts the plan's actions; None where the answer is a mean over ties.
     """
@@ -140,7 +140,7 @@ class Solver:
         return WindowPlan(baseline, baseline[1] + self._units(self.options.window_weight), window)
 
     def _baseline(self) -> Label | None:
-        """What doing nothing costs: ``pi_H`` alone, or with robots that reach ``G_R`` (semantics 3.1)."""
+        """The cost of doing nothing: ``pi_H`` alone, or with robots that reach ``G_R`` (semantics 3.1)."""
         plan = self.human_plan
         if plan is None:
             return None
@@ -359,7 +359,7 @@ def _advanced(layer: Layer, moves: Moves, epochs: int | None) -> Layer:
 
 
 def _smallest_unit(task: Task, options: Options) -> int:
-    """How many units a cost of 1 is, so that all that is added up is whole."""
+    """The number of units in a cost of 1, so that all that is added up is whole."""
     amounts = [options.window_weight]
     if isinstance(options.max_cost, Fraction):
         amounts.append(options.max_cost)

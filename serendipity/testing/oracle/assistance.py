@@ -15,7 +15,7 @@ FREE: Costs = (Fraction(0), Fraction(0))
 
 
 class Reached(NamedTuple):
-    """What one of the prime's optimal actions leads to, from before their move."""
+    """The cost of one of the prime's optimal actions, and the state that it leads to."""
 
     cost: Fraction
     state: State

@@ -94,7 +94,7 @@ class _World:
     def _his_part(
         self, state: State, belief: State, plan: HumanPlan, best: Fraction | None
     ) -> Iterator[tuple[tuple[int, ...], HumanPlan, State]]:
-        """What the human does: a joint action that they would accept, or what they mean to do."""
+        """The human's part: a joint action that they would accept, or what they mean to do."""
         for j in self.joint:
             action = self.task.actions[j]
             if usable(action, state) and usable(action, belief):
