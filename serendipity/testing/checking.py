@@ -112,7 +112,7 @@ class Check:
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
+class Probed:
     """The outcome of a check.
 
     Attributes:
@@ -139,7 +139,7 @@ def checks(judge: OutsideJudge, scope: Draw) -> list[Check]:
     return [*(Check(BRUTE_FORCE, mode) for mode in scope.modes), *map(Check, laws)]
 
 
-def run(judge: OutsideJudge, check: Check, scope: Draw) -> Tried:
+def run(judge: OutsideJudge, check: Check, scope: Draw) -> Probed:
     """Ask the calls of a scope in turn until something is wrong; that is made as small as may be."""
     examine = partial(_against_brute_force, judge, scope.call_limit)
     if check.name != BRUTE_FORCE:
@@ -154,8 +154,8 @@ def run(judge: OutsideJudge, check: Check, scope: Draw) -> Tried:
             continue
         if found is not None:
             smallest = shrink(found.call, partial(_shows, examine, found.kind))
-            return Tried(asked, refused, examine(smallest) or found, call.seed)
-    return Tried(asked, refused)
+            return Probed(asked, refused, examine(smallest) or found, call.seed)
+    return Probed(asked, refused)
 
 
 class _RefusedError(Exception):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import pytest
 
 if TYPE_CHECKING:
-    from serendipity.testing.checking import Check, Draw, Tried
+    from serendipity.testing.checking import Check, Draw, Probed
     from serendipity.testing.judges import OutsideJudge
 
 _PLANNER: Final = "--serendipity-planner"
@@ -127,7 +127,7 @@ class _PlannerItem(pytest.Item):
         answered = outcome.calls - outcome.refused
         self.user_properties.append(("serendipity", f"{answered} of {outcome.calls} calls answered"))
 
-    def _again(self, outcome: "Tried") -> str:
+    def _again(self, outcome: "Probed") -> str:
         words = ["pytest", _PLANNER, self._judge.name]
         for name in (*_LISTS, "actions"):
             value = getattr(self._scope, name)

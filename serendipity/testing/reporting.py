@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from serendipity.testing.checking import Check, Draw, Tried, checks, run
+from serendipity.testing.checking import Check, Draw, Probed, checks, run
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.in_python import in_python
 from serendipity.testing.judges import OutsideJudge, by_function
@@ -63,7 +63,7 @@ def check_planner(
 def report(
     judge: OutsideJudge,
     check: Check,
-    outcome: Tried,
+    outcome: Probed,
     found: Disagreement,
     folder: Path | None,
     again: str,
