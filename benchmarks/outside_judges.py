@@ -22,7 +22,7 @@ from serendipity.evaluation.crosscheck import (
     shrink,
     write_case,
 )
-from serendipity.testing.judges import Claim, OutsideJudge, by_name
+from serendipity.testing.judges import OutsideJudge, Proposal, by_name
 
 SEARCH = {"search": JUDGES["search"]}
 STATUSES = ("optimal", "feasible", "infeasible", "unknown")
@@ -55,7 +55,7 @@ def main() -> None:
 def counted(judge: OutsideJudge, seen: Counter[str]) -> OutsideJudge:
     """A judge whose answers are counted, until the count is read."""
 
-    def answer(call: PlanCall, deadline: Deadline) -> Claim:
+    def answer(call: PlanCall, deadline: Deadline) -> Proposal:
         claim = judge.answer(call, deadline)
         seen[claim.status] += 1
         if claim.status == "unknown":

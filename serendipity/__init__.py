@@ -137,70 +137,39 @@ __all__ = [
 ]
 
 _HOMES = {
-    "Progress": "serendipity.evaluation.reproduction",
-    "Reproduction": "serendipity.evaluation.reproduction",
-    "Row": "serendipity.evaluation.reproduction",
-    "reproduce": "serendipity.evaluation.reproduction",
-    "Execution": "serendipity.execution",
-    "Run": "serendipity.execution",
-    "Runs": "serendipity.execution",
-    "execute": "serendipity.execution",
-    "Explanation": "serendipity.explanation",
-    "explain": "serendipity.explanation",
-    "check": "serendipity.facade.certify",
-    "verify": "serendipity.facade.certify",
-    "Interruption": "serendipity.facade.interruptibility",
-    "InterruptionReport": "serendipity.facade.interruptibility",
-    "Removal": "serendipity.facade.interruptibility",
-    "interruptions": "serendipity.facade.interruptibility",
-    "load": "serendipity.facade.loading",
-    "load_agents": "serendipity.facade.loading",
-    "load_pddl": "serendipity.facade.loading",
-    "plan": "serendipity.facade.planning",
-    "plan_anytime": "serendipity.facade.planning",
-    "check_proof": "serendipity.facade.proofs",
-    "Session": "serendipity.facade.session",
-    "Drawing": "serendipity.facade.showing",
-    "show": "serendipity.facade.showing",
-    "simulate": "serendipity.facade.simulation",
-    "Finding": "serendipity.lint",
-    "TaskReport": "serendipity.lint",
-    "check_task": "serendipity.lint",
-    "GoalPosterior": "serendipity.recognition",
-    "Recognition": "serendipity.recognition",
-    "recognise": "serendipity.recognition",
-    "example": "serendipity.scenarios.examples",
-    "generate_usar": "serendipity.scenarios.generate",
+    "evaluation.reproduction": "Progress Reproduction Row reproduce",
+    "execution": "Execution Run Runs execute",
+    "explanation": "Explanation explain",
+    "facade.certify": "check verify",
+    "facade.interruptibility": "Interruption InterruptionReport Removal interruptions",
+    "facade.loading": "load load_agents load_pddl",
+    "facade.planning": "plan plan_anytime",
+    "facade.proofs": "check_proof",
+    "facade.session": "Session",
+    "facade.showing": "Drawing show",
+    "facade.simulation": "simulate",
+    "lint": "Finding TaskReport check_task",
+    "recognition": "GoalPosterior Recognition recognise",
+    "scenarios.examples": "example",
+    "scenarios.generate": "generate_usar",
 }
-"""Where what is public lives that is not of ``serendipity.model``."""
+"""The modules of the public names that are not of ``serendipity.model``."""
 
-_NEED_SIBLINGS = (
-    "serendipity.facade.planning",
-    "serendipity.facade.certify",
-    "serendipity.facade.proofs",
-    "serendipity.facade.interruptibility",
-    "serendipity.facade.loading",
-    "serendipity.execution",
-    "serendipity.explanation",
-    "serendipity.recognition",
-    "serendipity.evaluation.reproduction",
-    "serendipity.facade.session",
-    "serendipity.facade.showing",
-    "serendipity.facade.simulation",
-)
+_ALONE = ("lint", "model", "scenarios.examples", "scenarios.generate")
+"""The modules that load neither ``search`` nor ``verify``."""
 
 
 def __getattr__(name: str) -> "Any":
     if name not in __all__:
         raise AttributeError(f"module 'serendipity' has no attribute {name!r}")
-    home = _HOMES.get(name, "serendipity.model")
-    if home in _NEED_SIBLINGS:
+    home = next((home for home, names in _HOMES.items() if name in names.split()), "model")
+    if home not in _ALONE:
         from serendipity._siblings import require_siblings
 
         require_siblings("search", "verify")
     from importlib import import_module
 
-    value = getattr(import_module(home), name)
+    value = getattr(import_module(f"serendipity.{home}"), name)
     globals()[name] = value
     return value
 

@@ -18,7 +18,7 @@ from serendipity._siblings import require_siblings
 require_siblings("search", "verify")
 
 from serendipity.facade import certify, planning, session  # noqa: E402  # checked before
-from serendipity.facade.session import AnytimeOptions, SessionOptions  # noqa: E402
+from serendipity.facade.planning import AnytimeOptions, SessionOptions  # noqa: E402
 from serendipity.model import Certificate, Deadline, PlanStep, Result, Task, UsageError  # noqa: E402
 from serendipity.model.keywords import listing  # noqa: E402
 
@@ -118,7 +118,7 @@ class Session:
 
     @property
     def human_plan(self) -> tuple[str, ...] | None:
-        """What the human is going to do; None until it is given or predicted."""
+        """The plan of the human; None until it is given or predicted."""
         return self._session.human_plan
 
     @property
@@ -192,7 +192,7 @@ def _within(deadline: Deadline | None, stop: threading.Event) -> Deadline:
 
 
 async def _threaded(work: Callable[[], T], stop: threading.Event) -> T:
-    """What comes of work in a thread, which a flag ends: whoever is cancelled sets it, and waits for that."""
+    """The result of work in a thread, which a flag ends: whoever is cancelled sets it, and waits for that."""
     working = asyncio.ensure_future(asyncio.to_thread(work))
     try:
         return await asyncio.shield(working)

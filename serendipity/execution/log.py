@@ -9,7 +9,7 @@ from serendipity.execution.decided import Decided
 from serendipity.execution.execution import Execution
 from serendipity.execution.outlook import Outlook
 from serendipity.execution.why import Why
-from serendipity.model.answers.step_reader import StepReader
+from serendipity.model.answers.fields import MalformedError, read_fields
 from serendipity.model.errors import InputError, UsageError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.schemas import schema_fault
@@ -143,17 +143,15 @@ def decision_of(value: dict[str, Any], epoch: int, file: object = None) -> Decid
         InputError: a step is malformed.
         KeyError: a field is missing.
     """
-    read = StepReader(file)
-    expected = None if value["expected"] is None else [value["expected"]]
+    try:
+        steps = read_fields(Decided, value, ("actions", "offers", "expected", "plan", "window"))
+    except MalformedError as error:
+        raise InputError(f"log: {error}", file) from None
     return Decided(
         epoch,
         value["verdict"],
         value["reason"],
-        actions=read.plan(value["actions"]) or (),
-        offers=read.plan(value["offers"]) or (),
-        expected=(read.plan(expected) or (None,))[0],
-        plan=read.plan(value["plan"]),
-        window=read.window(value["window"]),
+        **steps,
         cost=value["cost"],
         alone=value["alone"],
         proved=value.get("proved", _LATER["proved"]),

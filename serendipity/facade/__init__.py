@@ -1,1 +1,1 @@
-"""What is asked of the planner: each call with its options checked, and its answer."""
+"""The calls of the library: options checked, answers made into results."""

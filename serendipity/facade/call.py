@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Final
 
 from search import PreparedTask, WarmStart
-from serendipity.facade.memory import Question
+from serendipity.facade.memory import RememberedQuestion
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import UsageError
 from serendipity.model.options import Options
@@ -16,12 +16,12 @@ from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.visibility import Visible
 
 _ANSWER_SHARE: Final = 0.05
-"""What of the time limit is kept for the end: dropping what the search has made takes time, too."""
+"""The share of the time limit that is kept for the end: dropping what the search has made takes time, too."""
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
-    """What one call asks for.
+class Request:
+    """One planning call, its options checked.
 
     Attributes:
         prepared: the task.
@@ -39,7 +39,7 @@ class Call:
     visible: Visible | None
     limits: Deadline
     deadline: Deadline
-    question: Question | None = None
+    question: RememberedQuestion | None = None
 
     @property
     def task(self) -> Task:
@@ -53,14 +53,14 @@ class Call:
 
     @property
     def warm(self) -> WarmStart | None:
-        """What is known before."""
+        """The warm start of its search, or None."""
         return None if self.question is None else self.question.warm
 
 
 Given = Callable[[], HumanPlan] | None
-"""What the human is going to do, replayed when it is asked for; None to predict it."""
+"""The plan of the human, replayed when it is asked for; None to predict it."""
 
-Solver = Callable[[Call], Iterator[Answer]]
+Solver = Callable[[Request], Iterator[Answer]]
 """Answers to a call, each better than the one before or better proved; the last one is the best known."""
 
 
@@ -84,7 +84,7 @@ def checked_call(
     visible: Visible | None,
     cancelled: threading.Event | None,
     outer: Deadline | None,
-) -> Call:
+) -> Request:
     """The call that keyword arguments of :func:`serendipity.plan` ask for; its time starts now.
 
     Raises:
@@ -103,4 +103,4 @@ def checked_call(
             raise UsageError(f"mode: 'assistance' is for one robot, the task has {robots}")
     elif human_plan is not None:
         options = options.but(ties="fixed")  # there is but one plan
-    return Call(prepared, options, human_plan, visible, limits, limits.sooner(_ANSWER_SHARE))
+    return Request(prepared, options, human_plan, visible, limits, limits.sooner(_ANSWER_SHARE))

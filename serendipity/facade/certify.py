@@ -2,7 +2,7 @@
 
 from pathlib import Path
 from time import perf_counter
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from serendipity.facade.logs import recorded
 from serendipity.model import Certificate, Deadline, Result, Task
@@ -11,6 +11,9 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from verify.certificate.by_rules import check_by_rules
 from verify.rules.header import require_same_task
+
+if TYPE_CHECKING:
+    from verify.proofs.book import ProofWriter
 
 
 def _verdict(certificate: Certificate) -> str:
@@ -95,17 +98,28 @@ def verify(
     expect(TASK, task=task)
     expect(RESULT, result=result)
     expect_or_none(PATH, proof=proof)
-    from serendipity.facade.proofs import write_proof
     from verify.certificate.certify import certify  # loads the solvers
-    from verify.programs.effort import NoProgramError
     from verify.proofs.book import ProofWriter
 
     writer = None if proof is None else ProofWriter()
     certificate = certify(
         task, result, encoding=encoding, solver=solver, method=method, proof=writer, deadline=limits
     )
-    if writer is not None and proof is not None:
-        if certificate.verdict == "proved" and not writer.programs:
-            raise NoProgramError("an answer that rules alone decide")
-        write_proof(Path(proof), writer, certificate, result)
+    if writer is not None and proof is not None and certificate.verdict == "proved":
+        _write(Path(proof), writer, certificate, result)
     return certificate
+
+
+def _write(path: Path, writer: "ProofWriter", certificate: Certificate, result: Result) -> None:
+    """Write down what convinced, packed where the file's name ends in ``.gz``."""
+    from serendipity.writing.together import write_together
+    from verify.certificate.provable import main_claim
+    from verify.programs.effort import NoProgramError
+    from verify.proofs.book import packed
+
+    claim = main_claim(result)
+    if not writer.programs:
+        raise NoProgramError("an answer that rules alone decide")
+    if claim is not None:
+        data = writer.to_dict(claim, certificate.encoding or "")
+        write_together({path: packed(data, small=path.suffix == ".gz")})

@@ -1,4 +1,4 @@
-"""Which interruptions would help the human: every window, with the best possible in it (semantics 3.2)."""
+"""Interruptions that would help the human: every window, with the best possible in it (semantics 3.2)."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -11,15 +11,16 @@ from serendipity.facade.call import options_from
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
+from serendipity.model.answers.fields import written
 from serendipity.model.arguments import FUNCTION, TASK, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason, limit_words
 from serendipity.model.keywords import InterruptionOptions, listing
-from serendipity.model.numbers import plain, rounded
+from serendipity.model.numbers import plain
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.table import Cell, Table, Tabular
 from serendipity.model.task.execution import actions_of
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.interruptions/1"
 
@@ -37,13 +38,15 @@ _COLUMNS: Final = {
     "informative": bool,
 }
 
+_COSTS: Final = ("human_cost", "team_cost", "human_saving", "team_saving")
+
 _OPTIONS: Final = tuple(InterruptionOptions.__annotations__)
-"""What of ``Options`` makes a difference here."""
+"""The options that make a difference here."""
 
 
 @dataclass(frozen=True, slots=True)
 class Removal:
-    """What a plan takes out of ``pi_H``, and what the human does instead (Def. 2.0).
+    """The part of ``pi_H`` that a plan takes out, and what the human does instead (Def. 2.0).
 
     Attributes:
         first: ``i``, from 1.
@@ -84,37 +87,28 @@ class Interruption:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
+        gone = self.removal
         removed = None
-        if self.removal is not None and self.removal.removed:
-            removed = {
-                "first": self.removal.first,
-                "last": self.removal.last,
-                "actions": list(self.removal.removed),
-            }
+        if gone is not None and gone.removed:
+            removed = {"first": gone.first, "last": gone.last, "actions": list(gone.removed)}
         return {
-            "window": self.window.to_dict(),
-            "human_cost": rounded(self.human_cost),
-            "team_cost": rounded(self.team_cost),
-            "human_saving": rounded(self.human_saving),
-            "team_saving": rounded(self.team_saving),
+            **written(self, ("window", *_COSTS)),
             "removed": removed,
-            "replacement": None if self.removal is None else list(self.removal.replacement),
-            "plan": None if self.plan is None else [step.to_dict() for step in self.plan],
-            "informative": self.informative,
+            "replacement": None if gone is None else list(gone.replacement),
+            **written(self, ("plan", "informative")),
         }
 
     def cells(self) -> tuple[Cell, ...]:
-        """What stands in its row; names of actions with ``; `` between them."""
+        """The cells of its row; names of actions with ``; `` between them."""
         gone = self.removal
         taken = (gone.first, gone.last, "; ".join(gone.removed)) if gone and gone.removed else (None,) * 3
-        costs = (self.human_cost, self.team_cost, self.human_saving, self.team_saving)
         instead = None if gone is None else "; ".join(gone.replacement)
         window = (self.window.start, self.window.end)
-        return (*window, *map(rounded, costs), *taken, instead, self.informative)
+        return (*window, *written(self, _COSTS).values(), *taken, instead, self.informative)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class InterruptionReport(Tabular, Told):
+class InterruptionReport(Tabular, Output):
     """The report of semantics 3.2.
 
     Attributes:
@@ -151,27 +145,18 @@ class InterruptionReport(Tabular, Told):
     def to_dict(self) -> dict[str, Any]:
         """The JSON object (schema ``serendipity.interruptions/1``)."""
         options = self.options.to_dict()
+        names = ("limit", "human", "human_plan", "human_cost", "team_cost", "horizon", "interruptible")
         return {
             "schema": SCHEMA,
             "complete": self.complete,
-            "limit": self.limit,
-            "human": self.human,
-            "human_plan": None if self.human_plan is None else list(self.human_plan),
-            "human_cost": rounded(self.human_cost),
-            "team_cost": rounded(self.team_cost),
-            "horizon": self.horizon,
-            "interruptible": self.interruptible,
+            **written(self, names),
             "reason": "no-human-plan" if self.human_plan is None else None,
-            "windows": [window.to_dict() for window in self.windows],
+            **written(self, ("windows",)),
             "options": {name: options[name] for name in _OPTIONS},
         }
 
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
-
     def told(self, *, every: bool = False) -> Iterator[Line | Grid]:
-        """What ``interruptions`` prints; with ``every``, what ``--all`` does."""
+        """The lines that ``interruptions`` prints; with ``every``, those of ``--all``."""
         if self.human_plan is None:
             yield Line(f"{self.human} can't reach the goal alone: there is no plan to interrupt")
             return
@@ -196,20 +181,19 @@ class InterruptionReport(Tabular, Told):
             gone = entry.removal
             removed = f"{gone.first}..{gone.last}" if gone is not None and gone.removed else ""
             window = f"[{entry.window.start}, {entry.window.end})"
-            costs = (entry.human_cost, entry.team_cost, entry.human_saving, entry.team_saving)
+            costs = (plain(getattr(entry, name)) for name in _COSTS)
             instead = "" if gone is None else "; ".join(gone.replacement)
-            rows.append((window, *map(plain, costs), removed, instead))
+            rows.append((window, *costs, removed, instead))
         helpful = (i for i, entry in enumerate(shown) if entry.human_saving and entry.human_saving > 0)
         yield Grid(header, rows, frozenset(helpful), numbered=True)
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield self.human
         yield f"{len(self.windows)} windows"
         yield f"interruptible {self.interruptible}"
 
     def _repr_html_(self) -> str:
-        return f"{self._repr_svg_()}{Told._repr_html_(self)}"
+        return f"{self._repr_svg_()}{Output._repr_html_(self)}"
 
     def _repr_svg_(self) -> str:
         from serendipity.pictures import draw_windows
@@ -329,7 +313,7 @@ def _informative(savings: dict[Window, Fraction | None]) -> set[Window]:
 
 
 def removal(former: tuple[str, ...], executed: tuple[str, ...]) -> Removal:
-    """What of ``former`` is gone in ``executed``: common beginning and end are left out."""
+    """The part of ``former`` that is gone in ``executed``: common beginning and end are left out."""
     shortest = min(len(former), len(executed))
     begin = next((k for k in range(shortest) if former[k] != executed[k]), shortest)
     rest = shortest - begin

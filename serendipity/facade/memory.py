@@ -1,4 +1,4 @@
-"""What a session knows of the questions that it was asked: its answers, and what is left of them later.
+"""Answers to the last questions of a session, and the rest of their plans once the world has moved on.
 
 An answer to the same question from the same state stands: it is given at once where it is proved, and
 no later one is worse.  Once the world has moved on, what is left of a plan is what the next search
@@ -35,7 +35,7 @@ _MOST: Final = 8
 
 @dataclass(frozen=True, slots=True)
 class _Known:
-    """What is known of one question.
+    """Knowledge of one question.
 
     Attributes:
         options: as they were asked for, with the limits of the last call.
@@ -53,14 +53,14 @@ class _Known:
 
 
 class Rest(NamedTuple):
-    """What is left of a plan, and the discount that it was made with."""
+    """The rest of a plan, and the discount that it was made with."""
 
     steps: tuple[Step, ...]
     discount: Fraction
 
 
-class Memory:
-    """What is known of the last few questions."""
+class SessionMemory:
+    """Knowledge of the last few questions."""
 
     def __init__(self) -> None:
         self._known: OrderedDict[_Key, _Known] = OrderedDict()
@@ -71,7 +71,7 @@ class Memory:
         visible: Visible | None,
         about: Hashable,
         human_plan: tuple[str, ...] | None,
-    ) -> "Question":
+    ) -> "RememberedQuestion":
         """A question, and what is known of it.
 
         Args:
@@ -88,7 +88,7 @@ class Memory:
             if options.windowed and not _is_open(options, warm.window):  # its bound is beside that plan
                 warm = replace(warm, bound=None, is_best=False)
             known = replace(known, answer=None, warm=warm)
-        return Question(self, options, visible, about, human_plan, known)
+        return RememberedQuestion(self, options, visible, about, human_plan, known)
 
     def keep(self, about: Hashable, known: _Known) -> None:
         """Remember an answer."""
@@ -112,7 +112,7 @@ class Memory:
 
     @property
     def rest(self) -> "Rest | None":
-        """What is left of the plan of the last answer, if all has gone as planned."""
+        """The rest of the plan of the last answer, if all has gone as planned."""
         if not self._known:
             return None
         known = next(reversed(self._known.values()))
@@ -136,33 +136,25 @@ class Memory:
             self._known[key] = _moved(before, known, state, epochs)
 
 
-class Question:
-    """A question of a call, with what is known of it.
+@dataclass(frozen=True, slots=True)
+class RememberedQuestion:
+    """A question of a call, and the answers to it that are known.
 
-    Args:
-        memory: what remembers the answers.
+    Attributes:
+        memory: remembers the answers.
         options: as they are asked for.
         visible: what the human sees.
         about: candidate goals and what was observed, where goals are not known.
         human_plan: what the human is going to do, where that is known.
-        known: what is known of it.
+        known: of it, or None.
     """
 
-    def __init__(
-        self,
-        memory: Memory,
-        options: Options,
-        visible: Visible | None,
-        about: Hashable,
-        human_plan: tuple[str, ...] | None,
-        known: _Known | None,
-    ) -> None:
-        self._memory = memory
-        self._options = options
-        self._visible = visible
-        self._about = about
-        self._human_plan = human_plan
-        self._known = known
+    memory: SessionMemory
+    options: Options
+    visible: Visible | None
+    about: Hashable
+    human_plan: tuple[str, ...] | None
+    known: _Known | None
 
     @property
     def proved(self) -> Answer | None:
@@ -171,22 +163,22 @@ class Question:
         if answer is None or answer.status not in ("optimal", "infeasible"):
             return None
         has_saving = answer.human_plan is not None or answer.cost is None
-        if self._known is not None and self._known.options.mode == "composite" and not has_saving:
+        if self.known is not None and self.known.options.mode == "composite" and not has_saving:
             return None  # a limit may have come before it was known
         return _told_again(answer)
 
     @property
     def _answer(self) -> Answer | None:
-        return None if self._known is None else self._known.answer
+        return None if self.known is None else self.known.answer
 
     @property
     def warm(self) -> WarmStart | None:
-        """What a search may begin with."""
-        return None if self._known is None else self._known.warm
+        """The warm start of the next search, or None."""
+        return None if self.known is None else self.known.warm
 
     def better(self, found: Answer) -> Answer:
         """An answer, or the one that is known where that is better."""
-        return found if self._answer is None else _better(self._answer, found, self._options)
+        return found if self._answer is None else _better(self._answer, found, self.options)
 
     def unless_worse(self, task: Task, answer: Answer, limit: str | None) -> Answer:
         """An answer; none where a limit left nothing but one that is worse than to finish what was begun.
@@ -199,22 +191,22 @@ class Question:
         warm = self.warm
         if limit is None or answer.status != "feasible" or warm is None or not warm.is_sure:
             return answer
-        return not_now(answer, limit) if is_better(warm, answer, task, self._options) else answer
+        return not_now(answer, limit) if is_better(warm, answer, task, self.options) else answer
 
     def answered(self, task: Task, answer: Answer) -> None:
         """Remember an answer about a task."""
         if answer.status == "unknown":
             return
         answer = answer._replace(realised=answer.realised or None)  # where it is empty, time was up
-        warm, plan = WarmStart(), self._human_plan
-        if answer.steps is None and self._known is not None:
-            warm = self._known.warm  # which can still be finished
+        warm, plan = WarmStart(), self.human_plan
+        if answer.steps is None and self.known is not None:
+            warm = self.known.warm  # which can still be finished
         elif answer.ties is None and answer.goals is None and answer.bounds is None:
-            bound, is_best = _bound(answer, self._options), answer.status == "optimal"
+            bound, is_best = _bound(answer, self.options), answer.status == "optimal"
             warm = WarmStart(answer.steps or (), answer.window, True, bound, is_best, answer.horizon)
             if answer.human_plan is not None:
                 plan = tuple(task.actions[i].name for i in answer.human_plan)
-        self._memory.keep(self._about, _Known(self._options, answer, warm, plan, self._visible))
+        self.memory.keep(self.about, _Known(self.options, answer, warm, plan, self.visible))
 
 
 def _written(task: Task, known: _Known) -> dict[str, Any]:
@@ -281,7 +273,7 @@ def _rank(answer: Answer, options: Options) -> tuple[object, ...]:
 
 
 def _bound(answer: Answer, options: Options) -> Fraction | None:
-    """What no plan's objective is below, the window included; None where the answer does not say."""
+    """A lower bound on the objective of all plans, the window included; None where none is known."""
     least = answer.lower_bound
     if least is None or not options.windowed:
         return least
@@ -293,7 +285,7 @@ def _bound(answer: Answer, options: Options) -> Fraction | None:
 
 
 def _moved(before: Task, known: _Known, state: frozenset[int], epochs: int) -> _Known:
-    """What is left of what is known in another state.
+    """The knowledge that is left in another state.
 
     Where the next epoch of the plan leads to that state, the rest is the rest of a plan; where nothing has
     changed, it is as it was; otherwise it may be a plan by luck.

@@ -5,27 +5,27 @@ from typing import Final
 
 from search import solve
 from search.modes.simulation import solve_for_human
-from serendipity.facade.call import Call
+from serendipity.facade.call import Request
 from serendipity.facade.simulation import realised
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.task.task import HumanPlan
 
 _VERDICT_SHARE: Final = 0.02
-"""What verdicts on humans who replan may add to the time limit; on the way, what they take of the rest."""
+"""The share of time that verdicts on humans who replan add to the limit, or take of the rest on the way."""
 
 
-def answers(call: Call) -> Iterator[Answer]:
+def answers(call: Request) -> Iterator[Answer]:
     """Answers as they get better, or their bounds do, each with how it came to be so good."""
     return _told(call, call.given)
 
 
-def last_answer(call: Call, human_plan: HumanPlan) -> Answer:
+def last_answer(call: Request, human_plan: HumanPlan) -> Answer:
     """The answer to one plan of the human's, with the verdicts on humans who replan."""
     *_, answer = _told(call, human_plan)
     return with_verdicts(call, answer._replace(human_plan=human_plan))  # which there was no time to find out
 
 
-def with_verdicts(call: Call, answer: Answer, *, last: bool = True) -> Answer:
+def with_verdicts(call: Request, answer: Answer, *, last: bool = True) -> Answer:
     """The answer with the verdicts of semantics 6, where they were not looked at yet; none without a plan.
 
     They may go a little beyond the time limit, so that an answer at the limit has them too.  With an answer
@@ -46,11 +46,11 @@ def with_verdicts(call: Call, answer: Answer, *, last: bool = True) -> Answer:
     return answer._replace(realised=verdicts)
 
 
-def _omniscient(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
+def _omniscient(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
     return solve(call.prepared, call.options, human_plan=human_plan, deadline=call.deadline, warm=call.warm)
 
 
-def _replanning(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
+def _replanning(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
     return solve_for_human(
         call.prepared,
         call.options,
@@ -61,7 +61,7 @@ def _replanning(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
     )
 
 
-_PLANNERS: Final[dict[str, Callable[[Call, HumanPlan | None], Iterator[Answer]]]] = {
+_PLANNERS: Final[dict[str, Callable[[Request, HumanPlan | None], Iterator[Answer]]]] = {
     "omniscient": _omniscient,
     "observant": _replanning,
     "local": _replanning,
@@ -69,7 +69,7 @@ _PLANNERS: Final[dict[str, Callable[[Call, HumanPlan | None], Iterator[Answer]]]
 """By model of the human."""
 
 
-def _told(call: Call, human_plan: HumanPlan | None) -> Iterator[Answer]:
+def _told(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
     gap: list[Improvement] = []
     for answer in _news(_PLANNERS[call.options.human_model](call, human_plan)):
         now = Improvement(call.deadline.elapsed(), answer.objective, answer.lower_bound)

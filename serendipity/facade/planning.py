@@ -1,15 +1,15 @@
 """Planning calls: options in, results out, incumbents on the way."""
 
 import threading
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 from search import PreparedTask
-from serendipity.facade.call import Call, Given, checked_call, options_from
+from serendipity.facade.call import Given, Request, checked_call, options_from
 from serendipity.facade.logs import record, recorded
-from serendipity.facade.memory import Memory
+from serendipity.facade.memory import SessionMemory
 from serendipity.facade.one_plan import with_verdicts
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import to_result
@@ -20,7 +20,6 @@ from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.errors import UsageError
 from serendipity.model.keywords import PlanOptions, listing
 from serendipity.model.numbers import Number
-from serendipity.model.options import Options
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task, several
@@ -28,6 +27,22 @@ from serendipity.model.task.visibility import Visible
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven, ObservedGiven
+
+
+class AnytimeOptions(PlanOptions, total=False):
+    """The keyword arguments of each of a session's calls of ``plan_anytime``."""
+
+    visible: Visible | None
+    deadline: Deadline | None
+
+
+class SessionOptions(AnytimeOptions, total=False):
+    """The keyword arguments of each of a session's calls of ``plan``: those of :func:`serendipity.plan`."""
+
+    goals: "GoalsGiven | None"
+    observed: "ObservedGiven"
+    beta: Number
+    on_improvement: Callable[[Result], None] | None
 
 
 @listing
@@ -69,19 +84,17 @@ def plan(
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         InputError: ``goals`` or ``observed`` are wrong; it says where.
     """
+    asked: SessionOptions = {
+        "visible": visible,
+        "deadline": deadline,
+        "goals": goals,
+        "observed": observed,
+        "beta": beta,
+        "on_improvement": on_improvement,
+        **options,
+    }
     with HELD.taken(task) as prepared:
-        return planned(
-            prepared,
-            _given(task, human_plan),
-            visible=visible,
-            cancelled=cancelled,
-            deadline=deadline,
-            goals=goals,
-            observed=observed,
-            beta=beta,
-            on_improvement=on_improvement,
-            **options,
-        )
+        return planned(prepared, _given(task, human_plan), cancelled, **asked)
 
 
 def _said(answer: Result) -> str:
@@ -93,39 +106,16 @@ def _said(answer: Result) -> str:
 def planned(
     prepared: PreparedTask,
     given: Given,
-    *,
-    visible: Visible | None = None,
-    cancelled: threading.Event | None = None,
-    deadline: Deadline | None = None,
-    goals: "GoalsGiven | None" = None,
-    observed: "ObservedGiven" = (),
-    beta: Number = 1,
-    on_improvement: Callable[[Result], None] | None = None,
-    memory: Memory | None = None,
-    **options: Unpack[PlanOptions],
+    cancelled: threading.Event | None,
+    memory: SessionMemory | None = None,
+    **asked: Unpack[SessionOptions],
 ) -> Result:
     """:func:`plan` for those who hold a prepared task, and may remember answers."""
-    expect_or_none(FUNCTION, visible=visible, on_improvement=on_improvement)
-    if goals is not None and given is not None:
-        raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
-    chosen = options_from(options)
-    if goals is not None and chosen.mode != "serendipity":
-        raise UsageError(f"goals: are for mode 'serendipity' only, not for '{chosen.mode}'")
-    solver = SOLVERS[chosen.mode](chosen)
-    if goals is not None:
-        # Loaded only here, before time counts: calls with a known goal do not need it.
-        from serendipity.facade.unknown_goals import asked_about, settled
+    on_improvement = asked.pop("on_improvement", None)
+    goals = asked.pop("goals", None), asked.pop("observed", ()), asked.pop("beta", 1)
+    expect_or_none(FUNCTION, on_improvement=on_improvement)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
-        call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
-        if memory is not None:
-            about = None if goals is None else asked_about(call.task, goals, observed, beta)
-            call = _remembered(call, memory, chosen, about)
-        if call.known is not None:
-            answers: Iterator[Answer] = iter((call.known,))
-        else:
-            if goals is not None:
-                call, solver = settled(call, goals, observed, beta)
-            answers = solver(call)
+        call, answers = _begun(prepared, given, cancelled, memory, asked, *goals)
         if on_improvement is None:
             *_, last = answers
             return _with_strategies_recorded(_result(call, last))
@@ -153,30 +143,19 @@ def plan_anytime(
     """
     given = _given(task, human_plan)
     with HELD.taken(task) as prepared:
-        yield from planned_anytime(
-            prepared, given, visible=visible, cancelled=cancelled, deadline=deadline, **options
-        )
+        yield from planned_anytime(prepared, given, cancelled, visible=visible, deadline=deadline, **options)
 
 
 def planned_anytime(
     prepared: PreparedTask,
     given: Given,
-    *,
-    visible: Visible | None = None,
-    cancelled: threading.Event | None = None,
-    deadline: Deadline | None = None,
-    memory: Memory | None = None,
-    **options: Unpack[PlanOptions],
+    cancelled: threading.Event | None,
+    memory: SessionMemory | None = None,
+    **asked: Unpack[AnytimeOptions],
 ) -> Iterator[Result]:
     """:func:`plan_anytime` for those who hold a prepared task, and may remember answers."""
-    expect_or_none(FUNCTION, visible=visible)
-    chosen = options_from(options)
-    solver = SOLVERS[chosen.mode](chosen)
     with no_collection():
-        call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
-        if memory is not None:
-            call = _remembered(call, memory, chosen)
-        answers = solver(call) if call.known is None else iter((call.known,))
+        call, answers = _begun(prepared, given, cancelled, memory, asked)
     said = "left"
     try:
         for result in _results(call, answers):
@@ -186,13 +165,42 @@ def planned_anytime(
         record("INFO", f"plan_anytime: {said}", call.limits.elapsed())
 
 
-def _remembered(call: Call, memory: Memory, options: Options, about: Hashable = None) -> Call:
-    """The call as a question of which something may be known."""
-    plan = None if call.given is None else tuple(call.task.actions[i].name for i in call.given)
-    return replace(call, question=memory.question(options, call.visible, about, plan))
+def _begun(
+    prepared: PreparedTask,
+    given: Given,
+    cancelled: threading.Event | None,
+    memory: SessionMemory | None,
+    asked: Mapping[str, Any],
+    goals: "GoalsGiven | None" = None,
+    observed: "ObservedGiven" = (),
+    beta: Number = 1,
+) -> tuple[Request, Iterator[Answer]]:
+    """A call whose time has started, and its answers as they get better."""
+    options = {**asked}
+    visible, deadline = options.pop("visible", None), options.pop("deadline", None)
+    expect_or_none(FUNCTION, visible=visible)
+    if goals is not None and given is not None:
+        raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
+    chosen = options_from(options)
+    if goals is not None and chosen.mode != "serendipity":
+        raise UsageError(f"goals: are for mode 'serendipity' only, not for '{chosen.mode}'")
+    solver = SOLVERS[chosen.mode](chosen)
+    if goals is not None:
+        # Loaded only here, before time counts: calls with a known goal do not need it.
+        from serendipity.facade.unknown_goals import asked_about, settled
+    call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
+    if memory is not None:
+        about = None if goals is None else asked_about(call.task, goals, observed, beta)
+        plan = None if call.given is None else tuple(call.task.actions[i].name for i in call.given)
+        call = replace(call, question=memory.question(chosen, visible, about, plan))
+    if call.known is not None:
+        return call, iter((call.known,))
+    if goals is not None:
+        call, solver = settled(call, goals, observed, beta)
+    return call, solver(call)
 
 
-def _results(call: Call, answers: Iterator[Answer]) -> Iterator[Result]:
+def _results(call: Request, answers: Iterator[Answer]) -> Iterator[Result]:
     result = None
     while True:
         with no_collection():  # only while it plans: what the caller does with an answer is the caller's
@@ -238,7 +246,7 @@ def _given(task: Task, names: Iterable[str] | None) -> Given:
     return None if names is None else partial(task.plan_from_names, several(names, "human plan"))
 
 
-def _result(call: Call, answer: Answer, *, last: bool = True) -> Result:
+def _result(call: Request, answer: Answer, *, last: bool = True) -> Result:
     question = call.question
     if question is not None:
         limit = call.deadline.reached() or call.limits.reached()

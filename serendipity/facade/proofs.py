@@ -1,48 +1,13 @@
-"""The facade over proof files: written beside a certificate, and checked."""
+"""The facade over proof files, which are checked without a solver."""
 
-from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from time import perf_counter
-from typing import TypeVar
 
-from serendipity.model import (
-    Certificate,
-    Deadline,
-    InputError,
-    ProofCheck,
-    RefutedProgram,
-    Result,
-    Task,
-    UsageError,
-)
+from serendipity.model import Deadline, InputError, ProofCheck, RefutedProgram, Result, Task, UsageError
 from serendipity.model.arguments import PATH, RESULT, TASK, expect, expect_or_none
 from serendipity.model.resources.limits import limits_from
-from serendipity.writing.together import write_together
-from verify.certificate.provable import main_claim
 from verify.proofs import checker
-from verify.proofs.book import ProofWriter, packed
-
-T = TypeVar("T")
-
-
-def write_proof(path: Path, writer: ProofWriter, certificate: Certificate, result: Result) -> bool:
-    """Write down what convinced, packed where the name ends in ``.gz``; whether there is anything to write.
-
-    Args:
-        path: the file.
-        writer: what was collected.
-        certificate: of a result.
-        result: the result.
-
-    Raises:
-        OSError: the file can't be written.
-    """
-    claim = main_claim(result)
-    if certificate.verdict != "proved" or claim is None or not writer.programs:
-        return False
-    data = writer.to_dict(claim, certificate.encoding or "")
-    write_together({path: packed(data, small=path.suffix == ".gz")})
-    return True
 
 
 def check_proof(
@@ -81,13 +46,8 @@ def check_proof(
     if (task is None) != (result is None):
         raise UsageError("check_proof: expected a task and a result, or neither")
     limits = limits_from(time_limit, memory_limit, deadline)
+    polled = partial(limits.each, batch=1)
     programs: tuple[RefutedProgram, ...] = ()
-
-    def polled(items: Iterable[T]) -> Iterator[T]:
-        for item in items:
-            limits.check()
-            yield item
-
     try:
         data = checker.read(file, polled)
         programs = tuple(RefutedProgram(*found) for found in checker.check(data, polled))

@@ -1,4 +1,4 @@
-"""What is left of a plan that was begun, beside an answer from the present state (docs/semantics.md)."""
+"""The rest of a plan that was begun, beside an answer from the present state (docs/semantics.md)."""
 
 from search import WarmStart
 from serendipity.model.answers.answer import Answer

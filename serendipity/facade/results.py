@@ -95,7 +95,7 @@ def _plan(task: Task, discount: Fraction, steps: tuple[Step, ...] | None) -> tup
 
 
 def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, float]:
-    """What each agent contributes: the mean with several goals, both totals of a policy."""
+    """The cost of each agent: the mean with several goals, both totals of a policy."""
     if answer.bounds is not None:
         totals = zip((task.human, *task.robots), answer.bounds.upper or (), strict=False)
         return {task.agents[agent]: figure(cost) for agent, cost in totals}

@@ -2,45 +2,23 @@
 
 import threading
 import weakref
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 from serendipity.facade.call import Given
-from serendipity.facade.memory import Memory
-from serendipity.facade.planning import planned, planned_anytime
+from serendipity.facade.memory import SessionMemory
+from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model.answers.result import Result
 from serendipity.model.arguments import BY_NAME, expect
 from serendipity.model.errors import PlanError, UsageError
-from serendipity.model.keywords import PlanOptions, listing
-from serendipity.model.numbers import Number
-from serendipity.model.resources.deadline import Deadline
+from serendipity.model.keywords import listing
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.task.facts import Facts
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import HumanPlan, Task, canonical_name, several
-from serendipity.model.task.visibility import Visible
-
-if TYPE_CHECKING:
-    from serendipity.recognition import GoalsGiven, ObservedGiven
-
-
-class AnytimeOptions(PlanOptions, total=False):
-    """What each of a session's calls of ``plan_anytime`` may say."""
-
-    visible: Visible | None
-    deadline: Deadline | None
-
-
-class SessionOptions(AnytimeOptions, total=False):
-    """What each of a session's calls of ``plan`` may say: the arguments of :func:`serendipity.plan`."""
-
-    goals: "GoalsGiven | None"
-    observed: "ObservedGiven"
-    beta: Number
-    on_improvement: Callable[[Result], None] | None
 
 
 class Session:
@@ -71,7 +49,7 @@ class Session:
         self._is_outdated = False
         """Whether it is known not to be what a human would do who looks up."""
         self._cancelled = threading.Event()
-        self._memory = Memory()
+        self._memory = SessionMemory()
 
     def __repr__(self) -> str:
         return f"Session({self.task!r:.90})"
@@ -83,14 +61,14 @@ class Session:
 
     @property
     def human_plan(self) -> tuple[str, ...] | None:
-        """What the human is going to do; None until it is given or predicted."""
+        """The plan of the human; None until it is given or predicted."""
         if self._human_plan is None:
             return self._given
         return tuple(self.task.actions[i].name for i in self._human_plan)
 
     @property
     def rest(self) -> tuple[PlanStep, ...] | None:
-        """What is left of the last answer's plan, its epochs counted from now; None once the world deviates.
+        """The rest of the last answer's plan, its epochs counted from now; None once the world deviates.
 
         It can be finished, whatever the question from the present state would be answered with.
         """
@@ -103,7 +81,7 @@ class Session:
         self._cancelled.clear()
         chosen: dict[str, Any] = {**self._options, **options}
         known = self._known_plan(chosen)
-        answer = planned(self._prepared, known, cancelled=self._cancelled, memory=self._memory, **chosen)
+        answer = planned(self._prepared, known, self._cancelled, self._memory, **chosen)
         self._learn(answer)
         return answer
 
@@ -112,15 +90,13 @@ class Session:
         """Answers as they get better; :meth:`cancel` ends them with the incumbent."""
         self._cancelled.clear()
         chosen: dict[str, Any] = {**self._options, **options}
-        known, memory = self._known_plan(chosen), self._memory
-        for answer in planned_anytime(
-            self._prepared, known, cancelled=self._cancelled, memory=memory, **chosen
-        ):
+        known = self._known_plan(chosen)
+        for answer in planned_anytime(self._prepared, known, self._cancelled, self._memory, **chosen):
             self._learn(answer)
             yield answer
 
     def _remembered(self) -> dict[str, Any]:
-        """What another session that stands where this one does has to be reminded of, as plain values."""
+        """The knowledge that another session in the same state needs, as plain values."""
         return {"predicted": self._predicted, "answers": self._memory.written(self.task)}
 
     def _remind(self, remembered: Mapping[str, Any]) -> None:
@@ -138,7 +114,7 @@ class Session:
         return None if unknown else self._replayed
 
     def _replayed(self) -> HumanPlan:
-        """What the human is going to do.
+        """The plan of the human, replayed.
 
         Raises:
             PlanError: the names that were given are no plan.

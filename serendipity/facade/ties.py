@@ -7,7 +7,7 @@ from typing import Final
 
 from search import FirstAnswer, PlanGraph, first_answer, least_over_ties, optimal_human_plans
 from serendipity.facade import one_plan
-from serendipity.facade.call import Call
+from serendipity.facade.call import Request
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.resources.deadline import Deadline
@@ -17,10 +17,10 @@ _A_FEW: Final = 4
 
 
 _SHARE: Final = 0.5
-"""What of the time that is left all optimal plans may take together, where some plan is at hand."""
+"""The share of the time that is left for all optimal plans together, where some plan is at hand."""
 
 
-def answers(call: Call) -> Iterator[Answer]:
+def answers(call: Request) -> Iterator[Answer]:
     """The answer over all optimal plans of the human's; with ``ties="fixed"`` those to one of them."""
     if call.options.ties == "fixed":
         yield from one_plan.answers(call)
@@ -28,7 +28,7 @@ def answers(call: Call) -> Iterator[Answer]:
         yield from _over_ties(call)
 
 
-def _over_ties(call: Call) -> Iterator[Answer]:
+def _over_ties(call: Request) -> Iterator[Answer]:
     """Doing nothing beside a plan that is at hand; then the task solved for each optimal ``pi_H``.
 
     Raises:
@@ -52,7 +52,7 @@ def _over_ties(call: Call) -> Iterator[Answer]:
         yield _beside_all(call, known, graph)
 
 
-def _all_plans(call: Call, deadline: Deadline) -> tuple[PlanGraph | None, str | None]:
+def _all_plans(call: Request, deadline: Deadline) -> tuple[PlanGraph | None, str | None]:
     """The human's optimal plans, None where there are none, or why they are not known.
 
     What the search held is free on return.
@@ -63,7 +63,7 @@ def _all_plans(call: Call, deadline: Deadline) -> tuple[PlanGraph | None, str | 
         return None, limit_reason(limit)
 
 
-def _beside_one(call: Call, known: FirstAnswer, limit: str) -> Answer:
+def _beside_one(call: Request, known: FirstAnswer, limit: str) -> Answer:
     """The answer beside one optimal plan, where not all are known and there is time; else doing nothing.
 
     The mean over all plans is no more than doing nothing, but may be more than any one of the answers.
@@ -75,7 +75,7 @@ def _beside_one(call: Call, known: FirstAnswer, limit: str) -> Answer:
     return known.last(limit)
 
 
-def _beside_all(call: Call, known: FirstAnswer, graph: PlanGraph) -> Answer:
+def _beside_all(call: Request, known: FirstAnswer, graph: PlanGraph) -> Answer:
     """The task solved once for each optimal ``pi_H``, as long as that makes a difference."""
     options = call.options
     count = graph.count()
@@ -104,7 +104,7 @@ def _beside_all(call: Call, known: FirstAnswer, graph: PlanGraph) -> Answer:
     return answer._replace(optimal_plans=count)
 
 
-def _by_itself(call: Call, answer: Answer) -> Answer:
+def _by_itself(call: Request, answer: Answer) -> Answer:
     """An answer over ties that is made of itself, since those to other plans are not known."""
     if answer.gap is None:
         now = Improvement(call.deadline.elapsed(), answer.objective, answer.lower_bound)

@@ -12,7 +12,7 @@ from typing import Final
 
 from search.modes.goals import Candidate, explanations, solve_expected
 from serendipity.facade import ties
-from serendipity.facade.call import Call, Solver
+from serendipity.facade.call import Request, Solver
 from serendipity.model import Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.answers.recognition import Recognition
@@ -34,8 +34,10 @@ _FIXED: Final[dict[str, object]] = {"ties": "fixed", "human_model": "omniscient"
 """Options that have one value only where there are several goals."""
 
 
-def settled(call: Call, goals: GoalsGiven, observed: ObservedGiven, beta: Number) -> tuple[Call, Solver]:
-    """What is left to answer once the posterior is known, and what answers it.
+def settled(
+    call: Request, goals: GoalsGiven, observed: ObservedGiven, beta: Number
+) -> tuple[Request, Solver]:
+    """The call that is left once the posterior is known, and its solver.
 
     With several goals that is the robots' plan of least expected cost; with one, section 3 for
     that goal.  Goals of posterior 0, or that the human can't reach alone, are not considered.
@@ -65,7 +67,7 @@ def settled(call: Call, goals: GoalsGiven, observed: ObservedGiven, beta: Number
 
 
 def asked_about(task: Task, goals: GoalsGiven, observed: ObservedGiven, beta: Number) -> Hashable:
-    """What tells one question from another.
+    """The identity of a question about goals.
 
     Raises:
         InputError: a file or an entry of it is wrong.
@@ -114,7 +116,7 @@ def _refuse(task: Task, options: Options) -> None:
         raise UsageError("goals: robots that have goals of their own can be asked about one goal only")
 
 
-def _about(call: Call, candidate: Candidate, recognition: Recognition) -> Call:
+def _about(call: Request, candidate: Candidate, recognition: Recognition) -> Request:
     """The call of section 3 for one goal, with the plan that explains the observations."""
     prepared = call.prepared.with_goal(candidate.goal)
     if not (recognition.observed and recognition.explained):
@@ -124,7 +126,7 @@ def _about(call: Call, candidate: Candidate, recognition: Recognition) -> Call:
     return replace(call, prepared=prepared, given=given, options=call.options.but(ties="fixed"))
 
 
-def _certain(candidate: Candidate, recognition: Recognition, call: Call) -> Iterator[Answer]:
+def _certain(candidate: Candidate, recognition: Recognition, call: Request) -> Iterator[Answer]:
     """One goal is left."""
     for answer in ties.answers(call):
         plan = answer.human_plan
@@ -132,7 +134,7 @@ def _certain(candidate: Candidate, recognition: Recognition, call: Call) -> Iter
         yield answer._replace(recognition=recognition, goals=(served,))
 
 
-def _expected(considered: Sequence[Candidate], recognition: Recognition, call: Call) -> Iterator[Answer]:
+def _expected(considered: Sequence[Candidate], recognition: Recognition, call: Request) -> Iterator[Answer]:
     """Several goals are left."""
     answer = solve_expected(call.prepared, call.options, considered, call.deadline)
     yield answer._replace(recognition=recognition)

@@ -1,4 +1,4 @@
-"""What the files show: names that are declared and not used, and actions that can never be applied."""
+"""Findings that take files: names that are declared and not used, and actions that can never be applied."""
 
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -6,18 +6,8 @@ from serendipity.lint.report import Finding
 from serendipity.lint.requirements import requirement_findings
 from serendipity.lint.task_rules import listed
 from serendipity.model import Task
-from serendipity.pddl.parsing.lifted import (
-    And,
-    Expression,
-    Formula,
-    FunctionValue,
-    Literal,
-    Operation,
-    Or,
-    Quantified,
-    Schema,
-    Unit,
-)
+from serendipity.pddl.grounding.quantifiers import literals
+from serendipity.pddl.parsing.lifted import Expression, FunctionValue, Literal, Operation, Schema, Unit
 
 
 def file_findings(task: Task, units: Sequence[Unit]) -> Iterator[Finding]:
@@ -90,18 +80,6 @@ def _read(units: Sequence[Unit], schemas: Iterable[Schema]) -> Iterator[Literal]
         for effect in schema.effects:
             if effect.condition is not None:
                 yield from literals(effect.condition)
-
-
-def literals(formula: Formula) -> Iterator[Literal]:
-    """The literals of a formula."""
-    match formula:
-        case Literal():
-            yield formula
-        case And() | Or():
-            for part in formula.parts:
-                yield from literals(part)
-        case Quantified():
-            yield from literals(formula.body)
 
 
 def _names(expression: Expression) -> Iterator[str]:

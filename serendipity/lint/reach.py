@@ -1,4 +1,4 @@
-"""What can be reached if nothing that was reached is ever lost, and what matters for a goal."""
+"""Delete-relaxed reachability of literals, and relevance of actions for a goal."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence

@@ -1,10 +1,11 @@
-"""What is found about a task, and its JSON form (schema ``serendipity.task-report/1``)."""
+"""Findings about a task, and their JSON form (schema ``serendipity.task-report/1``)."""
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Final
 
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.answers.fields import written
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.task-report/1"
 LEVELS: Final = ("error", "warning", "note")
@@ -27,8 +28,8 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class TaskReport(Told):
-    """How large a task is, and what is found about it.
+class TaskReport(Output):
+    """The size of a task, and the findings about it.
 
     Attributes:
         task: its name.
@@ -55,15 +56,10 @@ class TaskReport(Told):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
-        values = asdict(self)
-        return {"schema": SCHEMA, **values, "findings": [asdict(finding) for finding in self.findings]}
-
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
+        return {"schema": SCHEMA, **written(self)}
 
     def told(self) -> Iterator[Line | Grid]:
-        """What ``check-task`` prints."""
+        """The lines that ``check-task`` prints."""
         yield Line(f"{self.task}: human {self.human}; {self.facts} facts in {self.variables} variables")
         yield Line()
         counts = [(name, str(count)) for name, count in self.actions.items()]
@@ -78,7 +74,6 @@ class TaskReport(Told):
             yield Line("nothing wrong was found", "green")
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield repr(self.task)
         for level in LEVELS:
             yield f"{sum(finding.level == level for finding in self.findings)} {level}s"

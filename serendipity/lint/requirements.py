@@ -1,4 +1,4 @@
-"""What domains say they require, beside what they use."""
+"""Requirements that domains declare, beside those that they use."""
 
 import re
 from collections.abc import Iterator, Sequence

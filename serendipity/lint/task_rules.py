@@ -1,4 +1,4 @@
-"""What a grounded task shows: goals, and agents that have nothing to do with them."""
+"""Findings about a grounded task: goals, and agents that have nothing to do with them."""
 
 from collections.abc import Iterator, Sequence
 

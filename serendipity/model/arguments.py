@@ -1,4 +1,4 @@
-"""What callers hand over, looked at before anything is made of it: one sentence for another type."""
+"""Type checks of arguments of public calls: one sentence for a value of another type."""
 
 from collections.abc import Callable, Iterable, Mapping
 from os import PathLike, fspath
@@ -11,7 +11,7 @@ from serendipity.model.task.task import Task
 
 
 class Kind(NamedTuple):
-    """What an argument may be.
+    """A kind of arguments.
 
     Attributes:
         words: for people.

@@ -41,7 +41,7 @@ class LimitReachedError(SerendipityError):
 
 
 LIMITS: Final = (LimitReachedError, MemoryError)
-"""What to catch where an incumbent can be answered; :func:`limit_reason` says which it was."""
+"""The exceptions to catch where an incumbent can be answered; :func:`limit_reason` says which it was."""
 
 
 _WORDS: Final = {"time-limit": "the time limit came first", "memory-limit": "memory is used up"}

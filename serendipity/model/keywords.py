@@ -26,7 +26,7 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
 
 
 class InterruptionOptions(TypedDict, total=False):
-    """What of the options makes a difference to windows (semantics 3.2); see :class:`Options`."""
+    """The options that make a difference to windows (semantics 3.2); see :class:`Options`."""
 
     discount: Number
     horizon: int | float | Literal["inf"] | None

@@ -182,3 +182,8 @@ def total(values: Iterable[Fraction]) -> Fraction:
 def plain(value: Fraction | float | None) -> str:
     """A cost as people write it: ``13``, ``12.6``; ``-`` where there is none."""
     return "-" if value is None else f"{float(value):.10g}"
+
+
+def plain_seconds(seconds: float) -> str:
+    """A time as people write it: ``2.05 s``, ``3.1 ms``."""
+    return f"{seconds:.2f} s" if seconds >= 1 else f"{seconds * 1000:.1f} ms"

@@ -16,7 +16,7 @@ from serendipity.model.keywords import (
     Suffix,
     Ties,
 )
-from serendipity.model.numbers import as_written, exact, unrounded
+from serendipity.model.numbers import exact, unrounded
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -35,11 +35,8 @@ MAX_TIES: Final = 1_000_000_000
 _FLAGS: Final = {"keep_prefix": (True, False), "no_block": (True, False, None)}
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
-# How options are written in JSON.
-_LATER: Final = ("memory_limit", "strategies")  # results of the first versions do without
-_EXACT: Final = ("discount", "window_weight", "communication_weight", "max_cost")
-_OPTIONAL: Final = ("horizon", "max_window", "max_cost", "strategies", *_LIMITS)
-_WORDS: Final = {"horizon": INFINITE, "max_cost": "human"}
+_LATER: Final = ("memory_limit", "strategies")
+"""Options that results of the first versions do without."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -175,7 +172,7 @@ class Options:
                 raise UsageError(f"options: unknown option {key!r:.50}")
         options = cls(**data)
         for name, value in data.items():
-            if not _written(name, value):
+            if not _comes_back(value, getattr(options, name)):
                 raise UsageError(f"options: {name}: got {value!r:.50}, which is of another type")
         missing = next((name for name in known if name not in data and name not in _LATER), None)
         if missing is not None:
@@ -192,27 +189,12 @@ def _plain(value: object) -> object:
     return unrounded(value) if isinstance(value, Fraction) else value
 
 
-def _written(name: str, value: object) -> bool:
-    """Whether a value has a type that :meth:`Options.to_dict` writes for an option."""
-    if name in ("keep_prefix", "no_block"):
-        return isinstance(value, bool) or (value is None and name == "no_block")
-    if isinstance(value, str):
-        return (
-            name in CHOICES
-            or name == "strategies"
-            or value == _WORDS.get(name)
-            or (name in _EXACT and _needs_text(value))
-        )
-    if value is None:
-        return name in _OPTIONAL
-    if isinstance(value, bool) or not isinstance(value, int | float) or name in (*CHOICES, "strategies"):
-        return False
-    return isinstance(value, int) or name in (*_EXACT, *_LIMITS)
-
-
-def _needs_text(value: str) -> bool:
-    """Whether no float is what an exact text says, so that it stands in JSON as it is."""
-    return "/" in value or isinstance(unrounded(as_written(value)), str)
+def _comes_back(value: object, option: object) -> bool:
+    """Whether an option is written in the form in which it was read from JSON."""
+    if isinstance(option, Fraction):
+        is_text = isinstance(value, str)
+        return not is_text or "/" in str(value) or isinstance(unrounded(option), str)
+    return value is option or (value == option and not isinstance(value, bool))
 
 
 def _not_negative(value: Fraction, name: str) -> Fraction:

@@ -2,7 +2,7 @@
 
 
 def schema_fault(found: object, expected: str) -> str | None:
-    """What is wrong with the schema of a file, in one line; None where nothing is.
+    """The fault in the schema of a file, in one line; None without one.
 
     Args:
         found: what the file says.

@@ -9,10 +9,10 @@ from typing import Any, Final, get_args, get_type_hints
 from serendipity.model.errors import UsageError
 
 Cell = str | int | float | bool | None
-"""What stands in a table; None where there is nothing."""
+"""A cell of a table; None where it is empty."""
 
 LIBRARIES: Final = ("pandas", "polars")
-"""What makes data frames, the one that is asked first in front."""
+"""The libraries of data frames, the one that is asked first in front."""
 
 _PANDAS: Final = {str: "string", int: "Int64", float: "Float64", bool: "boolean"}
 """Types of columns in which a cell may be empty."""
@@ -60,7 +60,7 @@ def _kind(hint: Any) -> type | None:
 
 
 class Tabular(ABC):
-    """What can be told as rows of plain values."""
+    """An object that is a table, too."""
 
     __slots__ = ()
 

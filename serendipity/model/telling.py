@@ -1,4 +1,4 @@
-"""What answers look like to people: in one line, as text, and as a table in a notebook."""
+"""Answers for people: in one line, as text, and as a table in a notebook."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
@@ -94,17 +94,17 @@ def _html(part: Line | Grid) -> str:
 
 
 class Told(ABC):
-    """What says in one line what it is, and prints as the command line does."""
+    """An object whose ``repr`` is one line, and which prints as the command line does."""
 
     __slots__ = ()
 
     @abstractmethod
     def told(self) -> Iterator[Line | Grid]:
-        """What the command line prints."""
+        """The lines that the command line prints."""
 
     @abstractmethod
     def _in_short(self) -> Iterable[str]:
-        """What stands between the brackets of its ``repr``."""
+        """The words between the brackets of its ``repr``."""
 
     def __repr__(self) -> str:
         return message(f"{type(self).__name__}({', '.join(self._in_short())})", _LONGEST)
@@ -116,8 +116,22 @@ class Told(ABC):
         return as_html(self.told())
 
 
+class Output(Told):
+    """The answer of a command: told to people, or written as JSON."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+
+    def to_json(self) -> str:
+        """The JSON text, as the command line writes it."""
+        return json_of(self.to_dict())
+
+
 def team(human: str, robots: Sequence[str]) -> str:
-    """Who is who."""
+    """The human and the robots in words."""
     if not robots:
         return f"human {human}, no robot"
     return f"human {human}, robot{'s' if len(robots) > 1 else ''} {', '.join(robots)}"

@@ -1,8 +1,8 @@
 """PDDL in, tasks out: the three layouts that name a task.
 
 Text goes through nested words (:mod:`tree`) and sections (:mod:`sections`, :mod:`syntax`) to
-checked lifted values (:mod:`resolve`, :mod:`scope`, :mod:`initial`, :mod:`lifted`), to conjunctive
-operators (:mod:`normal`), to ground records (:mod:`join`, :mod:`instantiate`), and without what
+checked lifted values (:mod:`resolve`, :mod:`scope`, :mod:`initial`, :mod:`lifted`), to lifted
+actions in normal form (:mod:`normal`), to ground records (:mod:`join`, :mod:`instantiate`), and without what
 can't happen (:mod:`prune`) to a task (:mod:`assemble`), all of it under a deadline (:mod:`work`).
 """
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from serendipity.model import InputError
 from serendipity.pddl.grounding.costs import Costs
-from serendipity.pddl.grounding.product import Product, Table
+from serendipity.pddl.grounding.product import Bindings, Product
 from serendipity.pddl.parsing.lifted import (
     And,
     Effect,
@@ -83,7 +83,7 @@ def _priced(schema: Schema, unit: Unit, shares: Mapping[str, Fraction]) -> _Pric
     agent, *others = schema.parameters
     used = {term for value in schema.increases for term in _terms(value)}
     terms = [agent, *(parameter for parameter in others if parameter.name in used)]
-    product = Product([Table((t.name,), [(name,) for name in unit.objects_of(t.type)]) for t in terms])
+    product = Product([Bindings((t.name,), [(name,) for name in unit.objects_of(t.type)]) for t in terms])
     names = tuple(term.name for term in terms)
     costs = {}
     for values, cost in zip(product, Costs(unit.problem.values).of(schema, unit, product), strict=True):

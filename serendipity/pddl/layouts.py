@@ -218,7 +218,7 @@ def _can_be_agents(unit: Unit) -> set[str]:
 
 
 class _Outsiders:
-    """Who takes part in actions without ``:agent`` in which no agent of the call does, as far as is known."""
+    """Participants of actions without ``:agent`` in which no agent of the call takes part."""
 
     def __init__(self, unit: Unit, agents: Sequence[str]) -> None:
         kinds = {unit.problem.objects[agent] for agent in agents}
@@ -226,7 +226,7 @@ class _Outsiders:
         self._alike = {n for n, own in unit.problem.objects.items() if any(fits(own, k) for k in kinds)}
 
     def reason(self, key: Key) -> str:
-        """Why an action is left out."""
+        """The reason why an action is left out."""
         likely = [word for word in key[1:] if word in self._alike]
         if likely:
             return f"{quoted(likely[0])} is no agent of this call"

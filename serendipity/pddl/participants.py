@@ -1,4 +1,4 @@
-"""Who takes part in ground actions, in each layout."""
+"""Participants of ground actions, in each layout."""
 
 from collections.abc import Iterable, Sequence
 from functools import cache

@@ -87,7 +87,7 @@ def missing_facts(units: Sequence[Unit], work: Work) -> list[str]:
     found: dict[tuple[str, str, str], list[Key]] = {}
     for a, b in combinations([unit for unit in units if unit.problem.init], 2):
         for holder, other in ((a, b), (b, a)):
-            for key in work.polled(holder.problem.init):
+            for key in work.deadline.each(holder.problem.init):
                 if key[0] in changed and key not in other.problem.init and _could_hold(other, key):
                     place = (key[0], holder.problem_file, other.problem_file)
                     found.setdefault(place, []).append(key)

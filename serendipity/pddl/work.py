@@ -1,7 +1,6 @@
-"""What all stages of loading a task share: its limits, and what is being done, for people."""
+"""Limits and progress of reading a task, which all its stages share."""
 
-from collections.abc import Callable, Iterable, Iterator
-from itertools import islice
+from collections.abc import Callable
 from typing import Final, TypeVar
 
 from serendipity.model import Deadline, LimitReachedError
@@ -12,9 +11,6 @@ T = TypeVar("T")
 
 OnProgress = Callable[[str], None]
 """Is told what is being done whenever that changes, and every few thousand ground actions."""
-
-_SLICE: Final = 2_048
-"""Items between two looks at the deadline: a few milliseconds of them."""
 
 _LONG: Final = 10**15
 """Numbers from here on are told by their size only."""
@@ -44,19 +40,6 @@ class Work:
             self._on_progress(doing)
         self.deadline.check()
 
-    def polled(self, items: Iterable[T]) -> Iterator[T]:
-        """The items, while the deadline lasts."""
-        rest = iter(items)
-        while part := list(islice(rest, _SLICE)):
-            yield from part
-            self.deadline.check()
-
-    def each(self, parts: Iterable[T]) -> Iterator[T]:
-        """The items, each of which takes a few milliseconds itself, while the deadline lasts."""
-        for part in parts:
-            self.deadline.check()
-            yield part
-
     def require(self, size: float, what: str) -> None:
         """Return if ``size`` bytes more fit into memory; ``what`` says whose they are.
 
@@ -72,7 +55,7 @@ class Work:
 def within_limits(
     load: Callable[[Work], T], deadline: Deadline | None = None, on_progress: OnProgress | None = None
 ) -> T:
-    """What ``load`` makes.
+    """The value that ``load`` makes.
 
     Args:
         load: does the work, and polls what it is given.

@@ -81,7 +81,7 @@ def composite_files(task: Task, discount: Fraction) -> ClassicalFiles:
 
 
 def composite_names(task: Task) -> list[str]:
-    """What :func:`composite_files` calls the actions of a task, in their order."""
+    """The names of a task's actions in :func:`composite_files`, in their order."""
     used: set[str] = set()
     return [_unique(_legal(action.name), used) for action in task.actions]
 

@@ -10,7 +10,7 @@ from serendipity.model import Condition, InputError, Task, UsageError, exact
 from serendipity.model.arguments import LIST, Kind, expect
 from serendipity.model.task.names import no_fact
 from serendipity.model.task.task import canonical_name, several
-from serendipity.pddl.parsing.lists import Entry
+from serendipity.pddl.parsing.lists import FileItem
 from serendipity.recognition.files import read_goals, read_observed
 
 GoalsGiven = str | PathLike[str] | Iterable[Mapping[str, Any]]
@@ -46,11 +46,11 @@ def candidate_goals(task: Task, given: GoalsGiven) -> tuple[CandidateGoal, ...]:
     """
     if isinstance(given, str | PathLike):
         file: object = given
-        entries: Sequence[Entry] = read_goals(given)
+        entries: Sequence[FileItem] = read_goals(given)
     else:
         file = None
         expect(Kind("a file, or a list of goals", LIST.fits), goals=given)
-        entries = [Entry(item, None) for item in given]
+        entries = [FileItem(item, None) for item in given]
     if not entries:
         raise InputError("goals: expected at least one goal, got none", file)
     ids = {fact: i for i, fact in enumerate(task.facts)}
@@ -93,7 +93,7 @@ def observed_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _candidate(entry: Entry, number: int, ids: Mapping[str, int], file: object) -> CandidateGoal:
+def _candidate(entry: FileItem, number: int, ids: Mapping[str, int], file: object) -> CandidateGoal:
     def wrong(message: str) -> InputError:
         return InputError(f"goal {number}: {message}", file, entry.line)
 

@@ -11,12 +11,12 @@ from typing import Any
 from serendipity.model import InputError
 from serendipity.model.task.task import canonical_name
 from serendipity.pddl.parsing.files import read_text
-from serendipity.pddl.parsing.lists import Entry, actions_in, json_items, lines_of, starts_json
+from serendipity.pddl.parsing.lists import FileItem, actions_in, json_items, lines_of, starts_json
 
 Path = str | PathLike[str]
 
 
-def read_goals(path: Path) -> list[Entry]:
+def read_goals(path: Path) -> list[FileItem]:
     """The goals of a file, in the form of JSON objects.
 
     Raises:
@@ -25,7 +25,7 @@ def read_goals(path: Path) -> list[Entry]:
     text = read_text(path)
     if starts_json(text):
         return json_items(text, path)
-    return [Entry(_goal_line(bare, path, number), number) for number, bare in lines_of(text)]
+    return [FileItem(_goal_line(bare, path, number), number) for number, bare in lines_of(text)]
 
 
 def read_observed(path: Path) -> list[tuple[str, int | None]]:

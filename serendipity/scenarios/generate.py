@@ -104,22 +104,6 @@ def make_usar(
     return random_usar(building, name=name, medkits=medkits, robots=robots, seed=seed)
 
 
-def _write_files(files: dict[str, str], folder: Path) -> tuple[Path, ...]:
-    """Write text files into a folder, which is made where it is missing.
-
-    Returns:
-        The paths, in the order of ``files``.
-
-    Raises:
-        UsageError: the system refuses, with its reason.
-    """
-    try:
-        write_together({folder / path: text.encode() for path, text in files.items()})
-    except OSError as error:
-        raise UsageError(f"{error.filename or folder}: {error.strerror}") from None
-    return tuple(folder / path for path in files)
-
-
 def generate_usar(
     folder: str | Path,
     *,
@@ -162,4 +146,9 @@ def generate_usar(
         corridors=corridors,
         preset=preset,
     )
-    return _write_files(pddl_files(task, layout), Path(folder))
+    files = {Path(folder, path): text.encode() for path, text in pddl_files(task, layout).items()}
+    try:
+        write_together(files)
+    except OSError as error:
+        raise UsageError(f"{error.filename or folder}: {error.strerror}") from None
+    return tuple(files)

@@ -1,4 +1,4 @@
-"""What planners are tested with: ours, and yours.
+"""The kit that planners are tested with: ours, and yours.
 
 Everything public is importable from here and loads when it is first used; what draws at random with
 hypothesis needs the extra ``testing``::
@@ -38,41 +38,20 @@ if TYPE_CHECKING:
     )
 
 _HOMES = {
-    "Answer": "judges",
-    "Call": "call",
-    "LAWS": "laws",
-    "Optimum": "oracle",
-    "PlanCall": "generator",
-    "PlannerError": "reporting",
-    "WORKED": "cases",
-    "Worked": "cases",
-    "best": "oracle",
-    "by_command": "judges",
-    "by_function": "judges",
-    "by_name": "judges",
-    "calls": "strategies",
-    "check_planner": "reporting",
-    "corridor_tasks": "strategies",
-    "errand_tasks": "strategies",
-    "family_task": "generator",
-    "family_tasks": "strategies",
-    "human_plans": "oracle",
-    "oddly_priced_tasks": "strategies",
-    "optimal_human_plan": "oracle",
-    "options": "strategies",
-    "plans": "strategies",
-    "random_call": "generator",
-    "random_task": "generator",
-    "result": "by_hand",
-    "results": "strategies",
-    "shrink": "shrinking",
-    "strips_tasks": "strategies",
-    "task": "builders",
-    "tasks": "strategies",
-    "usar": "builders",
-    "usar_tasks": "strategies",
+    "builders": "task usar",
+    "by_hand": "result",
+    "call": "Call",
+    "cases": "WORKED Worked",
+    "generator": "PlanCall family_task random_call random_task",
+    "judges": "Answer by_command by_function by_name",
+    "laws": "LAWS",
+    "oracle": "Optimum best human_plans optimal_human_plan",
+    "reporting": "PlannerError check_planner",
+    "shrinking": "shrink",
+    "strategies": "calls corridor_tasks errand_tasks family_tasks oddly_priced_tasks options plans results "
+    "strips_tasks tasks usar_tasks",
 }
-"""The modules in which the public names live."""
+"""The modules of the public names."""
 
 __all__ = [
     "LAWS",
@@ -112,14 +91,15 @@ __all__ = [
 
 
 def __getattr__(name: str) -> "Any":
-    if name not in _HOMES:
+    home = next((home for home, names in _HOMES.items() if name in names.split()), None)
+    if home is None:
         raise AttributeError(f"module 'serendipity.testing' has no attribute {name!r}")
     from importlib import import_module
 
-    value = getattr(import_module(f"serendipity.testing.{_HOMES[name]}"), name)
+    value = getattr(import_module(f"serendipity.testing.{home}"), name)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOMES})
+    return sorted({*globals(), *__all__})

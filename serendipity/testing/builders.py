@@ -11,6 +11,84 @@ from itertools import pairwise, permutations
 from serendipity.model import Condition, GroundAction, Task
 
 
+class Builder:
+    """A task put together action by action, with facts by name, numbered as they come up.
+
+    Args:
+        agents: their names; an agent's id is its index.
+        name: of the task.
+        separator: between literals; None for blanks.
+        alphabetical: whether facts are numbered in the order of their names instead.
+    """
+
+    def __init__(
+        self,
+        agents: tuple[str, ...],
+        name: str = "random",
+        separator: str | None = None,
+        *,
+        alphabetical: bool = False,
+    ) -> None:
+        self.agents = agents
+        self._name = name
+        self._separator = separator
+        self._alphabetical = alphabetical
+        self._facts: dict[str, None] = {}
+        self._actions: list[tuple[str, tuple[int, ...], _Words, _Words, Fraction]] = []
+
+    def action(self, name: str, agents: tuple[int, ...], pre: str, effects: str, cost: str) -> None:
+        """Add an action whose name ends in its agents'."""
+        self.named(" ".join((name, *(self.agents[i] for i in agents))), agents, pre, effects, cost)
+
+    def named(self, name: str, agents: tuple[int, ...], pre: str, effects: str, cost: str = "1") -> None:
+        """Add an action of that very name."""
+        self._actions.append((name, agents, self._words(pre), self._words(effects), Fraction(cost)))
+
+    def task(self, init: str, goal: str, robot_goal: str = "", human: int = 0) -> Task:
+        """All actions so far as a task.
+
+        Args:
+            init: names of the facts that are true.
+            goal: literals of ``G_H``.
+            robot_goal: literals of ``G_R``.
+            human: id of the human.
+        """
+        wanted, theirs = self._words(goal), self._words(robot_goal)
+        start, _ = self._words(init)
+        facts = sorted(self._facts) if self._alphabetical else [*self._facts]
+        ids = {fact: i for i, fact in enumerate(facts)}
+
+        def numbers(words: list[str], but: tuple[int, ...] = ()) -> tuple[int, ...]:
+            return tuple(sorted({ids[word] for word in words}.difference(but)))
+
+        ground = []
+        for name, who, pre, effects, cost in self._actions:
+            add = numbers(effects[0])
+            ground.append(
+                GroundAction(name, who, numbers(pre[0]), numbers(pre[1]), add, numbers(effects[1], add), cost)
+            )
+        return Task(
+            name=self._name,
+            agents=self.agents,
+            human=human,
+            facts=tuple(facts),
+            init=frozenset(numbers(start)),
+            goal=Condition(*map(numbers, wanted)),
+            robot_goal=Condition(*map(numbers, theirs)),
+            actions=tuple(sorted(ground, key=lambda action: action.key)),
+        )
+
+    def _words(self, text: str) -> "_Words":
+        """The facts that literals want to be true, and to be false."""
+        words = [word.strip() for word in text.split(self._separator) if word.strip()]
+        found = [w for w in words if w[0] != "!"], [w[1:] for w in words if w[0] == "!"]
+        self._facts.update(dict.fromkeys((*found[0], *found[1])))
+        return found
+
+
+_Words = tuple[list[str], list[str]]
+
+
 def task(
     *,
     agents: str = "h r",
@@ -35,27 +113,12 @@ def task(
 
     Facts are all words that occur, in alphabetical order.
     """
-    roster = tuple(agents.split())
-    specs = [(key, *_parse_action(text)) for key, texts in actions.items() for text in texts.split("|")]
-    words: set[str] = set(init.split()) | _atoms(goal) | _atoms(robot_goal)
-    for _, pre, effects, _ in specs:
-        words |= _atoms(pre) | _atoms(effects)
-    facts = tuple(sorted(words))
-    ids = {fact: i for i, fact in enumerate(facts)}
-    ground = []
-    for key, pre, effects, cost in specs:
-        participants = tuple(i for i, agent in enumerate(roster) if agent in key.split())
-        ground.append(_action(key, participants, _condition(pre, ids), _condition(effects, ids), cost))
-    return Task(
-        name=name,
-        agents=roster,
-        human=roster.index(human),
-        facts=facts,
-        init=frozenset(ids[word] for word in init.split()),
-        goal=_condition(goal, ids),
-        robot_goal=_condition(robot_goal, ids),
-        actions=tuple(sorted(ground, key=lambda action: action.key)),
-    )
+    builder = Builder(tuple(agents.split()), name, alphabetical=True)
+    for key, texts in actions.items():
+        who = tuple(i for i, agent in enumerate(builder.agents) if agent in key.split())
+        for text in texts.split("|"):
+            builder.named(key, who, *_parsed(text))
+    return builder.task(init, goal, robot_goal, builder.agents.index(human))
 
 
 def usar(
@@ -139,30 +202,10 @@ def _atom_task(
     goal: str,
     actions: Mapping[str, tuple[tuple[str, ...], str, str]],
 ) -> Task:
-    words = {goal, *init}
-    for _, pre, effects in actions.values():
-        words |= {text.strip().removeprefix("!") for text in f"{pre}, {effects}".split(",")}
-    facts = tuple(sorted(words))
-    ids = {fact: i for i, fact in enumerate(facts)}
-    ground = [
-        _action(
-            key,
-            tuple(sorted(agents.index(agent) for agent in who)),
-            _condition(pre, ids, ","),
-            _condition(effects, ids, ","),
-            Fraction(1),
-        )
-        for key, (who, pre, effects) in actions.items()
-    ]
-    return Task(
-        name="usar",
-        agents=agents,
-        human=0,
-        facts=facts,
-        init=frozenset(ids[fact] for fact in init),
-        goal=_condition(goal, ids, ","),
-        actions=tuple(sorted(ground, key=lambda action: action.key)),
-    )
+    builder = Builder(agents, "usar", ",", alphabetical=True)
+    for key, (who, pre, effects) in actions.items():
+        builder.named(key, tuple(sorted(map(agents.index, who))), pre, effects)
+    return builder.task(",".join(init), goal)
 
 
 def _pairs(edges: str) -> list[tuple[str, str]]:
@@ -175,28 +218,9 @@ def _pairs(edges: str) -> list[tuple[str, str]]:
     return pairs
 
 
-def _parse_action(text: str) -> tuple[str, str, Fraction]:
+def _parsed(text: str) -> tuple[str, str, str]:
     body, _, cost = text.partition("@")
     pre, arrow, effects = body.partition("->")
     if not arrow:
         raise ValueError(f"expected 'precondition -> effects', got {text!r}")
-    return pre, effects, Fraction(cost.strip() or 1)
-
-
-def _atoms(literals: str) -> set[str]:
-    return {word.removeprefix("!") for word in literals.split()}
-
-
-def _condition(literals: str, ids: Mapping[str, int], separator: str | None = None) -> Condition:
-    words = [word.strip() for word in literals.split(separator) if word.strip()]
-    return Condition(
-        tuple(sorted({ids[word] for word in words if word[0] != "!"})),
-        tuple(sorted({ids[word[1:]] for word in words if word[0] == "!"})),
-    )
-
-
-def _action(
-    name: str, participants: tuple[int, ...], pre: Condition, effects: Condition, cost: Fraction
-) -> GroundAction:
-    delete = tuple(f for f in effects.negative if f not in effects.positive)
-    return GroundAction(name, participants, pre.positive, pre.negative, effects.positive, delete, cost)
+    return pre, effects, cost.strip() or "1"

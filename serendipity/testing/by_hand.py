@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 from serendipity.model import Options, PlanStep, Result, Task, Window
 from serendipity.model.keywords import Horizon
-from serendipity.model.numbers import figure
+from serendipity.model.numbers import figure, rounded, total
+from serendipity.model.task.execution import participants, shares
 
 
 def result(
@@ -30,39 +30,38 @@ def result(
     """
     chosen = Options(horizon=horizon, **options)
     by_name = {action.name: action for action in task.actions}
-    steps, total, talk = [], Fraction(0), Fraction(0)
-    shares = dict.fromkeys(task.agents, Fraction(0))
-    for epoch, names in plan.items():
-        for name in (text.strip() for text in names.split(";")):
-            action = by_name[name]
-            cost = task.team_cost(action, chosen.discount)
-            total += cost
-            if chosen.mode == "communication" and task.human in action.participants:
-                talk += 0 if name in (human_plan or ()) else chosen.communication_weight * action.cost
-            for agent in action.participants:
-                shares[task.agents[agent]] += cost / len(action.participants)
-            agents = tuple(task.agents[i] for i in action.participants)
-            steps.append(PlanStep(epoch, agents, name, figure(cost)))
-    human_cost = None if human_plan is None else sum((by_name[n].cost for n in human_plan), Fraction(0))
-    objective = total + talk + (0 if window is None else chosen.window_weight * (window[1] - window[0]))
-    opportunity = human_cost is not None and total < human_cost
+    done = [(epoch, by_name[name.strip()]) for epoch, names in plan.items() for name in names.split(";")]
+    actions = [action for _, action in done]
+    cost = total(task.team_cost(action, chosen.discount) for action in actions)
+    his = [action for action in actions if task.human in action.participants]
+    announced = total(action.cost for action in his if action.name not in (human_plan or ()))
+    talk = chosen.communication_weight * announced if chosen.mode == "communication" else 0
+    human_cost = None if human_plan is None else total(by_name[name].cost for name in human_plan)
+    saving = None if human_cost is None else human_cost - cost
+    objective = cost + talk + (0 if window is None else chosen.window_weight * (window[1] - window[0]))
+    steps = (
+        PlanStep(
+            epoch, participants(task, action), action.name, figure(task.team_cost(action, chosen.discount))
+        )
+        for epoch, action in done
+    )
     return Result(
         mode=chosen.mode,
         status="optimal",
         human=task.agents[task.human],
         options=chosen,
         human_plan=human_plan,
-        human_cost=None if human_cost is None else figure(human_cost),
-        opportunity=opportunity,
-        cost=figure(total),
-        saving=None if human_cost is None else figure(human_cost - total),
+        human_cost=rounded(human_cost),
+        opportunity=saving is not None and saving > 0,
+        cost=figure(cost),
+        saving=rounded(saving),
         objective=figure(objective),
         lower_bound=figure(objective),
         horizon=len(human_plan or ()) if horizon is None else horizon,
         window=None if window is None else Window(*window),
         saving_alone=None if human_cost is None else 0.0,
         plan=tuple(steps),
-        agent_costs={agent: figure(share) for agent, share in shares.items()},
+        agent_costs={task.agents[i]: figure(s) for i, s in shares(task, actions, chosen.discount).items()},
     )
 
 

@@ -10,7 +10,7 @@ from serendipity.testing.asking import call_of, settled, written
 from serendipity.testing.call import Call
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall, random_call
-from serendipity.testing.judges import Claim, OutsideJudge, fault, said
+from serendipity.testing.judges import OutsideJudge, Proposal, fault, said
 from serendipity.testing.judges.claims import TIME_LIMIT, cost_of
 from serendipity.testing.judges.in_mode import as_result
 from serendipity.testing.laws import ASKED_IN, JOINT, LAWS, Answered
@@ -31,7 +31,7 @@ OPTIONS: Final = (
     "keep_prefix",
     "horizon",
 )
-"""What calls may differ in, beside ``human_plan``."""
+"""The options that calls may differ in, beside ``human_plan``."""
 
 HUMAN_PLAN: Final = "human_plan"
 BRUTE_FORCE: Final = "brute force"
@@ -39,8 +39,8 @@ JOINT_MODE: Final = "joint"
 
 
 @dataclass(frozen=True, slots=True)
-class Scope:
-    """Which random calls a planner is asked.
+class Draw:
+    """The random calls that a planner is asked.
 
     Attributes:
         modes: drawn from.
@@ -95,7 +95,7 @@ class Scope:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """What is checked: the optimum of a mode, or a law in all modes.
+    """A check: the optimum of a mode, or a law in all modes.
 
     Attributes:
         name: ``brute force`` or the law's.
@@ -112,8 +112,8 @@ class Check:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
-    """What a check has come to.
+class Probed:
+    """The outcome of a check.
 
     Attributes:
         calls: how many were asked.
@@ -128,8 +128,8 @@ class Outcome:
     seed: int | None = None
 
 
-def checks(judge: OutsideJudge, scope: Scope) -> list[Check]:
-    """What can be checked of a planner: each of its modes, and the laws that speak of them."""
+def checks(judge: OutsideJudge, scope: Draw) -> list[Check]:
+    """The checks of a planner: each of its modes, and the laws that speak of them."""
     if not judge.every_mode:
         return [Check(BRUTE_FORCE, JOINT_MODE), *map(Check, JOINT)]
     modes = set(scope.modes)
@@ -139,7 +139,7 @@ def checks(judge: OutsideJudge, scope: Scope) -> list[Check]:
     return [*(Check(BRUTE_FORCE, mode) for mode in scope.modes), *map(Check, laws)]
 
 
-def run(judge: OutsideJudge, check: Check, scope: Scope) -> Outcome:
+def run(judge: OutsideJudge, check: Check, scope: Draw) -> Probed:
     """Ask the calls of a scope in turn until something is wrong; that is made as small as may be."""
     examine = partial(_against_brute_force, judge, scope.call_limit)
     if check.name != BRUTE_FORCE:
@@ -154,8 +154,8 @@ def run(judge: OutsideJudge, check: Check, scope: Scope) -> Outcome:
             continue
         if found is not None:
             smallest = shrink(found.call, partial(_shows, examine, found.kind))
-            return Outcome(asked, refused, examine(smallest) or found, call.seed)
-    return Outcome(asked, refused)
+            return Probed(asked, refused, examine(smallest) or found, call.seed)
+    return Probed(asked, refused)
 
 
 class _RefusedError(Exception):
@@ -224,7 +224,7 @@ def _settled(call: PlanCall) -> Call:
         raise _RefusedError from None
 
 
-def _claim(judge: OutsideJudge, call: PlanCall, call_limit: float) -> Claim:
+def _claim(judge: OutsideJudge, call: PlanCall, call_limit: float) -> Proposal:
     try:
         claim = judge.answer(call, Deadline(call_limit))
     except Exception as error:  # whatever it is, it is found

@@ -6,7 +6,7 @@ from serendipity.model import Deadline, LimitReachedError
 
 
 def time_is_up() -> Exception:
-    """What a deadline raises whose time is up."""
+    """The error of a deadline whose time is up."""
     return LimitReachedError("time-limit")
 
 

@@ -1,4 +1,4 @@
-"""What two methods say differently of one call."""
+"""Different answers of two methods to one call."""
 
 import re
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ _NOT_THE_BEST: Final = re.compile(r"least|best|help makes|there is a plan")
 
 _RAISED: Final = re.compile(r"(?:raised )?([A-Za-z_]\w*): ")
 _PARTICULAR: Final = re.compile(r"'[^']*'|[\d.]+")
-"""What a fault says of the very call: names and numbers."""
+"""The parts of a fault that are of the very call: names and numbers."""
 
 
 @dataclass(frozen=True, slots=True)

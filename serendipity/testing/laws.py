@@ -23,19 +23,19 @@ from serendipity.testing.rewriting import doubled, renamed, with_idle_robot, wit
 
 
 class Answered(Protocol):
-    """What a planner answers."""
+    """The answer of a planner."""
 
     @property
     def cost(self) -> Fraction | float | None:
-        """What the team pays; None without a plan."""
+        """The cost to the team; None without a plan."""
 
     @property
     def objective(self) -> Fraction | float | None:
-        """What was minimised."""
+        """The objective; None without a plan."""
 
     @property
     def window(self) -> Window | None:
-        """Where help is; None without help, and in modes without windows."""
+        """The window of help; None without help, and in modes without windows."""
 
 
 Ask = Callable[[Call], Answered]
@@ -44,7 +44,7 @@ Ask = Callable[[Call], Answered]
 Amount = Fraction | float | None
 
 Law = Callable[[Call, Ask], Iterator[str]]
-"""What it holds between answers: gives a line for everything that is not so."""
+"""A relation between answers: gives a line for everything that is not so."""
 
 
 def discount(call: Call, ask: Ask) -> Iterator[str]:

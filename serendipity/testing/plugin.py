@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import pytest
 
 if TYPE_CHECKING:
-    from serendipity.testing.checking import Check, Outcome, Scope
+    from serendipity.testing.checking import Check, Draw, Probed
     from serendipity.testing.judges import OutsideJudge
 
 _PLANNER: Final = "--serendipity-planner"
@@ -90,15 +90,15 @@ def pytest_collection_modifyitems(
         raise pytest.UsageError(f"serendipity: {error}") from None
 
 
-def _scope(config: pytest.Config) -> "Scope":
-    from serendipity.testing.checking import Scope
+def _scope(config: pytest.Config) -> "Draw":
+    from serendipity.testing.checking import Draw
 
     given: dict[str, Any] = {name: config.getoption(f"--serendipity-{name}") for name in _NUMBERS}
     given["call_limit"] = config.getoption("--serendipity-call-limit")
     for name in _LISTS:
         words = config.getoption(f"--serendipity-{name}").replace("-", "_").split(",")
         given[name] = tuple(word.strip() for word in words if word.strip())
-    return Scope(**given)
+    return Draw(**given)
 
 
 class _WrongError(Exception):
@@ -108,7 +108,7 @@ class _WrongError(Exception):
 class _PlannerItem(pytest.Item):
     """One check of one planner."""
 
-    def __init__(self, *, asks: "tuple[OutsideJudge, Check, Scope]", **given: Any) -> None:
+    def __init__(self, *, asks: "tuple[OutsideJudge, Check, Draw]", **given: Any) -> None:
         super().__init__(**given)
         self._judge, self._check, self._scope = asks
 
@@ -127,7 +127,7 @@ class _PlannerItem(pytest.Item):
         answered = outcome.calls - outcome.refused
         self.user_properties.append(("serendipity", f"{answered} of {outcome.calls} calls answered"))
 
-    def _again(self, outcome: "Outcome") -> str:
+    def _again(self, outcome: "Probed") -> str:
         words = ["pytest", _PLANNER, self._judge.name]
         for name in (*_LISTS, "actions"):
             value = getattr(self._scope, name)
@@ -146,5 +146,5 @@ class _PlannerItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, None, str]:
-        """Where it stands, for summaries: nowhere, so by its name."""
+        """Its place, for summaries: nowhere, so its name."""
         return self.config.rootpath, None, self.nodeid

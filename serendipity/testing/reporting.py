@@ -1,17 +1,17 @@
-"""What is wrong with a planner, in words and as files."""
+"""Reports on a planner that is wrong, in words and as files."""
 
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from serendipity.testing.checking import Check, Outcome, Scope, checks, run
+from serendipity.testing.checking import Check, Draw, Probed, checks, run
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.in_python import in_python
 from serendipity.testing.judges import OutsideJudge, by_function
 from serendipity.testing.written_case import command_line, write_case
 
-_USUAL: Final = Scope()
+_USUAL: Final = Draw()
 
 
 class PlannerError(AssertionError):
@@ -51,7 +51,7 @@ def check_planner(
         OSError: the case can't be written.
     """
     judge = by_function(planner)
-    scope = Scope(tuple(modes), tuple(options), actions, seed, count, call_limit)
+    scope = Draw(tuple(modes), tuple(options), actions, seed, count, call_limit)
     for check in checks(judge, scope):
         outcome = run(judge, check, scope)
         if outcome.found is not None:
@@ -61,7 +61,12 @@ def check_planner(
 
 
 def report(
-    judge: OutsideJudge, check: Check, outcome: Outcome, found: Disagreement, folder: Path | None, again: str
+    judge: OutsideJudge,
+    check: Check,
+    outcome: Probed,
+    found: Disagreement,
+    folder: Path | None,
+    again: str,
 ) -> str:
     """The smallest case: who says what, the task in Python and in PDDL, the call, and how to see it again.
 

@@ -82,7 +82,7 @@ def _without_facts(call: PlanCall, tries: _Tries) -> PlanCall:
 
 
 def _by_halves(parts: Sequence[T], fewer: Callable[[Sequence[T]], PlanCall], tries: _Tries) -> list[T]:
-    """What has to stay: pieces are left out, half of all at first, then half as many, and so on."""
+    """The parts that have to stay: pieces are left out, half of all at first, then half as many ..."""
     kept, size = list(parts), len(parts) // 2
     while size:
         i = 0

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from serendipity.facade.planning import plan
 from serendipity.model import Options, Result
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import Claim, cost_of
+from serendipity.testing.judges.claims import Proposal, cost_of
 
 
 def both_plans(
-    call: PlanCall, claim: Claim, options: Options, human_plan: Iterable[str] | None
+    call: PlanCall, claim: Proposal, options: Options, human_plan: Iterable[str] | None
 ) -> dict[str, str]:
     """The plan of a claim, and ours; the first only where there is one.
 
@@ -23,7 +23,7 @@ def both_plans(
     return claimed_plan(call, claim, "its") | told_plan(ours)
 
 
-def claimed_plan(call: PlanCall, claim: Claim, whose: str) -> dict[str, str]:
+def claimed_plan(call: PlanCall, claim: Proposal, whose: str) -> dict[str, str]:
     """The plan of a claim, where there is one."""
     if claim.plan is None:
         return {}

@@ -5,29 +5,29 @@ from itertools import combinations, product
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity.pddl.grounding.product import Product, Table, combined
+from serendipity.pddl.grounding.product import Bindings, Product, combined
 
 
 @st.composite
-def tables(draw: st.DrawFn) -> list[Table]:
+def tables(draw: st.DrawFn) -> list[Bindings]:
     """Up to four tables of up to two variables each, none of them empty."""
     found = []
     for number in range(draw(st.integers(0, 4))):
         width, height = draw(st.integers(0, 2)), draw(st.integers(1, 3))
         variables = tuple(f"?{number}{place}" for place in range(width))
         rows = [tuple(f"{variable[1:]}-{row}" for variable in variables) for row in range(height)]
-        found.append(Table(variables, rows if width else [()]))
+        found.append(Bindings(variables, rows if width else [()]))
     return found
 
 
-def enumerated(found: list[Table]) -> list[dict[str, str]]:
+def enumerated(found: list[Bindings]) -> list[dict[str, str]]:
     names = [variable for table in found for variable in table.variables]
     rows = product(*(table.rows for table in found))
     return [dict(zip(names, (value for row in choice for value in row), strict=True)) for choice in rows]
 
 
 @given(tables())
-def test_bindings_are_all_combinations(found: list[Table]) -> None:
+def test_bindings_are_all_combinations(found: list[Bindings]) -> None:
     bindings = Product(found)
     assert [*bindings] == enumerated(found)
     variables, rows = combined(found)
@@ -36,7 +36,7 @@ def test_bindings_are_all_combinations(found: list[Table]) -> None:
 
 
 @given(tables())
-def test_a_part_is_found_again_in_the_whole(found: list[Table]) -> None:
+def test_a_part_is_found_again_in_the_whole(found: list[Bindings]) -> None:
     bindings = Product(found)
     variables = [variable for table in found for variable in table.variables]
     for count in range(3):
@@ -49,11 +49,11 @@ def test_a_part_is_found_again_in_the_whole(found: list[Table]) -> None:
 
 
 @given(tables(), st.integers(1, 5))
-def test_slices_are_the_whole_in_order(found: list[Table], most: int) -> None:
+def test_slices_are_the_whole_in_order(found: list[Bindings], most: int) -> None:
     slices = [*Product(found).slices(most)]
     assert all(part.size <= most for part in slices)
     assert [binding for part in slices for binding in part] == enumerated(found)
 
 
 def test_an_empty_table_leaves_nothing() -> None:
-    assert Product([Table(("?x",), [("a",), ("b",)]), Table(("?y",), [])]).size == 0
+    assert Product([Bindings(("?x",), [("a",), ("b",)]), Bindings(("?y",), [])]).size == 0

@@ -136,7 +136,7 @@ def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str
     modules = ["serendipity.facade.planning", "serendipity.facade.certify", "serendipity.cli.text.answers"]
     if mode == "assistance":
         modules += [
-            "serendipity.facade.assistance",
+            "search.modes.assistance",
             "search.modes.assistance.distances.layers",
             "search.modes.assistance.distances.perimeter",
             "verify.policy",
@@ -154,7 +154,7 @@ def _for_goals(result: Result, certificate: Certificate | None, form: str, outpu
         output.write_answer(json_of(answer), output_file)
     else:
         from serendipity.cli.text.render import rendered
-        from serendipity.model.answers.words import for_goals
+        from serendipity.model.answers.result import for_goals
 
         text = rendered(for_goals(result))
         if certificate is not None:

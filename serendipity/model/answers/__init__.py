@@ -1,1 +1,1 @@
-"""What is said of a task: answers, results and their JSON, policies, traces, certificates."""
+"""Answers about a task: exact answers, results and their JSON, policies, traces, certificates."""

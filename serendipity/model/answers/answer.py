@@ -15,7 +15,7 @@ Status = Literal["optimal", "feasible", "infeasible", "unknown"]
 
 
 class Improvement(NamedTuple):
-    """What was known after some seconds."""
+    """Objective and lower bound that were known after some seconds."""
 
     seconds: float
     objective: Fraction | None
@@ -37,7 +37,7 @@ class PolicyBounds:
 
 @dataclass(frozen=True, slots=True)
 class ServedGoal:
-    """What happens if one candidate is the human's goal (semantics 8).
+    """The answer for one goal that the human may have (semantics 8).
 
     Attributes:
         name: of the goal, for people.
@@ -133,7 +133,7 @@ class Answer(NamedTuple):
 
 
 def saved(baseline: Fraction | None, cost: Fraction | None, *, opportunity: bool) -> Fraction | None:
-    """What an opportunity costs less than the baseline, else 0; None without a baseline or a plan."""
+    """The saving of an opportunity beside the baseline, else 0; None without a baseline or a plan."""
     if baseline is None or cost is None:
         return None
     return baseline - cost if opportunity else Fraction(0)

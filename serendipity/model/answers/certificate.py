@@ -4,9 +4,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal, get_args
 
+from serendipity.model.answers.fields import Written, written
 from serendipity.model.errors import UsageError
+from serendipity.model.numbers import plain_seconds
 from serendipity.model.task.plans import PlanStep
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.certificate/1"
 CLAIMS: Final = (
@@ -25,8 +27,8 @@ VERDICTS: Final[tuple[ClaimVerdict, ...]] = get_args(ClaimVerdict)
 
 
 @dataclass(frozen=True, slots=True)
-class Claim:
-    """One claim of a result, and what the verifier says of it.
+class Claim(Written):
+    """One claim of a result, and the verifier's verdict on it.
 
     Attributes:
         claim: one of ``CLAIMS``.
@@ -62,25 +64,10 @@ class Claim:
         if self.verdict not in VERDICTS:
             raise UsageError(f"verdict: expected one of {', '.join(VERDICTS)}, got '{self.verdict}'")
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object; plain values only."""
-        example = self.counterexample
-        return {
-            "claim": self.claim,
-            "verdict": self.verdict,
-            "reason": self.reason,
-            "counterexample": None if example is None else [step.to_dict() for step in example],
-            "seconds": self.seconds,
-            "bound": self.bound,
-            "method": self.method,
-            "size": dict(self.size),
-            "solver_calls": self.solver_calls,
-        }
-
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Certificate(Told):
-    """What the verifier says of a result.
+class Certificate(Output):
+    """The verifier's verdict on a result, claim by claim.
 
     Attributes:
         claims: in the order in which they were examined.
@@ -111,29 +98,38 @@ class Certificate(Told):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        return {
-            "schema": SCHEMA,
-            "verdict": self.verdict,
-            "claims": [claim.to_dict() for claim in self.claims],
-            "solver": self.solver,
-            "encoding": self.encoding,
-            "size": dict(self.size),
-            "solver_calls": self.solver_calls,
-            "elapsed_seconds": self.elapsed_seconds,
-        }
-
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
+        names = ("claims", "solver", "encoding", "size", "solver_calls", "elapsed_seconds")
+        return {"schema": SCHEMA, "verdict": self.verdict, **written(self, names)}
 
     def told(self) -> Iterator[Line | Grid]:
-        """What ``verify`` prints."""
-        from serendipity.model.answers.words import claims, verdict
-
-        yield from (claims(self), Line(), verdict(self))
+        """The lines that ``verify`` prints."""
+        yield from (claims_told(self), Line(), verdict_told(self))
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield repr(self.verdict)
         yield from (f"{claim.claim} {claim.verdict}" for claim in self.claims if claim is self.refuted)
         yield f"{len(self.claims)} claims"
+
+
+def verdict_told(certificate: Certificate) -> Line:
+    """The verdict of a certificate in a line."""
+    wrong = certificate.refuted
+    if wrong is not None:
+        line, style = f"refuted, {wrong.claim}: {wrong.reason}", "bold red"
+    elif certificate.verdict == "undecided":
+        left = next((claim for claim in certificate.claims if claim.verdict == "undecided"), None)
+        line = "has no answer to check" if left is None else f"undecided, {left.claim}: {left.reason}"
+        style = "yellow"
+    else:
+        proved = [claim.claim for claim in certificate.claims if claim.verdict == "proved"]
+        line, style = f"proves {', '.join(proved)}" if proved else "finds nothing wrong", "green"
+    return Line(f"checker: {line} ({plain_seconds(certificate.elapsed_seconds)})", style)
+
+
+def claims_told(certificate: Certificate) -> Grid:
+    """The claims of a certificate, one a row."""
+    rows = [
+        (claim.claim, claim.verdict.replace("_", " "), plain_seconds(claim.seconds), claim.reason)
+        for claim in certificate.claims
+    ]
+    return Grid(("claim", "verdict", "time", "reason"), rows)

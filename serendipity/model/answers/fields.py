@@ -1,78 +1,155 @@
-"""Reading the parts of a JSON object one by one, each of one type."""
+"""The JSON form of answers: objects of a class's fields, written and read back by the types of these.
+
+=====================  ===================================================================
+type of a field        in JSON
+=====================  ===================================================================
+``str``, ``bool``      the same
+``float``              a finite number of at least 0
+``Fraction``           a figure (see :func:`serendipity.model.numbers.figure`)
+a pair of ``Fraction`` their exact texts
+``tuple[X, ...]``      a list
+``dict[str, X]``       an object
+``Literal``            one of its values
+``X | None``           null, or what ``X`` is
+a dataclass            an object of its fields, or what its own ``to_dict`` makes of it
+anything else          the same, whatever it is
+=====================  ===================================================================
+
+A class declares what differs from that by :func:`form`.
+"""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, TypeVar
+from fractions import Fraction
+from functools import cache
+from inspect import signature
+from types import NoneType, UnionType
+from typing import Any, Final, Literal, NamedTuple, TypeVar, Union, get_args, get_origin
 
 from serendipity.model.errors import UsageError
-from serendipity.model.numbers import MOST_IN_RESULTS, Figure, exact
+from serendipity.model.numbers import MOST_IN_RESULTS, Figure, as_written, exact, rounded
+from serendipity.model.options import MAX_EPOCH
+from serendipity.model.task.plans import PlanStep, Window
 
 T = TypeVar("T")
 
 
 class MalformedError(Exception):
-    """Something that a part of a file has to say is missing, or of another form; its text says what."""
+    """A part of a file of another form than it should have; the text says which, and what was expected."""
 
 
-class Fields:
-    """The fields of a JSON object.
+class Form(NamedTuple):
+    """The JSON form of some values.
 
-    Args:
-        value: what should be an object.
-        whole: what errors call the object.
-        where: what errors about one of its fields begin with.
-
-    Raises:
-        MalformedError: it is no object.
+    Attributes:
+        read: the value of what stands in a file, given its place there for errors; raises
+            :class:`MalformedError`.
+        write: what is written for a value; None where that is the value itself.
     """
 
-    def __init__(self, value: Any, whole: str, where: str) -> None:
-        if not isinstance(value, Mapping):
-            raise MalformedError(f"{whole} is not an object")
-        self._data = value
-        self._where = where
+    read: Callable[[Any, str], Any]
+    write: Callable[[Any], Any] | None = None
 
-    def get(self, key: str, read: Callable[[Any], T | None]) -> T:
-        """What ``read`` makes of a field, which is not None.
 
-        Raises:
-            MalformedError: naming the field; so do all other methods.
-        """
-        value = read(self._data.get(key))
-        if value is None:
-            raise MalformedError(f"{self._where}: '{key}' is missing or of another type")
-        return value
+class Written:
+    """A dataclass that is written as a JSON object of its fields."""
 
-    def raw(self, key: str) -> Any:
-        """The value as it stands there."""
-        if key not in self._data:
-            raise MalformedError(f"{self._where}: '{key}' is missing")
-        return self._data[key]
+    __slots__ = ()
 
-    def text(self, key: str) -> str:
-        """A text."""
-        return self.get(key, lambda value: value if isinstance(value, str) else None)
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        return written(self)
 
-    def texts(self, key: str) -> tuple[str, ...]:
-        """A list of texts."""
-        return self.get(key, names)
 
-    def flag(self, key: str) -> bool:
-        """True or false."""
-        return self.get(key, lambda value: value if isinstance(value, bool) else None)
+_SPECIAL: Final[dict[type, dict[str, Form]]] = {}
+_CLOSED: Final[set[type]] = set()
 
-    def number(self, key: str) -> float:
-        """A finite number of at least 0."""
-        return self.get(key, lambda value: None if (found := finite(value)) is None or found < 0 else found)
 
-    def objects(self, key: str) -> "list[Fields]":
-        """A list of objects."""
-        items = self.get(key, lambda value: value if isinstance(value, list) else None)
-        return [Fields(item, key, f"{self._where}.{key}") for item in items]
+def form(kind: type, special: dict[str, Form], *, closed: bool = False) -> None:
+    """Declare what of the form of a dataclass does not follow from the types of its fields.
 
-    def optional(self, key: str, read: Callable[[str], T]) -> T | None:
-        """The field as ``read`` reads it, or None where it is null."""
-        return None if self.raw(key) is None else read(key)
+    Args:
+        kind: the dataclass.
+        special: forms of fields, by name.
+        closed: whether an object has no other fields than the dataclass.
+    """
+    _SPECIAL[kind] = special
+    if closed:
+        _CLOSED.add(kind)
+
+
+def written(value: Any, names: Iterable[str] | None = None) -> dict[str, Any]:
+    """The JSON object of a dataclass, or of some of its fields in this order."""
+    kind: Any = type(value)
+    forms, found = _forms(kind), {}
+    for name in forms if names is None else names:
+        part, write = getattr(value, name), forms[name].write
+        found[name] = part if write is None else write(part)
+    return found
+
+
+def read(kind: Callable[..., T], value: Any, where: str) -> T:
+    """The dataclass that a JSON object writes down; fields that have a default may be missing.
+
+    Args:
+        kind: the dataclass.
+        value: what stands in the file.
+        where: its place there, for errors.
+
+    Raises:
+        MalformedError: naming a field that is missing or of another form.
+    """
+    given, forms = mapping(value, where), _forms(kind)
+    if kind in _CLOSED and given.keys() != forms.keys():
+        raise MalformedError(f"{where}: expected an object with {', '.join(forms)} only, got {value!r:.50}")
+    names = forms if given.keys() >= forms.keys() else [n for n in forms if n in given or n in _needed(kind)]
+    try:
+        return kind(**read_fields(kind, given, names, where))
+    except UsageError as error:
+        raise MalformedError(str(error)) from None
+
+
+def read_fields(
+    kind: Callable[..., Any], given: Mapping[str, Any], names: Iterable[str], where: str = ""
+) -> dict[str, Any]:
+    """The values of some fields of a dataclass, by name.
+
+    Args:
+        kind: the dataclass.
+        given: a JSON object.
+        names: of the fields, each of which has to be there.
+        where: the object's place in the file; empty for the whole of it.
+
+    Raises:
+        MalformedError: naming a field that is missing or of another form.
+    """
+    forms, found = _forms(kind), {}
+    for name in names:
+        if name not in given:
+            raise MalformedError(f"{where}{': ' if where else ''}the field '{name}' is missing")
+        found[name] = forms[name].read(given[name], f"{where}.{name}" if where else name)
+    return found
+
+
+def checked(value: T, where: str, expected: str, fits: bool) -> T:
+    """The value itself.
+
+    Raises:
+        MalformedError: it does not fit.
+    """
+    if not fits:
+        raise MalformedError(f"{where}: expected {expected}, got {value!r:.50}")
+    return value
+
+
+def mapping(value: Any, where: str) -> Mapping[str, Any]:
+    """An object, or the error that it is none."""
+    return checked(value, where, "an object", isinstance(value, Mapping))
+
+
+def is_whole(value: Any, least: int = 0, most: float = math.inf) -> bool:
+    """Whether a JSON value is a whole number in some range."""
+    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= most
 
 
 def finite(value: Any) -> float | None:
@@ -86,43 +163,98 @@ def finite(value: Any) -> float | None:
     return number if math.isfinite(number) else None
 
 
-def names(value: Any) -> tuple[str, ...] | None:
-    """A list of texts; None where it is none."""
-    if not isinstance(value, list | tuple) or not all(isinstance(name, str) for name in value):
-        return None
-    return tuple(value)
+def number(value: Any, where: str) -> float:
+    """A finite number, or the error that it is none."""
+    found = finite(value)
+    checked(value, where, "a finite number", found is not None)
+    return found or 0.0
 
 
-def exact_texts(value: Any) -> Any:
-    """Texts of the figures in a JSON value whose floats do not say it all, in its shape; None without any."""
-    if isinstance(value, Figure):
-        return str(value.exact)
-    texts = {str(key): exact_texts(part) for key, part in _parts(value)}
-    return {key: text for key, text in texts.items() if text is not None} or None
+def _not_negative(value: Any, where: str) -> float:
+    found = number(value, where)
+    return checked(found, where, "a number of at least 0", found >= 0)
 
 
-def with_exact(value: Any, texts: Any, where: str) -> Any:
-    """A JSON value with the exact figures that :func:`exact_texts` made of it.
-
-    Raises:
-        MalformedError: a text is no rational, or that of another float.
-    """
-    if isinstance(texts, dict):
-        parts = {str(key): part for key, part in _parts(value)}
-        for key, text in texts.items():
-            parts[key] = with_exact(parts.get(key), text, f"{where}.{key}")
-        return list(parts.values()) if isinstance(value, list) else parts
-    number = finite(value)
+def _costs(value: Any, where: str) -> tuple[Fraction, ...]:
+    """Two costs that were written as exact texts."""
+    texts = isinstance(value, list | tuple) and len(value) == 2 and all(isinstance(x, str) for x in value)
+    checked(value, where, "the human's and the robot's cost as texts", texts)
     try:
-        found = Figure(exact(texts, where, MOST_IN_RESULTS)) if isinstance(texts, str) else None
+        costs = tuple(exact(text, where, MOST_IN_RESULTS) for text in value)
     except UsageError as error:
         raise MalformedError(str(error)) from None
-    if number is None or found != number:
-        raise MalformedError(f"{where}: expected the exact text of {value!r:.50}, got {texts!r:.50}")
-    return found
+    checked(value, where, "costs of at least 0", min(costs) >= 0)
+    return costs
 
 
-def _parts(value: Any) -> Iterable[tuple[Any, Any]]:
-    if isinstance(value, dict):
-        return value.items()
-    return enumerate(value) if isinstance(value, list | tuple) else ()
+EPOCH: Final = Form(
+    lambda value, where: checked(
+        value, where, f"an epoch from 1 to {MAX_EPOCH}", is_whole(value, least=1, most=MAX_EPOCH)
+    )
+)
+
+_SIMPLE: Final[dict[Any, Form]] = {
+    str: Form(lambda value, where: checked(value, where, "a text", isinstance(value, str))),
+    bool: Form(lambda value, where: checked(value, where, "true or false", isinstance(value, bool))),
+    float: Form(_not_negative),
+    Fraction: Form(lambda value, where: as_written(_not_negative(value, where)), rounded),
+    tuple[Fraction, Fraction]: Form(_costs, lambda costs: [str(cost) for cost in costs]),
+}
+
+
+@cache
+def form_of(hint: Any) -> Form:
+    """The form of a type."""
+    if hint in _SIMPLE:
+        return _SIMPLE[hint]
+    origin, parts = get_origin(hint), get_args(hint)
+    if origin in (Union, UnionType) and NoneType in parts and len(parts) == 2:
+        return optional(form_of(next(part for part in parts if part is not NoneType)))
+    if origin is Literal:
+        words = f"one of {', '.join(map(str, parts))}"
+        return Form(lambda value, where: checked(value, where, words, value in parts))
+    if origin is tuple:
+        return list_of(form_of(parts[0]))
+    if origin in (dict, Mapping):
+        each = form_of(parts[1]).read
+        return Form(lambda value, w: {k: each(x, f"{w}.{k}") for k, x in mapping(value, w).items()}, dict)
+    if hasattr(hint, "__dataclass_fields__") or hasattr(hint, "_fields"):
+        return Form(lambda value, where: read(hint, value, where), getattr(hint, "to_dict", written))
+    return Form(lambda value, _: value)
+
+
+@cache
+def _forms(kind: Any) -> dict[str, Form]:
+    """The forms of a dataclass's fields, by name."""
+    special = _SPECIAL.get(kind, {})
+    return {n: special.get(n) or form_of(field.annotation) for n, field in signature(kind).parameters.items()}
+
+
+@cache
+def _needed(kind: Any) -> list[str]:
+    """The fields without a default."""
+    return [name for name, field in signature(kind).parameters.items() if field.default is field.empty]
+
+
+def list_of(item: Form) -> Form:
+    """The form of a list."""
+
+    def read_each(value: Any, where: str) -> tuple[Any, ...]:
+        checked(value, where, "a list", isinstance(value, list | tuple))
+        return tuple(item.read(each, f"{where}[{i}]") for i, each in enumerate(value))
+
+    write = item.write
+    return Form(read_each, list if write is None else lambda values: [write(each) for each in values])
+
+
+def optional(inner: Form) -> Form:
+    """The form of what may be null."""
+    write = inner.write
+    return Form(
+        lambda value, where: None if value is None else inner.read(value, where),
+        None if write is None else lambda value: None if value is None else write(value),
+    )
+
+
+form(PlanStep, {"epoch": EPOCH}, closed=True)
+form(Window, {"start": EPOCH, "end": EPOCH}, closed=True)

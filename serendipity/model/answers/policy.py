@@ -3,19 +3,33 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Final
 
-from serendipity.model.errors import InputError, UsageError
-from serendipity.model.numbers import MOST_IN_RESULTS, exact, plain
+from serendipity.model.answers.fields import (
+    Form,
+    MalformedError,
+    Written,
+    checked,
+    form,
+    form_of,
+    list_of,
+    mapping,
+    optional,
+    read,
+    read_fields,
+    written,
+)
+from serendipity.model.errors import InputError
+from serendipity.model.numbers import plain
 from serendipity.model.task.actions import NOOP
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.telling import Grid, Line, Output
 
 Costs = tuple[Fraction, Fraction]
 """The human's total and the supporter's, compared in this order."""
 
 
 @dataclass(frozen=True, slots=True)
-class StateDelta:
+class StateDelta(Written):
     """A state as its difference from the initial one, in the facts that matter to the goal.
 
     Attributes:
@@ -26,14 +40,10 @@ class StateDelta:
     true: tuple[str, ...] = ()
     false: tuple[str, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object."""
-        return {"true": list(self.true), "false": list(self.false)}
-
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What the supporter does in a state in which it is to move.
+    """The supporter's action in a state in which it is to move.
 
     Attributes:
         state: the state.
@@ -47,7 +57,7 @@ class Decision:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; costs as exact texts."""
-        return {**self.state.to_dict(), "action": self.action, "value": _texts(self.value)}
+        return {**self.state.to_dict(), **written(self, ("action", "value"))}
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +69,12 @@ class Floor:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; costs as exact texts."""
-        return {**self.state.to_dict(), "value": _texts(self.value)}
+        return {**self.state.to_dict(), **written(self, ("value",))}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Policy(Told):
-    """What the supporter does in each state that can be reached while it helps.
+class Policy(Output):
+    """The supporter's action in each state that can be reached while it helps.
 
     In a state that is not listed it does nothing, and goes on doing nothing for ever.
 
@@ -79,16 +89,8 @@ class Policy(Told):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
-        floors = None if self.floors is None else [floor.to_dict() for floor in self.floors]
-        return {
-            "states": [decision.to_dict() for decision in self.decisions],
-            "otherwise": NOOP,
-            "floors": floors,
-        }
-
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
+        data = written(self)
+        return {"states": data["decisions"], "otherwise": NOOP, "floors": data["floors"]}
 
     def told(self) -> Iterator[Line | Grid]:
         """The decisions, state by state."""
@@ -102,7 +104,6 @@ class Policy(Told):
         yield Line("in any other state nothing any more")
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield f"{len(self.decisions)} states"
         yield from (f"first {first.action!r}" for first in self.decisions[:1])
 
@@ -113,68 +114,42 @@ class Policy(Told):
         Raises:
             InputError: a field is missing or has the wrong type.
         """
-        return _Reader(file).policy(data)
-
-
-def _texts(value: Costs) -> list[str]:
-    return [str(cost) for cost in value]
-
-
-class _Reader:
-    def __init__(self, file: object) -> None:
-        self.file = file
-
-    def policy(self, data: Any) -> Policy:
-        if not isinstance(data, dict) or data.get("otherwise") != NOOP:
-            raise self._error("expected an object with states, otherwise 'noop' and floors")
-        floors = data.get("floors")
-        decisions = tuple(self._decision(x, f"states[{i}]") for i, x in enumerate(self._list(data, "states")))
-        if floors is None:
-            return Policy(decisions, None)
-        return Policy(
-            decisions, tuple(self._floor(x, f"floors[{i}]") for i, x in enumerate(self._list(data, "floors")))
-        )
-
-    def _error(self, message: str) -> InputError:
-        return InputError(f"result: policy: {message}", self.file)
-
-    def _list(self, data: dict[str, Any], key: str) -> list[Any]:
-        value = data.get(key)
-        if not isinstance(value, list):
-            raise self._error(f"{key}: expected a list, got {value!r:.50}")
-        return value
-
-    def _decision(self, data: Any, where: str) -> Decision:
-        state = self._state(data, where)
-        action = data.get("action")
-        if not isinstance(action, str):
-            raise self._error(f"{where}.action: expected a text, got {action!r:.50}")
-        return Decision(state, action, self._value(data, where))
-
-    def _floor(self, data: Any, where: str) -> Floor:
-        return Floor(self._state(data, where), self._value(data, where))
-
-    def _state(self, data: Any, where: str) -> StateDelta:
-        if not isinstance(data, dict):
-            raise self._error(f"{where}: expected an object, got {data!r:.50}")
-        return StateDelta(self._names(data, "true", where), self._names(data, "false", where))
-
-    def _names(self, data: dict[str, Any], key: str, where: str) -> tuple[str, ...]:
-        names = self._list(data, key)
-        if not all(isinstance(name, str) for name in names) or sorted(set(names)) != names:
-            raise self._error(f"{where}.{key}: expected a list of facts, ascending")
-        return tuple(names)
-
-    def _value(self, data: dict[str, Any], where: str) -> Costs:
-        value = data.get("value")
-        if not isinstance(value, list) or len(value) != 2 or not all(isinstance(cost, str) for cost in value):
-            raise self._error(
-                f"{where}.value: expected the human's and the supporter's cost as texts, got {value!r:.50}"
-            )
         try:
-            first, second = (exact(cost, f"{where}.value", MOST_IN_RESULTS) for cost in value)
-        except UsageError as error:
-            raise self._error(str(error)) from None
-        if first < 0 or second < 0:
-            raise self._error(f"{where}.value: expected costs of at least 0, got {value!r:.50}")
-        return first, second
+            return read_policy(data, "policy")
+        except MalformedError as error:
+            raise InputError(f"result: {error}", file) from None
+
+
+def read_policy(value: Any, where: str) -> Policy:
+    """The policy that a part of a file writes down.
+
+    Raises:
+        MalformedError: a field is missing or of another form.
+    """
+    given = mapping(value, where)
+    if given.get("otherwise") != NOOP:
+        raise MalformedError(f"{where}: expected an object with states, otherwise '{NOOP}' and floors")
+    states = _DECISIONS.read(given.get("states"), f"{where}.states")
+    return Policy(states, _FLOORS.read(given.get("floors"), f"{where}.floors"))
+
+
+def _ascending(value: Any, where: str) -> tuple[str, ...]:
+    names: tuple[str, ...] = form_of(tuple[str, ...]).read(value, where)
+    return checked(names, where, "facts in ascending order", sorted({*names}) == [*names])
+
+
+def _decision(value: Any, where: str) -> Decision:
+    return Decision(
+        read(StateDelta, value, where), **read_fields(Decision, value, ("action", "value"), where)
+    )
+
+
+def _floor(value: Any, where: str) -> Floor:
+    return Floor(read(StateDelta, value, where), **read_fields(Floor, value, ("value",), where))
+
+
+_DECISIONS: Final = list_of(Form(_decision, Decision.to_dict))
+_FLOORS: Final = optional(list_of(Form(_floor, Floor.to_dict)))
+
+form(StateDelta, dict.fromkeys(("true", "false"), Form(_ascending, list)))
+form(Policy, {"decisions": _DECISIONS, "floors": _FLOORS})

@@ -1,16 +1,17 @@
-"""What checking a proof file has found (schema ``serendipity.proof-check/1``)."""
+"""The outcome of checking a proof file (schema ``serendipity.proof-check/1``)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.answers.fields import Written, written
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.proof-check/1"
 
 
 @dataclass(frozen=True, slots=True)
-class RefutedProgram:
+class RefutedProgram(Written):
     """An integer program of a proof that holds.
 
     Attributes:
@@ -29,14 +30,10 @@ class RefutedProgram:
     limit: int | None
     optimum: int | None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object; plain values only."""
-        return {name: getattr(self, name) for name in self.__slots__}
-
 
 @dataclass(frozen=True, slots=True, repr=False)
-class ProofCheck(Told):
-    """What checking a proof file has found.
+class ProofCheck(Output):
+    """The outcome of checking a proof file.
 
     Attributes:
         verdict: ``accepted`` or ``rejected``.
@@ -61,22 +58,10 @@ class ProofCheck(Told):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        return {
-            "schema": SCHEMA,
-            "verdict": self.verdict,
-            "reason": self.reason,
-            "claim": self.claim,
-            "compared": self.compared,
-            "programs": [program.to_dict() for program in self.programs],
-            "elapsed_seconds": self.elapsed_seconds,
-        }
-
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
+        return {"schema": SCHEMA, **written(self)}
 
     def told(self) -> Iterator[Line | Grid]:
-        """What ``check-proof`` prints."""
+        """The lines that ``check-proof`` prints."""
         if self.programs:
             rows = [
                 (
@@ -95,7 +80,6 @@ class ProofCheck(Told):
         yield Line(f"{self.verdict}, {self.claim}: {self.reason}", style)
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield repr(self.verdict)
         yield self.claim
         yield f"{len(self.programs)} programs"

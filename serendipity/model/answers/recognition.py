@@ -1,15 +1,15 @@
-"""What recognition answers, and its JSON form (schema ``serendipity.recognition/1``)."""
+"""The answer of goal recognition, and its JSON form (schema ``serendipity.recognition/1``)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.model.answers.fields import Fields, MalformedError
-from serendipity.model.numbers import as_written, plain, rounded
+from serendipity.model.answers.fields import Form, MalformedError, form, list_of, mapping, read, written
+from serendipity.model.numbers import plain, rounded
 from serendipity.model.schemas import schema_fault
 from serendipity.model.table import Table, Tabular
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.recognition/1"
 
@@ -24,12 +24,18 @@ _COLUMNS: Final = {
     "plan": str,
 }
 
+_IN_JSON: Final = {
+    "with_observed": "cost_with_observed",
+    "without_observed": "cost_without_observed",
+}
+"""Names of fields in JSON, where they are others."""
+
 UNEXPLAINED: Final = "no goal explains what was observed: the posterior is the prior"
 
 
 @dataclass(frozen=True, slots=True)
 class GoalPosterior:
-    """What is known of one candidate goal; costs are the human's own, in the domain's unit.
+    """The posterior of one candidate goal; costs are the human's own, in the domain's unit.
 
     Attributes:
         name: for people.
@@ -55,20 +61,11 @@ class GoalPosterior:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        return {
-            "name": self.name,
-            "goal": list(self.goal),
-            "prior": rounded(self.prior),
-            "likelihood": self.likelihood,
-            "posterior": self.posterior,
-            "cost_with_observed": rounded(self.with_observed),
-            "cost_without_observed": rounded(self.without_observed),
-            "plan": None if self.plan is None else list(self.plan),
-        }
+        return {_IN_JSON.get(name, name): value for name, value in written(self).items() if name != "weight"}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Recognition(Tabular, Told):
+class Recognition(Tabular, Output):
     """The posterior over the human's goals.
 
     Attributes:
@@ -110,21 +107,10 @@ class Recognition(Tabular, Told):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        return {
-            "schema": SCHEMA,
-            "human": self.human,
-            "observed": list(self.observed),
-            "beta": self.beta,
-            "explained": self.explained,
-            "goals": [goal.to_dict() for goal in self.goals],
-        }
-
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
+        return {"schema": SCHEMA, **written(self)}
 
     def told(self) -> Iterator[Line | Grid]:
-        """What ``recognise`` prints: the posterior, and a line that says if it is only the prior."""
+        """The lines that ``recognise`` prints: the posterior, and whether it is only the prior."""
         if not self.explained:
             yield Line(UNEXPLAINED)
         best = self.most_likely
@@ -144,44 +130,26 @@ class Recognition(Tabular, Told):
         yield Grid(header, rows, frozenset({self.goals.index(best)}), numbered=True)
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield f"{len(self.goals)} goals of {self.human}"
         yield f"{self.most_likely.name} {self.most_likely.posterior:.4g}"
 
 
-def read_recognition(value: Any) -> Recognition:
-    """The posterior that a result rests on, as :meth:`Recognition.to_dict` wrote it into ``statistics``.
+def read_recognition(value: Any, where: str) -> Recognition:
+    """The posterior that a result rests on, as :meth:`Recognition.to_dict` wrote it.
 
     Raises:
         MalformedError: a field is missing or of another type.
     """
-    data = Fields(value, "statistics.recognition", "recognition")
-    if fault := schema_fault(data.raw("schema"), SCHEMA):
-        raise MalformedError(f"statistics.recognition: {fault}")
-    human = data.text("human")
-    return Recognition(
-        human,
-        data.texts("observed"),
-        data.number("beta"),
-        data.flag("explained"),
-        tuple(map(_read_goal, data.objects("goals"))),
-    )
+    if fault := schema_fault(mapping(value, where).get("schema"), SCHEMA):
+        raise MalformedError(f"{where}: {fault}")
+    return read(Recognition, value, where)
 
 
-def _read_goal(entry: Fields) -> GoalPosterior:
+def _read_goal(value: Any, where: str) -> GoalPosterior:
     """One goal; its weight, of which the posterior is all that was written down, is the posterior."""
-    return GoalPosterior(
-        name=entry.text("name"),
-        goal=entry.texts("goal"),
-        prior=as_written(entry.number("prior")),
-        likelihood=entry.optional("likelihood", entry.number),
-        posterior=(posterior := entry.number("posterior")),
-        weight=as_written(posterior),
-        with_observed=_exact(entry.optional("cost_with_observed", entry.number)),
-        without_observed=_exact(entry.optional("cost_without_observed", entry.number)),
-        plan=entry.optional("plan", entry.texts),
-    )
+    given = dict(mapping(value, where))
+    given |= {name: given[key] for name, key in _IN_JSON.items() if key in given}
+    return read(GoalPosterior, given | {"weight": given.get("posterior")}, where)
 
 
-def _exact(value: float | None) -> Fraction | None:
-    return None if value is None else as_written(value)
+form(Recognition, {"goals": list_of(Form(_read_goal, GoalPosterior.to_dict))})

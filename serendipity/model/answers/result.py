@@ -1,39 +1,37 @@
-"""The answer to a planning call, and its JSON form (schema ``serendipity.result/1``)."""
+"""The answer to a planning call: in JSON (schema ``serendipity.result/1``), and in words for people."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
-from typing import Any, Final, get_args
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, fields, replace
+from fractions import Fraction
+from typing import Any, Final
 
 from serendipity._version import __version__
 from serendipity.model.answers.answer import PolicyBounds, Status
-from serendipity.model.answers.fields import MalformedError, exact_texts, finite, names, with_exact
+from serendipity.model.answers.fields import MalformedError, finite, form
 from serendipity.model.answers.policy import Policy
-from serendipity.model.answers.recognition import Recognition
-from serendipity.model.answers.result_parts import (
-    GapEntry,
-    GoalAnswer,
-    TiedAnswer,
-    bounds_to_dict,
-    read_parts,
-)
-from serendipity.model.answers.step_reader import StepReader
-from serendipity.model.errors import InputError, UsageError
+from serendipity.model.answers.recognition import UNEXPLAINED, Recognition
+from serendipity.model.answers.result_form import FORMS, fields_of, object_of
+from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
+from serendipity.model.errors import InputError
 from serendipity.model.keywords import Horizon, Mode
-from serendipity.model.numbers import plain
+from serendipity.model.numbers import as_written, plain, plain_seconds
 from serendipity.model.options import Options
-from serendipity.model.schemas import schema_fault
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.plans import PlanStep, Window
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.telling import Grid, Line, Output, team
 
-SCHEMA: Final = "serendipity.result/1"
 _COLUMNS: Final = {"epoch": int, "agents": str, "action": str, "cost": float}
-STATUSES: Final[tuple[Status, ...]] = get_args(Status)
+
+_REASONS: Final = {
+    "no-human-plan": "the human can't reach the goal alone, so there is no plan to preserve",
+    "no-plan": "no plan reaches the goals within the horizon",
+}
+"""The commonest reasons of an infeasible result, in words."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Result(Tabular, Told):
-    """What ``plan`` answers; fields as in ``docs/reference`` (costs in the domain's unit).
+class Result(Tabular, Output):
+    """The answer of ``plan``; fields as in ``docs/reference`` (costs in the domain's unit).
 
     ``status``: ``optimal`` (proved), ``feasible`` (a plan; the limit came first),
     ``infeasible`` (proved; ``reason`` says why) or ``unknown`` (the limit came first).
@@ -96,72 +94,27 @@ class Result(Tabular, Told):
         Where the floats of its figures do not say it all, ``exact`` has texts in the same shape:
         ``{"cost": "10000000001/9999999999", "plan": {"0": {"cost": ...}}}``.
         """
-        data = self._plain()
-        texts = exact_texts(data)
-        return data if texts is None else {**data, "exact": texts}
-
-    def _plain(self) -> dict[str, Any]:
-        plan = None if self.plan is None else [step.to_dict() for step in self.plan]
-        return {
-            "schema": SCHEMA,
-            "version": self.version,
-            "mode": self.mode,
-            "status": self.status,
-            "human": self.human,
-            "human_plan": None if self.human_plan is None else list(self.human_plan),
-            "human_cost": self.human_cost,
-            "opportunity": self.opportunity,
-            "cost": self.cost,
-            "saving": self.saving,
-            "objective": self.objective,
-            "lower_bound": self.lower_bound,
-            "horizon": self.horizon,
-            "window": None if self.window is None else self.window.to_dict(),
-            "reason": self.reason,
-            "saving_alone": self.saving_alone,
-            "plan": plan,
-            "agent_costs": dict(self.agent_costs),
-            "realised": dict(self.realised),
-            "options": self.options.to_dict(),
-            "statistics": {**self.statistics, **self._parts()},
-            "policy": None if self.policy is None else self.policy.to_dict(),
-        }
-
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
+        return object_of(self)
 
     def told(self) -> Iterator[Line | Grid]:
-        """What ``plan`` prints of it; without its task, which has a name, and may have more robots."""
-        from serendipity.model.answers.words import told
-
-        return told(self)
+        """The lines that ``plan`` prints, but for what only its task knows: its name, and more robots."""
+        robots = _robots(self)
+        if self.goals is not None:
+            yield from for_goals(self)
+            return
+        yield Line(team(self.human, robots))
+        yield from opening(self, robots)
+        if self.policy is not None and self.plan is None:
+            yield from (Line(), *self.policy.told(), Line())
+        yield from map(Line, closing(self))
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield repr(self.status)
         yield self.mode
         helped = f" -> {plain(self.cost)}" if self.opportunity else ""
         yield f"{self.human}: {plain(self.human_cost)}{helped}"
         if self.window is not None:
             yield f"window [{self.window.start}, {self.window.end})"
-
-    def _parts(self) -> dict[str, Any]:
-        """What stands in ``statistics`` in JSON beside the figures."""
-        parts: dict[str, Any] = {}
-        if self.gap is not None:
-            parts["gap"] = [entry.to_dict() for entry in self.gap]
-        if self.ties is not None:
-            parts["ties"] = [answer.to_dict() for answer in self.ties]
-        if self.optimal_plans is not None:
-            parts["optimal_plans"] = self.optimal_plans
-        if self.bounds is not None:
-            parts["bounds"] = bounds_to_dict(self.bounds)
-        if self.recognition is not None:
-            parts["recognition"] = self.recognition.to_dict()
-        if self.goals is not None:
-            parts["goals"] = [goal.to_dict() for goal in self.goals]
-        return parts
 
     @classmethod
     def from_dict(cls, data: Any, file: object = None) -> "Result":
@@ -175,7 +128,10 @@ class Result(Tabular, Told):
             InputError: another schema, a missing field, a value of the wrong type, a
                 number that is not finite or is negative, an epoch out of range.
         """
-        return _Reader(data, file).result()
+        try:
+            return cls(**fields_of(cls, data))
+        except MalformedError as error:
+            raise InputError(f"result: {error}", file) from None
 
     def checked(self) -> "Result":
         """This result as its JSON would be read: for results that somebody made by hand.
@@ -187,118 +143,190 @@ class Result(Tabular, Told):
             data = self.to_dict()
         except (AttributeError, TypeError, ValueError) as error:
             raise InputError(f"result: a field is of another type: {error}") from None
-        return replace(_Reader(data, None).result(), options=self.options)
+        return replace(Result.from_dict(data), options=self.options)
 
 
-class _Reader(StepReader):
-    """Reads a result object field by field, with one clear line for what is wrong."""
+form(Result, FORMS)
 
-    def __init__(self, data: Any, file: object) -> None:
-        super().__init__(file)
-        if not isinstance(data, dict):
-            raise self.error(f"expected a JSON object, got {type(data).__name__}")
-        if fault := schema_fault(data.get("schema"), SCHEMA):
-            raise self.error(fault)
-        try:
-            self.data = with_exact(data, data.get("exact", {}), "exact")
-        except MalformedError as error:
-            raise self.error(str(error)) from None
 
-    def result(self) -> Result:
-        options = self._options()
-        status = self._text("status")
-        if status not in STATUSES:
-            raise self.error(f"status: expected one of {', '.join(STATUSES)}, got {status!r:.50}")
-        mode = self._text("mode")
-        if mode != options.mode:
-            raise self.error(f"mode: is {mode!r:.50}, but '{options.mode}' in the options")
-        parts, statistics, malformed = read_parts(self._mapping("statistics"))
-        return Result(
-            mode=mode,
-            status=status,
-            human=self._text("human"),
-            options=options,
-            human_plan=self._names("human_plan"),
-            human_cost=self._number("human_cost"),
-            opportunity=self._flag("opportunity"),
-            cost=self._number("cost"),
-            saving=self._number("saving", signed=True),
-            objective=self._number("objective"),
-            lower_bound=self._number("lower_bound"),
-            horizon=self._horizon(),
-            window=self.window(self._field("window")),
-            reason=self._optional_text("reason"),
-            saving_alone=self._number("saving_alone"),
-            plan=self.plan(self._field("plan")),
-            agent_costs=self._costs("agent_costs"),
-            realised=self._verdicts("realised"),
-            statistics=statistics,
-            policy=self._policy(),
-            malformed=malformed,
-            version=self._optional_text("version") if "version" in self.data else None,
-            **parts,
-        )
+def _robots(result: Result) -> list[str]:
+    """The robots that a result names."""
+    named = [*result.agent_costs, *(agent for step in result.plan or () for agent in step.agents)]
+    return [agent for agent in dict.fromkeys(named) if agent != result.human]
 
-    def _field(self, key: str) -> Any:
-        if key not in self.data:
-            raise self.error(f"the field '{key}' is missing")
-        return self.data[key]
 
-    def _text(self, key: str) -> str:
-        value = self._field(key)
-        if not isinstance(value, str):
-            raise self.error(f"{key}: expected a text, got {value!r:.50}")
-        return value
+def opening(result: Result, robots: Sequence[str]) -> Iterator[Line | Grid]:
+    """The headlines of an answer, and the plan in parallel columns."""
+    yield from map(Line, _headlines(result))
+    if result.plan is not None and (result.plan or result.human_plan):
+        yield from (Line(), _columns(result, robots), Line())
 
-    def _optional_text(self, key: str) -> str | None:
-        return None if self._field(key) is None else self._text(key)
 
-    def _flag(self, key: str) -> bool:
-        value = self._field(key)
-        if not isinstance(value, bool):
-            raise self.error(f"{key}: expected true or false, got {value!r:.50}")
-        return value
+def _headlines(result: Result) -> Iterator[str]:
+    yield f"{', '.join(_options(result.options))}: {_summary(result)}"
+    if result.human_plan == ():
+        yield f"{result.human}'s goal holds already, so there is nothing to help {result.human} with"
+    if result.mode == "assistance" and result.agent_costs:
+        yield _totals(result)
+    elif result.cost is not None and result.human_cost is not None:
+        yield _costs(result.human_cost, result.cost, result.saving if result.opportunity else None)
+    elif result.cost is not None:
+        yield f"cost {plain(result.cost)}"
+    if result.window is not None:
+        last = result.window.end - 1
+        epochs = f"epoch {last}" if len(result.window) == 1 else f"epochs {result.window.start} to {last}"
+        who = result.human
+        phases = f"before it {who} follows the former plan, after it {who} goes on alone"
+        yield f"window: {epochs} (marked *); {phases}"
 
-    def _number(self, key: str, *, signed: bool = False) -> float | None:
-        value = self._field(key)
-        return None if value is None else self.finite(value, key, signed=signed)
 
-    def _mapping(self, key: str) -> dict[str, Any]:
-        value = self._field(key)
-        if not isinstance(value, dict):
-            raise self.error(f"{key}: expected an object, got {value!r:.50}")
-        return value
+def _costs(before: float, after: float, saving: float | None) -> str:
+    """The costs without and with help, with as many digits as tell them apart."""
+    figures = plain(before), plain(after)
+    if saving and figures[0] == figures[1]:
+        figures = f"{before:.17g}", f"{after:.17g}"
+    if saving and figures[0] == figures[1]:
+        return f"cost {plain(before)}, saving {plain(saving)}"
+    return f"cost {figures[0]} -> {figures[1]}{f', saving {plain(saving)}' if saving else ''}"
 
-    def _verdicts(self, key: str) -> dict[str, bool]:
-        verdicts = self._mapping(key)
-        if not all(isinstance(verdict, bool) for verdict in verdicts.values()):
-            raise self.error(f"{key}: expected true or false for each human model")
-        return verdicts
 
-    def _costs(self, key: str) -> dict[str, float]:
-        return {name: self.finite(cost, f"{key}.{name}") for name, cost in self._mapping(key).items()}
+def _options(options: Options) -> Iterator[str]:
+    """The mode, and every option that is not the default."""
+    usual = Options()
+    yield options.mode
+    for option in fields(Options):
+        value = getattr(options, option.name)
+        if option.name != "mode" and value != getattr(usual, option.name):
+            shown = plain(value) if isinstance(value, Fraction | float) else str(value)
+            yield f"{option.name} {shown}"
 
-    def _names(self, key: str) -> tuple[str, ...] | None:
-        value = self._field(key)
-        if value is None:
-            return None
-        read = names(value)
-        if read is None or not isinstance(value, list):
-            raise self.error(f"{key}: expected a list of action names")
-        return read
 
-    def _options(self) -> Options:
-        try:
-            return Options.from_dict(self._mapping("options"))
-        except UsageError as error:
-            raise self.error(str(error)) from None
+def _summary(result: Result) -> str:
+    if result.status == "infeasible":
+        return f"infeasible (proved): {_REASONS.get(result.reason or '', result.reason or 'no plan')}"
+    if result.status == "unknown":
+        return f"{'interrupted' if result.reason == 'cancelled' else 'the limit came'} before any answer"
+    proof = "proved to be the best" if result.status == "optimal" else _gap(result)
+    if result.opportunity:
+        return f"an opportunity, {proof}"
+    if result.mode in ("serendipity", "communication"):
+        return f"no opportunity, {proof}" if result.status == "feasible" else "no opportunity (proved)"
+    return f"a plan, {proof}"
 
-    def _horizon(self) -> Horizon | None:
-        value = self._field("horizon")
-        if value is None or value == "inf":
-            return value  # type: ignore[no-any-return]
-        return 0 if value == 0 and not isinstance(value, bool) else self.epoch(value, "horizon")
 
-    def _policy(self) -> Policy | None:
-        value = self.data.get("policy")  # only answers of mode assistance need to have one
-        return None if value is None else Policy.from_dict(value, self.file)
+def _gap(result: Result) -> str:
+    known = f": {_least_cost(result)}" if result.lower_bound else ""
+    return f"not proved to be the best{known}"
+
+
+def _least_cost(result: Result) -> str:
+    """The lower bound of an unproved answer as a bound on costs: without the price of the window itself."""
+    assert result.lower_bound is not None
+    bound, weight = as_written(result.lower_bound), result.options.window_weight
+    paid = "paid, announcements included" if result.options.communication_weight else "paid"
+    if result.window is None or not result.options.windowed:
+        return f"at least {plain(bound)} has to be {paid}"
+    if weight <= (result.human_cost or 0):  # costs may outweigh windows: no figure without both
+        return f"no less than {plain(bound)} is possible, with {plain(weight)} for each epoch of a window"
+    epochs = max(1, min(int(bound / weight), len(result.window)))
+    least = plain(max(bound - epochs * weight, Fraction(0)))
+    if epochs == len(result.window):
+        return f"at least {least} has to be {paid}"
+    return f"in a window of {epochs} epoch{'s' if epochs > 1 else ''}, at least {least} has to be {paid}"
+
+
+def _columns(result: Result, robots: Sequence[str]) -> Grid:
+    """Epochs down, agents across; a joint action stands in each participant's column."""
+    agents = [result.human, *robots]
+    former = result.human_plan or ()
+    steps = {(step.epoch, agent): step.action for step in result.plan or () for agent in step.agents}
+    changed = tuple(step.action for step in result.plan or () if result.human in step.agents) != former
+    inside = range(0) if result.window is None else range(result.window.start, result.window.end)
+    epochs = range(1, max([epoch for epoch, _ in steps] + [len(former)]) + 1)
+    rows = []
+    for epoch in epochs:
+        row = [f"{'* ' if epoch in inside else ''}{epoch}", *(steps.get((epoch, a), "") for a in agents)]
+        if changed:
+            row += former[epoch - 1 : epoch]
+        rows.append(row)
+    costs = ["cost", *(plain(result.agent_costs[a]) if a in result.agent_costs else "" for a in agents)]
+    if changed and result.human_cost is not None:
+        costs.append(plain(result.human_cost))
+    header = ["epoch", *agents, *([f"{result.human}'s former plan"] if changed else [])]
+    return Grid(header, [*rows, costs], frozenset(epoch - 1 for epoch in inside), numbered=True)
+
+
+def closing(result: Result) -> Iterator[str]:
+    """The last lines of an answer: ties, verdicts on humans who replan, time."""
+    if result.saving_alone:
+        yield f"{result.human} could save {plain(result.saving_alone)} alone: the given plan is not the best"
+    elif _may_be_dear(result):
+        yield f"{result.human} may have a cheaper plan alone: this one is not proved to be the best"
+    if result.ties and result.optimal_plans is None:
+        yield f"no other plan of the human's was looked at ({result.options.ties})"
+    elif result.ties:
+        helped = sum(tie.opportunity for tie in result.ties)
+        many = f"{len(result.ties)} optimal plan{'s' if len(result.ties) > 1 else ''} of the human"
+        yield f"{many}, an opportunity with {helped} ({result.options.ties})"
+    for model, realised in sorted(result.realised.items()):
+        article = "an" if model[0] in "aeiou" else "a"
+        yield f"with {article} {model} human the plan {'works out' if realised else 'does not work out'}"
+    elapsed, expanded = result.figure("elapsed_seconds"), result.figure("expanded")
+    if elapsed is not None:
+        yield f"planned in {plain_seconds(elapsed)}" + (f", {expanded} nodes expanded" if expanded else "")
+
+
+def _may_be_dear(result: Result) -> bool:
+    """Whether it is not known what the human could save alone, though nobody's goals stand against that."""
+    compared = result.human_plan is not None and result.saving is not None and result.mode != "individual"
+    return compared and result.status == "feasible" and result.saving_alone is None
+
+
+def _totals(result: Result) -> str:
+    """Both totals of semantics 7, and what the human pays alone."""
+    unknown = result.status == "feasible" and result.human_plan is None  # what the human pays alone
+    idle = result.plan is None and result.policy is not None and not result.policy.decisions
+    pays = "pays at most" if unknown and idle else "pays"
+    paid = ", ".join(f"{agent} {pays} {plain(cost)}" for agent, cost in result.agent_costs.items())
+    mean = " on average" if result.options.ties == "expected" else ""
+    alone = "" if result.human_cost is None else f"; alone {result.human} pays {plain(result.human_cost)}"
+    return f"{paid}{mean}{alone}"
+
+
+def for_goals(result: Result) -> Iterator[Line | Grid]:
+    """The robots' plan, and what happens for each goal that is considered."""
+    if result.status == "unknown":
+        yield Line("the limit came before any answer")
+        return
+    entries = result.goals or ()
+    if result.recognition is not None and not result.recognition.explained:
+        yield Line(UNEXPLAINED)
+    if result.cost is None:
+        why = result.reason or result.status
+        yield Line(f"no plan: {result.human} can reach none of the goals alone ({why})")
+        return
+    weight = plain(result.options.window_weight)
+    gap = f"not proved; at least {plain(result.lower_bound)}, with {weight} for each epoch of a window"
+    proof = "proved" if result.status == "optimal" else gap
+    if not result.opportunity:
+        yield Line(f"the robots leave {result.human} alone: expected cost {plain(result.cost)} ({proof})")
+    else:
+        saving = f"{plain(result.saving)} less than {plain(result.human_cost)}"
+        yield Line(f"expected cost {plain(result.cost)}, {saving} ({proof})")
+    yield Line()
+    header = ("probability", "cost", "window", "goal")
+    rows = [
+        (f"{entry.probability:.4f}", plain(entry.cost), _window(entry.window), entry.name)
+        for entry in entries
+    ]
+    yield Grid(header, rows, numbered=True)
+    if result.plan:
+        yield Line()
+        who = "everybody does" if len(entries) == 1 else "whatever the goal is, robots do"
+        yield Line(f"{who}:")
+        steps = [(str(step.epoch), ", ".join(step.agents), step.action) for step in result.plan]
+        yield Grid(("epoch", "agents", "action"), steps, numbered=True)
+
+
+def _window(window: Window | None) -> str:
+    return "-" if window is None else f"[{window.start}, {window.end})"

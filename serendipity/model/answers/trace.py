@@ -1,13 +1,14 @@
 """A simulation told epoch by epoch: what the human saw, expected and did, and what did not happen."""
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Final
 
+from serendipity.model.answers.fields import written
 from serendipity.model.errors import limit_words
 from serendipity.model.numbers import plain
 from serendipity.model.task.plans import PlanStep
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.trace/1"
 
@@ -16,7 +17,7 @@ WHY: Final = {
     "conflict": "it gets in the way of another action",
     "refused": "it would cost the human more than going on alone",
 }
-"""Why a step of the plan does not happen, in words."""
+"""Reasons why a step of the plan does not happen, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +69,7 @@ class TraceEpoch:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Trace(Told):
+class Trace(Output):
     """A plan played against a human who replans (semantics 6).
 
     Attributes:
@@ -102,8 +103,7 @@ class Trace(Told):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        plain: dict[str, Any] = _plain(asdict(self))
-        return {"schema": SCHEMA, "complete": self.complete, **plain}
+        return {"schema": SCHEMA, "complete": self.complete, **written(self)}
 
     def lines(self) -> Iterator[str]:
         """The story in words, a line for each thing that happened."""
@@ -121,16 +121,11 @@ class Trace(Told):
                 yield f"  does not happen: {skip.action} ({WHY[skip.why]})"
         yield self._verdict()
 
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
-
     def told(self) -> Iterator[Line | Grid]:
-        """What ``simulate`` prints."""
+        """The lines that ``simulate`` prints."""
         return map(Line, self.lines())
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield self.human
         yield f"{len(self.epochs)} epochs"
         yield self._verdict()
@@ -151,10 +146,3 @@ class Trace(Told):
         if self.realised:
             return f"realised with the {self.human_model} human: {costs}"
         return f"not realised with the {self.human_model} human: {self.reason} ({costs})"
-
-
-def _plain(value: Any) -> Any:
-    """Tuples as lists, all the way down."""
-    if isinstance(value, dict):
-        return {key: _plain(inner) for key, inner in value.items()}
-    return [_plain(inner) for inner in value] if isinstance(value, tuple | list) else value

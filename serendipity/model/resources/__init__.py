@@ -1,1 +1,1 @@
-"""What a call may use: time and memory, and how they are watched."""
+"""Limits on time and memory, and how they are kept."""

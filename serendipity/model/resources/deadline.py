@@ -1,4 +1,4 @@
-"""How long and in how much memory a call may work: polled often, and cheaply.
+"""Limits on time and memory of a call: polled often, and cheaply.
 
 Reading, searching and verifying share this, and nothing else, with each other.  It is no risk to
 the verifier's independence: all that a deadline can do is to leave a claim undecided.
@@ -109,12 +109,12 @@ class Deadline:
         if not self._ticks & _EVERY:
             self.check()
 
-    def each(self, items: Iterable[T]) -> Iterator[T]:
-        """The items, with a :meth:`check` before every 64 of them: for long loops and comprehensions."""
+    def each(self, items: Iterable[T], batch: int = _BATCH) -> Iterator[T]:
+        """The items, with a :meth:`check` before each batch of them: for long loops and comprehensions."""
         source = iter(items)
-        while batch := tuple(islice(source, _BATCH)):
+        while some := tuple(islice(source, batch)):
             self.check()
-            yield from batch
+            yield from some
 
     def check(self) -> None:
         """Return while there is time and memory.

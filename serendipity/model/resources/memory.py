@@ -1,4 +1,4 @@
-"""How much memory this process uses, and how much more there is."""
+"""Memory that this process uses, and that is left to it."""
 
 import sys
 from pathlib import Path
@@ -15,7 +15,7 @@ _MEMINFO: Final = Path("/proc/meminfo")
 _CGROUP: Final = Path("/sys/fs/cgroup")
 
 _SHARE: Final = 0.9
-"""What of the machine's free memory is ours to take."""
+"""The share of the machine's free memory that is ours to take."""
 
 
 def resident(pid: int | None = None) -> int | None:

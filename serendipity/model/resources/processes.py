@@ -46,7 +46,7 @@ def in_processes(
 
 
 def _in_pool(work: Callable[[A], B], left: list[A], workers: int) -> Generator[B, None, bool]:
-    """What assignments come to, each of which is taken off the list; whether a process was killed."""
+    """The results of assignments, each taken off the list; returns whether a process was killed."""
     # Not forked: a thread of the progress display may hold a lock at that moment.
     context = multiprocessing.get_context("spawn")
     wanted, ours = context.Pipe(duplex=False)

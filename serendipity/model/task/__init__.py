@@ -1,1 +1,1 @@
-"""What is asked about: facts, actions, variables, the task, plans of it and what they mean."""
+"""The planning task: facts, actions, variables, the task, plans of it and what they mean."""

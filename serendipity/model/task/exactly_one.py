@@ -1,4 +1,4 @@
-"""Who makes facts true and who consumes them, and whether groups of facts are exactly-one under that."""
+"""Actions that make facts true or consume them, and the groups of facts that are exactly-one under these."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -10,7 +10,7 @@ from serendipity.model.task.actions import GroundAction
 
 
 class Balance:
-    """What ground actions do to facts, by fact.
+    """The effects of ground actions, by fact.
 
     An action *consumes* the facts that it needs and deletes.  Everything is linear in the
     number of actions that touch a group.

@@ -1,4 +1,4 @@
-"""What the steps of a plan mean: the action of a name, who takes part, who pays what (semantics 1, 2).
+"""The steps of a plan: the action of a name, its participants, the cost of each agent (semantics 1, 2).
 
 Written once for everything around the planner, as :func:`.actions.apply` is.  The verifier uses
 neither: it executes plans with code of its own.
@@ -55,7 +55,7 @@ def actions_of(task: Task, steps: Iterable[Step]) -> Iterator[GroundAction]:
 
 
 def shares(task: Task, actions: Iterable[GroundAction], discount: Fraction) -> dict[int, Fraction]:
-    """What each agent contributes, by id: a joint action's cost to the team is shared equally."""
+    """The cost of each agent, by id: a joint action's cost to the team is shared equally."""
     found = dict.fromkeys(range(len(task.agents)), Fraction(0))
     alike: dict[tuple[int, ...], list[Fraction]] = {}
     for action in actions:

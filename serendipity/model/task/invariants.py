@@ -1,7 +1,7 @@
 """Exactly-one groups by the form of the facts' names: ``on b *``, ``ontable b`` and ``holding * b``.
 
 Facts are named ``predicate argument ...`` where a task comes from PDDL.  A *candidate* is a set
-of parts (a predicate and one of its positions); its *instance* for an object has the facts
+of slots (a predicate and one of its positions); its *instance* for an object has the facts
 with that object there.  Candidates are found as in the invariant synthesis of Helmert (2009):
 from single parts, by adding what an action that unbalances an instance takes or gives for it.
 That is decided on one action of each form and only suggests groups: each is then
@@ -21,7 +21,7 @@ from serendipity.model.task.grown_groups import Group
 _MAX_CANDIDATES: Final = 300
 
 
-class Part(NamedTuple):
+class Slot(NamedTuple):
     """Facts of a predicate, told apart by what stands at a position.
 
     Attributes:
@@ -33,16 +33,16 @@ class Part(NamedTuple):
     position: int
 
 
-Candidate = frozenset[Part]
+Candidate = frozenset[Slot]
 """Parts of different predicates."""
 
-_Facts = Mapping[int, frozenset[Part]]
+_Facts = Mapping[int, frozenset[Slot]]
 """Facts that mention an object, each with the parts by which it does."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Change:
-    """What an action does to the facts that mention an object.
+    """The changes of an action to the facts that mention an object.
 
     Attributes:
         needs: what has to be true.
@@ -63,7 +63,7 @@ class _Change:
             return len(added) > 1 or (needed != added and not (needed and needed <= deleted))
         return bool(deleted) and (not needed or needed <= deleted)
 
-    def repairs(self, candidate: Candidate) -> frozenset[Part]:
+    def repairs(self, candidate: Candidate) -> frozenset[Slot]:
         """Parts of other predicates each of which may balance it; none where nothing can."""
         needed, added, _ = self._of(candidate)
         if len(added) == 1 and not needed:
@@ -135,15 +135,15 @@ def _mentioning(thing: str, facts: Iterable[int], atoms: Sequence[_Atom]) -> _Fa
     found = {}
     for fact in facts:
         predicate, arguments = atoms[fact]
-        parts = frozenset(Part(predicate, i) for i, argument in enumerate(arguments) if argument == thing)
+        parts = frozenset(Slot(predicate, i) for i, argument in enumerate(arguments) if argument == thing)
         if parts:
             found[fact] = parts
     return found
 
 
-def _by_part(changes: Iterable[_Change]) -> dict[Part, list[_Change]]:
-    """Which changes add or delete what is of a part."""
-    found: dict[Part, list[_Change]] = {}
+def _by_part(changes: Iterable[_Change]) -> dict[Slot, list[_Change]]:
+    """The changes that add or delete facts of each part."""
+    found: dict[Slot, list[_Change]] = {}
     for change in changes:
         parts = frozenset().union(*change.adds.values(), *change.deletes.values())
         for part in parts:
@@ -151,7 +151,7 @@ def _by_part(changes: Iterable[_Change]) -> dict[Part, list[_Change]]:
     return found
 
 
-def _balanced(changes: Mapping[Part, Sequence[_Change]], deadline: Deadline) -> Iterator[Candidate]:
+def _balanced(changes: Mapping[Slot, Sequence[_Change]], deadline: Deadline) -> Iterator[Candidate]:
     """Candidates that no example unbalances, smaller ones first."""
     pending = deque(frozenset((part,)) for part in sorted(changes))
     seen = set(pending)

@@ -42,7 +42,7 @@ class ActionNames(Mapping[str, tuple[int, ...]]):
 
 
 def no_fact(name: str, facts: Iterable[str]) -> str:
-    """What to say of a fact that there is none of: a few that are called much like it come with it."""
+    """The message that there is no such fact, with a few that are called much like it."""
     by_predicate: dict[str, list[str]] = {}
     for fact in facts:
         by_predicate.setdefault(fact.partition(" ")[0], []).append(fact)

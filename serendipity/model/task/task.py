@@ -90,7 +90,7 @@ class Task(Told):
         object.__setattr__(self, "variables", known_variables)
 
     def told(self) -> Iterator[Line | Grid]:
-        """Who and what there is, and what is to be reached."""
+        """The agents, the size of the task, and its goals."""
         human, robots = self.agents[self.human], [self.agents[i] for i in self.robots]
         yield Line(f"{self.name}: {team(human, robots)}")
         yield Line(
@@ -103,7 +103,6 @@ class Task(Told):
         yield from map(Line, self.warnings)
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield repr(self.name)
         yield f"{len(self.agents)} agents"
         yield f"{len(self.facts)} facts"
@@ -125,7 +124,7 @@ class Task(Told):
         return ActionNames(self.actions)
 
     def team_cost(self, action: GroundAction, discount: Fraction) -> Fraction:
-        """What an action costs the team: full with the human, else discounted (semantics 1)."""
+        """The cost of an action to the team: full with the human, else discounted (semantics 1)."""
         return action.cost if self.human in action.participants else action.cost * (1 - discount)
 
     def replay_alone(self, plan: HumanPlan) -> list[frozenset[int]]:
@@ -212,7 +211,7 @@ class Task(Told):
         return tuple(found)
 
     def names(self, plan: HumanPlan) -> frozenset[str]:
-        """What a plan consists of, by name: actions of one name are variants of one (see the class)."""
+        """The names of a plan's actions: actions of one name are variants of one (see the class)."""
         return frozenset(self.actions[i].name for i in plan)
 
     def cost_of(self, plan: HumanPlan) -> Fraction:

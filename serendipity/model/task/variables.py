@@ -83,5 +83,5 @@ def _by_form_first(facts: Sequence[str], balance: Balance, deadline: Deadline) -
 
 
 def _spared(groups: Sequence[Group]) -> int:
-    """How many variables fewer there are than facts."""
+    """The number of facts less the number of variables."""
     return sum(len(group) - 1 for group in groups)

@@ -1,4 +1,4 @@
-"""What an agent can see from where it is (semantics 6, the ``local`` human).
+"""Facts that an agent sees from where it is (semantics 6, the ``local`` human).
 
 *Parts* of a fact: its PDDL arguments; of a name without blanks, as in ground files,
 everything between ``_``.  A *location fact* says where somebody or something is: its

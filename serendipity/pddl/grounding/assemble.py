@@ -116,7 +116,7 @@ def _grounded(blueprint: Blueprint, relations: Relations, work: Work) -> tuple[d
     """Ids of facts, and the ground actions in which somebody takes part."""
     instantiator = Instantiator(relations, _values(blueprint.sources), work)
     for source in blueprint.sources:
-        for schema in work.each(source.schemas):
+        for schema in work.deadline.each(source.schemas, 1):
             instantiator.ground(schema, source.unit, source.participants, source.actors)
     return instantiator.facts, _owned(instantiator.blocks(), blueprint, work)
 
@@ -136,7 +136,7 @@ def _owned(blocks: Iterable[Block], blueprint: Blueprint, work: Work) -> list[Bl
     """The actions in which somebody takes part; a warning for the others, those that only wait aside."""
     reasons: Counter[str] = Counter()
     owned = []
-    for block in work.each(blocks):
+    for block in work.deadline.each(blocks, 1):
         if not all(block.participants):
             others = (r.key for r in block.records() if not r.participants and any(r[2:6]))
             reasons.update(map(blueprint.left_out, others))
@@ -154,7 +154,7 @@ def _numbered(
     robot_goals: Sequence[Goal],
     work: Work,
 ) -> Numbering:
-    """What can be executed, in its final order; goals lose what is known of them."""
+    """The executable actions in their final order; goals lose what is known of them."""
     goals = (goal, *robot_goals)
     for literal in chain.from_iterable(one.named() for one in goals):
         _ = facts[literal.key]  # has an id from here on

@@ -31,7 +31,7 @@ class Column(NamedTuple):
         return Column(self.table, [*compress(self.places, chosen)])
 
 
-class Record(NamedTuple):
+class Grounded(NamedTuple):
     """One ground action; see :class:`Block`."""
 
     key: Key
@@ -87,13 +87,13 @@ class Block:
             [*compress(self.costs, chosen)],
         )
 
-    def records(self) -> Iterator[Record]:
+    def records(self) -> Iterator[Grounded]:
         """The actions, one by one."""
         rows = (column.rows() for column in self.conditions)
-        return map(Record, self.keys, self.participants, *rows, self.costs)
+        return map(Grounded, self.keys, self.participants, *rows, self.costs)
 
 
-def block_of(records: Sequence[Record]) -> Block:
+def block_of(records: Sequence[Grounded]) -> Block:
     """The block of some actions: what :meth:`Block.records` gives back."""
     everything = range(len(records))
     return Block(

@@ -4,16 +4,16 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 from serendipity.model import InputError
-from serendipity.pddl.grounding.blocks import Record
+from serendipity.pddl.grounding.blocks import Grounded
 from serendipity.pddl.grounding.join import Relations
-from serendipity.pddl.grounding.normal import MAX_CASES, Clause, Disjuncts, Operator, TooManyCasesError
+from serendipity.pddl.grounding.normal import MAX_CASES, Clause, Disjuncts, Lifted, TooManyCasesError
 from serendipity.pddl.grounding.quantifiers import ground_key, substitute
 from serendipity.pddl.parsing.lifted import Key, Literal, Unit
 from serendipity.pddl.parsing.tree import quoted
 from serendipity.pddl.work import Work
 
 Values = dict[str, str]
-"""Of an operator's variables."""
+"""Of a lifted action's variables."""
 
 
 class Cases:
@@ -24,14 +24,19 @@ class Cases:
     """
 
     def __init__(
-        self, operator: Operator, unit: Unit, relations: Relations, facts: defaultdict[Key, int], work: Work
+        self,
+        lifted: Lifted,
+        unit: Unit,
+        relations: Relations,
+        facts: defaultdict[Key, int],
+        work: Work,
     ) -> None:
-        self.operator = operator
+        self.lifted = lifted
         self.unit = unit
         self.facts = facts
         self.disjuncts = Disjuncts(unit, relations.decide, work)
 
-    def expanded(self, records: Iterable[Record], bindings: Iterable[Values]) -> Iterator[Record]:
+    def expanded(self, records: Iterable[Grounded], bindings: Iterable[Values]) -> Iterator[Grounded]:
         """The cases of records and the values of their variables.
 
         Raises:
@@ -43,11 +48,11 @@ class Cases:
             except TooManyCasesError:
                 raise self._error(record, "conditions") from None
 
-    def _cases(self, record: Record, values: Values) -> list[Record]:
-        choices = self.disjuncts.of_all(substitute(choice, values) for choice in self.operator.choices)
+    def _cases(self, record: Grounded, values: Values) -> list[Grounded]:
+        choices = self.disjuncts.of_all(substitute(choice, values) for choice in self.lifted.choices)
         cases = [case for choice in choices if (case := self._with(record, choice)) is not None]
         effects: dict[Clause, list[Literal]] = {}
-        for condition, literal in self.operator.conditional:
+        for condition, literal in self.lifted.conditional:
             ground = Literal(ground_key(literal.key, values), literal.positive)
             for clause in self.disjuncts.of(substitute(condition, values)):
                 effects.setdefault(clause, []).append(ground)
@@ -57,13 +62,13 @@ class Cases:
                 raise self._error(record, "conditional effects")
         return cases
 
-    def _with(self, record: Record, clause: Clause) -> Record | None:
-        case: Record | None = record
+    def _with(self, record: Grounded, clause: Clause) -> Grounded | None:
+        case: Grounded | None = record
         for literal in sorted(clause):
             case = None if case is None else _assume(case, self.facts[literal.key], literal.positive)
         return case
 
-    def _split(self, case: Record, clause: Clause, then: Iterable[Literal]) -> Iterator[Record]:
+    def _split(self, case: Grounded, clause: Clause, then: Iterable[Literal]) -> Iterator[Grounded]:
         """The condition false at its first literal, at its second, ..., or true."""
         for literal in sorted(clause):
             fact = self.facts[literal.key]
@@ -78,13 +83,13 @@ class Cases:
         delete = tuple([self.facts[literal.key] for literal in then if not literal.positive])
         yield case._replace(add=case.add + add, delete=case.delete + delete)
 
-    def _error(self, record: Record, what: str) -> InputError:
+    def _error(self, record: Grounded, what: str) -> InputError:
         name = quoted(" ".join(record.key))
         message = f"action {name}: more than {MAX_CASES} cases of its {what} are not supported"
-        return self.unit.domain_error(message, self.operator.schema.line)
+        return self.unit.domain_error(message, self.lifted.schema.line)
 
 
-def _assume(record: Record, fact: int, truth: bool) -> Record | None:
+def _assume(record: Grounded, fact: int, truth: bool) -> Grounded | None:
     """The record with one more precondition, or None where it contradicts the others."""
     if fact in (record.neg if truth else record.pre):
         return None

@@ -1,4 +1,4 @@
-"""What ground actions cost.
+"""Costs of ground actions.
 
 A cost may be missing for arguments that no action ever has, for values are given only where they
 make sense (distances between neighbours, say).  So what is wrong with a cost is told only of
@@ -23,7 +23,7 @@ NOTHING: Final = Fraction(0)
 
 @dataclass(frozen=True, slots=True)
 class BadCost:
-    """What is wrong with the cost of an action."""
+    """A fault in the cost of an action."""
 
     problem: str
     unit: Unit

@@ -112,7 +112,7 @@ class _Compiled:
         """A new fact that says whether the disjunction holds."""
         fact = len(self.task.facts) + len(self.extra)
         name = f"either {' or '.join(map(self._text, disjunction))} holds"
-        polled = self.work.polled
+        polled = self.work.deadline.each
         making = [i for i, action in enumerate(polled(self.actions)) if _makes(action, disjunction, True)]
         changing = [i for i, action in enumerate(polled(self.actions)) if _makes(action, disjunction, False)]
         undoing = sorted({*changing}.difference(making))

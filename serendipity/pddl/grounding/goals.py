@@ -86,7 +86,7 @@ def read_goal(unit: Unit, relations: Relations, work: Work) -> Goal:
     require_literals(instances(formula, unit), place, work)
     reader.collect(formula)
     literals = reader.goal.literals
-    if any(not literal.positive and literal.opposite in literals for literal in work.polled(literals)):
+    if any(not literal.positive and literal.opposite in literals for literal in work.deadline.each(literals)):
         raise reader.never()
     return reader.goal
 

@@ -1,4 +1,4 @@
-"""Operators to ground actions: names, fact ids, costs.
+"""Lifted actions to ground actions: names, fact ids, costs.
 
 Columns of them are built by C loops (``map``, ``zip``): at 100,000 actions a Python loop
 for each would cost seconds.
@@ -12,11 +12,11 @@ from itertools import chain, count
 from typing import Final
 
 from serendipity.model.errors import LIMITS
-from serendipity.pddl.grounding.blocks import Block, Column, Ids, Record, block_of
+from serendipity.pddl.grounding.blocks import Block, Column, Grounded, Ids, block_of
 from serendipity.pddl.grounding.cases import Cases
 from serendipity.pddl.grounding.costs import Costs
 from serendipity.pddl.grounding.join import Relations, bindings
-from serendipity.pddl.grounding.normal import Operator, operator
+from serendipity.pddl.grounding.normal import Lifted, lifted_of
 from serendipity.pddl.grounding.product import Product
 from serendipity.pddl.grounding.quantifiers import ground_key
 from serendipity.pddl.parsing.lifted import Key, Schema, Unit
@@ -59,7 +59,7 @@ class Instantiator:
         self._costs = Costs(values)
         self.facts: defaultdict[Key, int] = defaultdict(count().__next__)
         self._blocks: list[Block] = []
-        self._records: list[Record] = []
+        self._records: list[Grounded] = []
         self._count = 0
 
     def ground(
@@ -82,7 +82,7 @@ class Instantiator:
             LimitReachedError: there are more ground actions than fit into memory.
         """
         try:
-            lifted = operator(schema, unit, self.work)
+            lifted = lifted_of(schema, unit, self.work)
             product = bindings(lifted, unit, self.relations, self.work, actors)
         except LIMITS:
             name = quoted(schema.name)
@@ -105,19 +105,19 @@ class Instantiator:
         if not before or before // _LARGE < self._count // _LARGE:
             self.work.stage(f"grounding, {self._count:,} ground actions so far")
 
-    def _ground(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> None:
+    def _ground(self, lifted: Lifted, unit: Unit, participants: Participants, product: Product) -> None:
         self._tell(product.size)
-        if operator.conditional or operator.choices:
-            cases = Cases(operator, unit, self.relations, self.facts, self.work)
-            records = self._block(operator, unit, participants, product).records()
-            for record in self.work.polled(cases.expanded(records, product)):
+        if lifted.conditional or lifted.choices:
+            cases = Cases(lifted, unit, self.relations, self.facts, self.work)
+            records = self._block(lifted, unit, participants, product).records()
+            for record in self.work.deadline.each(cases.expanded(records, product)):
                 self._add(record)
         elif product.everything:
-            self._blocks.append(self._block(operator, unit, participants, product))
+            self._blocks.append(self._block(lifted, unit, participants, product))
         elif product.size:  # in files that are ground already, there is nothing else
-            self._add(self._record(operator, unit, participants, product))
+            self._add(self._record(lifted, unit, participants, product))
 
-    def _add(self, record: Record) -> None:
+    def _add(self, record: Grounded) -> None:
         self._records.append(record)
         if len(self._records) >= _LARGE:
             self._make_block()
@@ -131,33 +131,33 @@ class Instantiator:
         """All ground actions so far."""
         return [*self._blocks, block_of(self._records)]
 
-    def _block(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Block:
+    def _block(self, lifted: Lifted, unit: Unit, participants: Participants, product: Product) -> Block:
         atoms = _Atoms(product, self.facts)
-        keys = atoms.of(schema_key(operator), product.everything)
-        pre, neg, add, delete = map(atoms.column, self._conditions(operator))
+        keys = atoms.of(schema_key(lifted), product.everything)
+        pre, neg, add, delete = map(atoms.column, self._conditions(lifted))
         who = [*participants(keys)]
-        return Block(keys, who, pre, neg, add, delete, self._costs.of(operator.schema, unit, product))
+        return Block(keys, who, pre, neg, add, delete, self._costs.of(lifted.schema, unit, product))
 
-    def _record(self, operator: Operator, unit: Unit, participants: Participants, product: Product) -> Record:
+    def _record(self, lifted: Lifted, unit: Unit, participants: Participants, product: Product) -> Grounded:
         values = product.fixed
-        key = ground_key(schema_key(operator), values)
+        key = ground_key(schema_key(lifted), values)
         pre, neg, add, delete = (
             tuple([self.facts[ground_key(atom, values)] for atom in atoms])
-            for atoms in self._conditions(operator)
+            for atoms in self._conditions(lifted)
         )
         (who,) = participants([key])
-        (cost,) = self._costs.of(operator.schema, unit, product)
-        return Record(key, who, pre, neg, add, delete, cost)
+        (cost,) = self._costs.of(lifted.schema, unit, product)
+        return Grounded(key, who, pre, neg, add, delete, cost)
 
-    def _conditions(self, operator: Operator) -> tuple[list[Key], list[Key], list[Key], list[Key]]:
+    def _conditions(self, lifted: Lifted) -> tuple[list[Key], list[Key], list[Key], list[Key]]:
         """The lifted atoms that must be true, must be false, become true, become false."""
         fluent = self.relations.fluent
-        needs = [literal for literal in operator.precondition if literal.key[0] in fluent]
+        needs = [literal for literal in lifted.precondition if literal.key[0] in fluent]
         return (
             [literal.key for literal in needs if literal.positive],
             [literal.key for literal in needs if not literal.positive],
-            [literal.key for literal in operator.effects if literal.positive],
-            [literal.key for literal in operator.effects if not literal.positive],
+            [literal.key for literal in lifted.effects if literal.positive],
+            [literal.key for literal in lifted.effects if not literal.positive],
         )
 
 
@@ -190,6 +190,6 @@ class _Atoms:
         return map(ids.__getitem__, self.product.index(part, whole))
 
 
-def schema_key(operator: Operator) -> Key:
-    """The lifted name of an operator's actions: name, declared parameters."""
-    return (operator.schema.name, *(p.name for p in operator.schema.parameters))
+def schema_key(lifted: Lifted) -> Key:
+    """The lifted name of a lifted action's actions: name, declared parameters."""
+    return (lifted.schema.name, *(p.name for p in lifted.schema.parameters))

@@ -1,4 +1,4 @@
-"""Bindings of an operator's variables, by joining over relations that can't grow.
+"""Bindings of a lifted action's variables, by joining over relations that can't grow.
 
 A precondition that no action ever makes true holds only for atoms of the initial
 state, so those atoms are joined like tables of a database; variables that no such
@@ -10,8 +10,8 @@ from math import prod
 from operator import itemgetter
 from typing import Any, Final
 
-from serendipity.pddl.grounding.normal import Disjuncts, Operator
-from serendipity.pddl.grounding.product import Product, Row, Table, combined
+from serendipity.pddl.grounding.normal import Disjuncts, Lifted
+from serendipity.pddl.grounding.product import Bindings, Product, Row, combined
 from serendipity.pddl.grounding.quantifiers import literals, substitute, variables
 from serendipity.pddl.parsing.lifted import EQUALITY, Formula, Key, Literal, Unit
 from serendipity.pddl.work import Work, about
@@ -80,7 +80,7 @@ class Relations:
 
 
 def bindings(
-    operator: Operator,
+    lifted: Lifted,
     unit: Unit,
     relations: Relations,
     work: Work,
@@ -89,7 +89,7 @@ def bindings(
     """All bindings under which the preconditions that can't change hold.
 
     Args:
-        operator: whose variables are bound.
+        lifted: whose variables are bound.
         unit: the files that it is from.
         relations: what holds initially.
         work: limits.
@@ -98,25 +98,25 @@ def bindings(
     Raises:
         LimitReachedError: tables of them don't fit into memory.
     """
-    join = _Join(operator, unit, relations, work)
+    join = _Join(lifted, unit, relations, work)
     if actors is not None:
-        join.restrict(operator.parameters[0].name, actors)
+        join.restrict(lifted.parameters[0].name, actors)
     return join.run()
 
 
 class _Join:
-    def __init__(self, operator: Operator, unit: Unit, relations: Relations, work: Work) -> None:
+    def __init__(self, lifted: Lifted, unit: Unit, relations: Relations, work: Work) -> None:
         self.relations = relations
         self.work = work
         self.unit = unit
-        self.schema = operator.schema
-        self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in operator.parameters}
-        self.joins = [lit for lit in operator.precondition if relations.joined(lit)]
-        self.filters: list[Formula] = [lit for lit in operator.precondition if relations.filtered(lit)]
-        if operator.choices:
-            self.filters += [choice for choice in operator.choices if relations.static(choice)]
+        self.schema = lifted.schema
+        self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in lifted.parameters}
+        self.joins = [lit for lit in lifted.precondition if relations.joined(lit)]
+        self.filters: list[Formula] = [lit for lit in lifted.precondition if relations.filtered(lit)]
+        if lifted.choices:
+            self.filters += [choice for choice in lifted.choices if relations.static(choice)]
         self.bound: set[str] = set()
-        self.tables: list[Table] = []
+        self.tables: list[Bindings] = []
 
     def restrict(self, name: str, values: frozenset[str]) -> None:
         """Let a variable be these values at most."""
@@ -129,14 +129,14 @@ class _Join:
             self._filter()
         for name, domain in self.domains.items():
             if name not in self.bound:
-                self._add(Table((name,), [(value,) for value in domain]))
+                self._add(Bindings((name,), [(value,) for value in domain]))
                 self._filter()
         return Product(self.tables)
 
     def _size(self) -> int:
         return prod(len(table.rows) for table in self.tables)
 
-    def _add(self, table: Table) -> None:
+    def _add(self, table: Bindings) -> None:
         self.tables.append(table)
         self.bound.update(table.variables)
 
@@ -149,7 +149,7 @@ class _Join:
         if len(taken) > 1:
             self._require(prod(len(table.rows) for table in taken), width)
         names, rows = combined(taken)
-        return names, self.work.polled(rows)
+        return names, self.work.deadline.each(rows)
 
     def _require(self, rows: int, width: int) -> None:
         if rows > _MANY:
@@ -172,7 +172,7 @@ class _Join:
 
     def _join(self, pattern: Key) -> None:
         names, rows = self._taken(pattern[1:])
-        table = Table(names, list(rows))
+        table = Bindings(names, list(rows))
         old: list[int] = []  # positions in the atom that the row or a constant decides
         source: list[int] = []
         fixed: list[tuple[int, str]] = []
@@ -191,7 +191,7 @@ class _Join:
         before, after = picker(old), picker(tuple(new.values()))
         checks = [(i, self.domains[term]) for term, i in new.items()]
         index: dict[Row, list[Row]] = {}
-        for atom in self.work.polled(self.relations.table(pattern[0])):
+        for atom in self.work.deadline.each(self.relations.table(pattern[0])):
             if (
                 all(atom[i] in domain for i, domain in checks)
                 and all(atom[i] == value for i, value in fixed)
@@ -201,15 +201,19 @@ class _Join:
         self._add(self._looked_up(table, picker(source), index, tuple(new)))
 
     def _looked_up(
-        self, table: Table, look_up: Callable[[Row], Row], index: dict[Row, list[Row]], new: tuple[str, ...]
-    ) -> Table:
+        self,
+        table: Bindings,
+        look_up: Callable[[Row], Row],
+        index: dict[Row, list[Row]],
+        new: tuple[str, ...],
+    ) -> Bindings:
         """The rows of a table, each with all that an index has for it."""
-        polled = self.work.polled
+        polled = self.work.deadline.each
         if len(table.rows) * max(map(len, index.values()), default=0) > _MANY:
             number = sum(len(index.get(look_up(row), ())) for row in polled(table.rows))
             self._require(number, len(table.variables) + len(new))
         rows = (row + more for row in polled(table.rows) for more in index.get(look_up(row), ()))
-        return Table((*table.variables, *new), list(polled(rows)))
+        return Bindings((*table.variables, *new), list(polled(rows)))
 
     def _filter(self) -> None:
         """Apply the filters whose variables are all bound by now."""
@@ -219,7 +223,7 @@ class _Join:
                 self.filters.remove(formula)
                 names, rows = self._taken(terms)
                 passes = self._test(formula, names)
-                self._add(Table(names, [row for row in rows if passes(row)]))
+                self._add(Bindings(names, [row for row in rows if passes(row)]))
 
     def _test(self, formula: Formula, names: tuple[str, ...]) -> Callable[[Row], bool]:
         """Whether a static condition holds for the values of some variables."""

@@ -1,6 +1,6 @@
-"""Schemas to operators, and conditions to disjunctive normal form.
+"""Schemas to lifted actions, and conditions to disjunctive normal form.
 
-What every way to do an action needs becomes the operator's precondition: ``forall``
+What every way to do an action needs becomes its precondition: ``forall``
 is a conjunction over the objects of the type, ``exists`` a parameter that the action's
 name does not show.  Disjunctions stay formulas; they are expanded for each ground
 action, when static facts have decided most of them.
@@ -55,7 +55,7 @@ class TooManyCasesError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Operator:
+class Lifted:
     """A schema whose conditions are sorted out.
 
     Attributes:
@@ -75,8 +75,8 @@ class Operator:
     conditional: tuple[tuple[Formula, Literal], ...] = ()
 
 
-def operator(schema: Schema, unit: Unit, work: Work) -> Operator:
-    """The operator of a schema over the objects of its own files.
+def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
+    """The lifted action of a schema over the objects of its own files.
 
     Raises:
         LimitReachedError: its quantifiers stand for more than fits into memory.
@@ -94,7 +94,7 @@ def operator(schema: Schema, unit: Unit, work: Work) -> Operator:
     needs = _Needs(unit, work)
     needs.collect(precondition)
     simple, conditional = _expand_effects(effects, unit, work)
-    return Operator(
+    return Lifted(
         schema,
         (*schema.parameters, *needs.hidden),
         tuple(needs.literals),
@@ -117,7 +117,7 @@ def require_literals(number: int, place: str, work: Work) -> None:
 
 
 def _expanded(formula: Formula, unit: Unit) -> int:
-    """How many literals a precondition comes to; what exists becomes a parameter."""
+    """The number of literals of a precondition; what exists becomes a parameter."""
     match formula:
         case And(parts) | Or((_,) as parts):
             return sum(_expanded(part, unit) for part in parts)
@@ -130,7 +130,7 @@ def _expanded(formula: Formula, unit: Unit) -> int:
 
 @dataclass(slots=True)
 class _Needs:
-    """What a condition needs in every case, and the choices that it leaves."""
+    """The literals that a condition needs in every case, and the choices that it leaves."""
 
     unit: Unit
     work: Work
@@ -170,7 +170,7 @@ def _expand_effects(
         if effect.condition is None and not effect.parameters:
             simple.append(effect.literal)
             continue
-        for values in work.polled(assignments(effect.parameters, unit)):
+        for values in work.deadline.each(assignments(effect.parameters, unit)):
             literal = Literal(ground_key(effect.literal.key, values), effect.literal.positive)
             if effect.condition is None:
                 simple.append(literal)

@@ -14,7 +14,7 @@ from serendipity.pddl.work import Work
 
 
 class Changes:
-    """Which facts the actions that can be executed change.
+    """The facts that executable actions change.
 
     Args:
         facts: ids of ground atoms, in ascending order.
@@ -32,7 +32,7 @@ class Changes:
         added: set[int] = set()
         deleted: set[int] = set()
         asked: set[int] = set()
-        for block in work.each(blocks):
+        for block in work.deadline.each(blocks, 1):
             added.update(block.add.facts())
             deleted.update(block.delete.facts())
             asked.update(block.pre.facts(), block.neg.facts())
@@ -74,7 +74,7 @@ class Numbering:
         work: Work,
     ) -> None:
         keys = list(facts)
-        named = {" ".join(keys[old]): old for old in work.polled(changes.relevant.union(goals))}
+        named = {" ".join(keys[old]): old for old in work.deadline.each(changes.relevant.union(goals))}
         self.names = tuple(sorted(named))
         self.facts = facts
         self.blocks = blocks
@@ -106,7 +106,7 @@ class Numbering:
             InputError: an action's cost is not what it should be.
         """
         actions: list[GroundAction] = []
-        for block in self._work.each(self.blocks):
+        for block in self._work.deadline.each(self.blocks, 1):
             actions += self._ground(block)
         self._work.stage(f"sorting {len(actions):,} ground actions")
         return in_order(actions)
@@ -164,7 +164,7 @@ def _renumbered(column: Column, ids: Mapping[int, int]) -> Column:
 
 
 def _without(deleted: Column, added: Column) -> Column:
-    """What is deleted and not added at the same time."""
+    """The deleted facts that are not added at the same time."""
     if {*deleted.facts()}.isdisjoint(added.facts()):
         return deleted
     pairs = [*zip(deleted.places, added.places, strict=True)]

@@ -16,14 +16,14 @@ Part = tuple[int, ...]
 """Numbers of some tables of a product, ascending."""
 
 
-class Table(NamedTuple):
+class Bindings(NamedTuple):
     """Values of some variables that depend on each other: a row for each choice."""
 
     variables: tuple[str, ...]
     rows: list[Row]
 
 
-def combined(tables: Iterable[Table]) -> tuple[tuple[str, ...], Iterable[Row]]:
+def combined(tables: Iterable[Bindings]) -> tuple[tuple[str, ...], Iterable[Row]]:
     """The variables of several tables, and all combinations of their rows, made one by one."""
     variables: tuple[str, ...] = ()
     rows: Iterable[Row] = [()]
@@ -49,7 +49,7 @@ class Product:
         fixed: values of the variables that are in none of those.
     """
 
-    def __init__(self, tables: Sequence[Table]) -> None:
+    def __init__(self, tables: Sequence[Bindings]) -> None:
         self._tables = tables
         self.size = prod([len(table.rows) for table in tables])
         self._sizes: list[int] = []
@@ -82,7 +82,7 @@ class Product:
         variables, rows = self._tables[first]
         step = max(1, most * len(rows) // self.size)
         for start in range(0, len(rows), step):
-            part = Table(variables, rows[start : start + step])
+            part = Bindings(variables, rows[start : start + step])
             yield from Product([*self._tables[:first], part, *self._tables[first + 1 :]]).slices(most)
 
     def part(self, terms: Iterable[str]) -> Part:

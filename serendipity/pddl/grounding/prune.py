@@ -1,4 +1,4 @@
-"""Which ground actions can ever be executed: delete-relaxed reachability over all agents."""
+"""Executable ground actions, by delete-relaxed reachability over all agents."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence, Set
@@ -23,9 +23,9 @@ def executable(blocks: Iterable[Block], init: Iterable[int], work: Work) -> list
     while True:
         blocks = _reachable(blocks, init, work)
         lasting = set(init)
-        for block in work.each(blocks):
+        for block in work.deadline.each(blocks, 1):
             lasting.difference_update(block.delete.facts())
-        possible = [_possible(block, lasting) for block in work.each(blocks)]
+        possible = [_possible(block, lasting) for block in work.deadline.each(blocks, 1)]
         if sum(map(len, possible)) == sum(map(len, blocks)):
             return blocks
         blocks = possible
@@ -49,16 +49,16 @@ def _reachable(blocks: Iterable[Block], init: frozenset[int], work: Work) -> lis
         search.settle(actions)
     return [
         block.only(search.executable[actions.start : actions.stop])
-        for block, actions in zip(work.each(ordered), ranges, strict=True)
+        for block, actions in zip(work.deadline.each(ordered, 1), ranges, strict=True)
     ]
 
 
 class _Reachability:
-    """What is reached so far; an action waits for one fact at a time that is not."""
+    """The facts reached so far; an action waits for one fact at a time that is not."""
 
     def __init__(self, blocks: Sequence[Block], init: Iterable[int], work: Work) -> None:
-        self.pre = [*chain.from_iterable(block.pre.rows() for block in work.each(blocks))]
-        self.add = [*chain.from_iterable(block.add.rows() for block in work.each(blocks))]
+        self.pre = [*chain.from_iterable(block.pre.rows() for block in work.deadline.each(blocks, 1))]
+        self.add = [*chain.from_iterable(block.add.rows() for block in work.deadline.each(blocks, 1))]
         self.reached = set(init)
         self.executable = bytearray(len(self.pre))
         self._waiting: defaultdict[int, list[int]] = defaultdict(list)

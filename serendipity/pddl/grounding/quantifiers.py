@@ -82,7 +82,7 @@ def literals(formula: Formula) -> Iterator[Literal]:
 
 
 def instances(formula: Formula, unit: Unit) -> int:
-    """How many literals a condition comes to without quantifiers."""
+    """The number of literals of a condition without quantifiers."""
     match formula:
         case Literal():
             return 1
@@ -93,7 +93,7 @@ def instances(formula: Formula, unit: Unit) -> int:
 
 
 def how_many(parameters: tuple[Parameter, ...], unit: Unit) -> int:
-    """How many assignments of objects to parameters there are."""
+    """The number of assignments of objects to parameters."""
     return prod([len(unit.objects_of(p.type)) for p in parameters])
 
 

@@ -23,7 +23,7 @@ _MANY: Final = 16
 """Chunks between two looks at how much memory there is."""
 
 _BYTES_PER_CHARACTER: Final = 30
-"""What is made of a file's text before any action is grounded, measured."""
+"""Bytes that are made of a character of a file before any action is grounded, measured."""
 
 
 PathArgument = str | PathLike[str]

@@ -8,21 +8,21 @@ from typing import cast
 from serendipity.model import InputError
 from serendipity.pddl.parsing.lifted import EQUALITY, Key
 from serendipity.pddl.parsing.scope import TOTAL_COST, Scope, is_number, number
-from serendipity.pddl.parsing.tree import Node, expected, node_at, quoted, refuse_more, shown
+from serendipity.pddl.parsing.tree import SExpression, expected, node_at, quoted, refuse_more, shown
 from serendipity.pddl.parsing.types import Type
 from serendipity.pddl.work import Work
 
 
 @dataclass(slots=True)
 class Initial:
-    """What a section ``(:init ...)`` says; see :class:`~serendipity.pddl.parsing.lifted.Problem`."""
+    """The contents of a section ``(:init ...)``; see :class:`~serendipity.pddl.parsing.lifted.Problem`."""
 
     true: dict[Key, None] = field(default_factory=dict)
     false: dict[Key, int] = field(default_factory=dict)
     values: dict[Key, Fraction] = field(default_factory=dict)
 
 
-def read_initial(section: Node, scope: Scope, work: Work) -> Initial:
+def read_initial(section: SExpression, scope: Scope, work: Work) -> Initial:
     """The initial state that a section describes.
 
     Raises:
@@ -30,7 +30,7 @@ def read_initial(section: Node, scope: Scope, work: Work) -> Initial:
     """
     initial = Initial()
     fitting = _Fitting(scope)
-    for i in work.polled(range(1, len(section.items))):
+    for i in work.deadline.each(range(1, len(section.items))):
         node = node_at(section, i, "an atom")
         key = fitting.atom(node)
         if key is not None:
@@ -51,7 +51,7 @@ class _Fitting:
         self._objects: dict[Type, frozenset[str]] = {}
         self._signatures: dict[str, list[frozenset[str]]] = {}
 
-    def atom(self, node: Node) -> Key | None:
+    def atom(self, node: SExpression) -> Key | None:
         """The atom of a node, None where it is not a correct one."""
         head, *terms = node.items or [""]
         if not isinstance(head, str) or head not in self._scope.predicates:
@@ -72,20 +72,20 @@ class _Fitting:
         return found
 
 
-def _add_other(initial: Initial, node: Node, scope: Scope) -> None:
+def _add_other(initial: Initial, node: SExpression, scope: Scope) -> None:
     """Add what is no atom, or complain."""
     if node.head == EQUALITY:
         _add_value(initial.values, node, scope)
     elif node.head == "not":
         refuse_more(node, 2)
         initial.false.setdefault(scope.atom(node_at(node, 1, "an atom")), node.line)
-    elif len(node.items) == 3 and is_number(node.items[1]) and isinstance(node.items[2], Node):
+    elif len(node.items) == 3 and is_number(node.items[1]) and isinstance(node.items[2], SExpression):
         raise InputError(f"timed initial literals ({shown(node)}) are not supported", line=node.line)
     else:
         initial.true[scope.atom(node)] = None
 
 
-def _add_value(values: dict[Key, Fraction], node: Node, scope: Scope) -> None:
+def _add_value(values: dict[Key, Fraction], node: SExpression, scope: Scope) -> None:
     refuse_more(node, 3)
     function = node_at(node, 1, "a function")
     word = node.items[2] if len(node.items) > 2 else None

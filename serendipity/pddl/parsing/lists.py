@@ -16,8 +16,8 @@ _COMMENT: Final = re.compile(r"[;#].*")
 _BLANK: Final = re.compile(r"[\s,]*")
 
 
-class Entry(NamedTuple):
-    """What stands in a file, and on which line; None where there is no file."""
+class FileItem(NamedTuple):
+    """A value of a file, and its line; None where there is no file."""
 
     value: Any
     line: int | None
@@ -57,7 +57,7 @@ def starts_json(text: str) -> bool:
     return _uncommented(text).lstrip().startswith(("[", "{"))
 
 
-def json_items(text: str, path: object, what: str = "") -> list[Entry]:
+def json_items(text: str, path: object, what: str = "") -> list[FileItem]:
     """The items of a JSON list, each with the line on which it starts.
 
     Raises:
@@ -72,7 +72,7 @@ def json_items(text: str, path: object, what: str = "") -> list[Entry]:
     for _ in items:
         at = _after_blank(text, at)
         value, end = decoder.raw_decode(text, at)
-        found.append(Entry(value, _line(text, at)))
+        found.append(FileItem(value, _line(text, at)))
         at = end
     return found
 

@@ -1,9 +1,9 @@
-"""What a PDDL file says it requires."""
+"""The section ``(:requirements ...)`` of a PDDL file."""
 
 from typing import Final
 
 from serendipity.model import InputError
-from serendipity.pddl.parsing.tree import Node, expected, quoted
+from serendipity.pddl.parsing.tree import SExpression, expected, quoted
 
 SUPPORTED: Final = frozenset(
     {
@@ -25,7 +25,7 @@ SUPPORTED: Final = frozenset(
         ":factored-privacy",
     }
 )
-"""What may be required; of the two kinds of fluents action costs, the rest is refused where it is used."""
+"""Supported requirements; of both kinds of fluents action costs only: others are refused where used."""
 
 UNSUPPORTED: Final = {
     ":derived-predicates": "derived predicates",
@@ -47,10 +47,10 @@ UNSUPPORTED: Final = {
     ":partial-observability": "partial observability",
     ":concurrency-network": "concurrency constraints",
 }
-"""What other planners know, in words."""
+"""Requirements that other planners know, in words."""
 
 
-def read_requirements(section: Node) -> frozenset[str]:
+def read_requirements(section: SExpression) -> frozenset[str]:
     """The words of a section ``(:requirements ...)``.
 
     Raises:

@@ -12,9 +12,9 @@ from serendipity.model import InputError
 from serendipity.pddl.parsing.initial import read_initial
 from serendipity.pddl.parsing.lifted import And, Domain, Formula, Problem, Schema
 from serendipity.pddl.parsing.scope import TOTAL_COST, Scope, check_type, cost_fault
-from serendipity.pddl.parsing.sections import Form, read_form
+from serendipity.pddl.parsing.sections import PddlFile, read_form
 from serendipity.pddl.parsing.syntax import VARIABLE, Typed, read_action, signatures, typed_list
-from serendipity.pddl.parsing.tree import Node, expected, name_at, naming, node_at, quoted, refuse_more
+from serendipity.pddl.parsing.tree import SExpression, expected, name_at, naming, node_at, quoted, refuse_more
 from serendipity.pddl.parsing.types import MAX_LEVELS, OBJECT, Type, Types, type_text
 from serendipity.pddl.work import Work
 
@@ -69,7 +69,7 @@ def read_problem(text: str, domain: Domain, work: Work) -> Problem:
     )
 
 
-def _domain(form: Form, work: Work) -> Domain:
+def _domain(form: PddlFile, work: Work) -> Domain:
     types = _types(typed_list(form.section(":types"), 1, "a type"))
     factored = ":factored-privacy" in form.requirements
     private = 1 if factored else 2
@@ -79,7 +79,7 @@ def _domain(form: Form, work: Work) -> Domain:
     predicates = _signatures(form.section(":predicates"), "predicate", types, work)
     functions = _signatures(form.section(":functions"), "function", types, work)
     schemas: dict[str, Schema] = {}
-    for section in work.polled(form.actions):
+    for section in work.deadline.each(form.actions):
         schema = _schema(section, Scope(types, predicates, functions, constants, work))
         first = schemas.setdefault(schema.name, schema)
         if first is not schema:
@@ -90,9 +90,9 @@ def _domain(form: Form, work: Work) -> Domain:
     )
 
 
-def _signatures(section: Node, what: str, types: Types, work: Work) -> dict[str, tuple[Type, ...]]:
+def _signatures(section: SExpression, what: str, types: Types, work: Work) -> dict[str, tuple[Type, ...]]:
     found: dict[str, tuple[Type, ...]] = {}
-    for name, line, parameters in work.polled(signatures(section, what)):
+    for name, line, parameters in work.deadline.each(signatures(section, what)):
         with naming(f"{what} {quoted(name)}"):
             for typed in parameters:
                 check_type(typed.type, types, typed.line)
@@ -102,10 +102,10 @@ def _signatures(section: Node, what: str, types: Types, work: Work) -> dict[str,
     return found
 
 
-def _schema(section: Node, scope: Scope) -> Schema:
+def _schema(section: SExpression, scope: Scope) -> Schema:
     text = read_action(section)
     agent = [] if text.agent is None else [text.agent]
-    nothing = Node(text.line)
+    nothing = SExpression(text.line)
     with naming(f"action {quoted(text.name)}"):
         own = typed_list(text.parts.get(":parameters", nothing), 0, VARIABLE)
         parameters = scope.parameters([*agent, *own])
@@ -172,7 +172,7 @@ def _objects(listed: Iterable[Typed], types: Types, known: Mapping[str, Type]) -
     return objects
 
 
-def _domain_name(form: Form) -> str | None:
+def _domain_name(form: PddlFile) -> str | None:
     section = form.sections.get(":domain")
     if section is None:
         return None
@@ -180,13 +180,13 @@ def _domain_name(form: Form) -> str | None:
     return name_at(section, 1, "the name of the domain")
 
 
-def _goal(section: Node, scope: Scope) -> Formula:
+def _goal(section: SExpression, scope: Scope) -> Formula:
     refuse_more(section, 2)
     with naming("goal"):
         return And() if len(section.items) < 2 else scope.condition(node_at(section, 1, "a condition"))
 
 
-def _minimises_cost(section: Node | None) -> bool:
+def _minimises_cost(section: SExpression | None) -> bool:
     if section is None:
         return False
     if section.items[1:2] not in (["minimize"], ["maximize"]):

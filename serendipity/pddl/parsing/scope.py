@@ -25,7 +25,7 @@ from serendipity.pddl.parsing.lifted import (
     Quantified,
 )
 from serendipity.pddl.parsing.syntax import VARIABLE, Typed, typed_list
-from serendipity.pddl.parsing.tree import Item, Node, expected, name_at, node_at, quoted, refuse_more
+from serendipity.pddl.parsing.tree import Item, SExpression, expected, name_at, node_at, quoted, refuse_more
 from serendipity.pddl.parsing.types import ANYTHING, Type, Types, type_text
 from serendipity.pddl.work import Work
 
@@ -74,7 +74,7 @@ RESERVED: Final = frozenset(
 
 
 class Scope:
-    """What names may occur in a place.
+    """The names that may occur in a place.
 
     Args:
         types: the types.
@@ -115,7 +115,7 @@ class Scope:
         self.variables = self.variables | found
         return tuple(Parameter(name, kind) for name, kind in found.items())
 
-    def atom(self, node: Node, what: str = "predicate") -> Key:
+    def atom(self, node: SExpression, what: str = "predicate") -> Key:
         """The atom or function term of a node, its name, arity and types checked."""
         self.tick()
         name = name_at(node, 0, f"a {what}")
@@ -130,13 +130,13 @@ class Scope:
             raise InputError(message, line=node.line)
         return (name, *[self.term(node, i, kind) for i, kind in enumerate(types, start=1)])
 
-    def _refuse_unsupported(self, node: Node, name: str) -> None:
+    def _refuse_unsupported(self, node: SExpression, name: str) -> None:
         if name in _UNSUPPORTED:
             raise InputError(f"{_UNSUPPORTED[name]} ({quoted(name)}) are not supported", line=node.line)
         if name in RESERVED:
             raise InputError(f"{quoted(name)} is not possible here", line=node.line)
 
-    def term(self, node: Node, i: int, kind: Type = ANYTHING) -> str:
+    def term(self, node: SExpression, i: int, kind: Type = ANYTHING) -> str:
         """A variable or object among the items of a node, its type checked."""
         word = node.items[i]
         if not isinstance(word, str):
@@ -155,7 +155,7 @@ class Scope:
             raise InputError(f"{quoted(word)} {types}", line=node.line_of(i))
         return word
 
-    def condition(self, node: Node, positive: bool = True) -> Formula:
+    def condition(self, node: SExpression, positive: bool = True) -> Formula:
         """A condition in negation normal form; ``positive`` is False below a negation."""
         match node.head:
             case None:
@@ -184,20 +184,20 @@ class Scope:
                 raise InputError("numeric conditions are not supported", line=node.line)
         return Literal(self.atom(node), positive)
 
-    def _equality(self, node: Node) -> Key:
-        if any(isinstance(item, Node) or _NUMBER.fullmatch(item) for item in node.items[1:]):
+    def _equality(self, node: SExpression) -> Key:
+        if any(isinstance(item, SExpression) or _NUMBER.fullmatch(item) for item in node.items[1:]):
             raise InputError("numeric conditions are not supported", line=node.line)
         if len(node.items) != 3:
             raise InputError(f"'=' takes 2 arguments, got {len(node.items) - 1}", line=node.line)
         return (EQUALITY, self.term(node, 1), self.term(node, 2))
 
-    def _bound(self, quantified: Node) -> tuple[Parameter, ...]:
+    def _bound(self, quantified: SExpression) -> tuple[Parameter, ...]:
         """The variables of a quantifier; from here on they are in scope."""
         self.quantified = True
         refuse_more(quantified, 3)
         return self.parameters(typed_list(node_at(quantified, 1, "variables in brackets"), 0, VARIABLE))
 
-    def effects(self, node: Node) -> tuple[list[Effect], list[Expression]]:
+    def effects(self, node: SExpression) -> tuple[list[Effect], list[Expression]]:
         """Effects on facts, and what is added to the total cost."""
         match node.head:
             case None:
@@ -223,7 +223,7 @@ class Scope:
             return [], [self._increase(node)]
         return [Effect(Literal(self.atom(node)))], []
 
-    def _increase(self, node: Node) -> Expression:
+    def _increase(self, node: SExpression) -> Expression:
         function = node_at(node, 1, "a function")
         if node.head != "increase" or function.head != TOTAL_COST:
             message = f"numeric effects are not supported, except 'increase ({TOTAL_COST})'"
@@ -232,13 +232,13 @@ class Scope:
         self.atom(function, "function")
         return self._expression(node, 2)
 
-    def _facts_only(self, node: Node, kind: str) -> list[Effect]:
+    def _facts_only(self, node: SExpression, kind: str) -> list[Effect]:
         found, costs = self.effects(node_at(node, 2, "an effect"))
         if costs:
             raise InputError(f"{kind} action costs are not supported", line=node.line)
         return found
 
-    def _expression(self, node: Node, i: int) -> Expression:
+    def _expression(self, node: SExpression, i: int) -> Expression:
         """A cost among the items of a node: numbers, functions and what is calculated of them."""
         item = node.items[i] if i < len(node.items) else None
         if isinstance(item, str):
@@ -254,7 +254,7 @@ class Scope:
         return _operation(str(operator), [self._expression(inner, j) for j in _rest(inner)], inner.line)
 
 
-def _rest(node: Node) -> range:
+def _rest(node: SExpression) -> range:
     return range(1, len(node.items))
 
 
@@ -273,7 +273,7 @@ def calculate(operator: str, values: Iterable[Fraction]) -> Fraction:
 
 
 def cost_fault(value: Fraction) -> str | None:
-    """What is wrong with the cost of an action, or None."""
+    """The fault in the cost of an action, or None."""
     if max(abs(value.numerator), value.denominator) >= 10**_MOST_DIGITS:
         return f"expected a cost of at most {_MOST_DIGITS} digits"
     return f"expected a cost of at least 0, got {float(value):g}" if value < 0 else None

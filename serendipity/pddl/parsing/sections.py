@@ -5,7 +5,15 @@ from typing import Final
 
 from serendipity.model import InputError
 from serendipity.pddl.parsing.requirements import read_requirements
-from serendipity.pddl.parsing.tree import Node, expected, name_at, node_at, quoted, read_tree, refuse_more
+from serendipity.pddl.parsing.tree import (
+    SExpression,
+    expected,
+    name_at,
+    node_at,
+    quoted,
+    read_tree,
+    refuse_more,
+)
 from serendipity.pddl.work import Work
 
 _SECTIONS: Final = {
@@ -26,7 +34,7 @@ _UNSUPPORTED: Final = {
 
 
 @dataclass(slots=True)
-class Form:
+class PddlFile:
     """A file ``(define (KIND NAME) SECTION ...)``.
 
     Attributes:
@@ -38,15 +46,15 @@ class Form:
 
     name: str
     requirements: frozenset[str] = frozenset()
-    sections: dict[str, Node] = field(default_factory=dict)
-    actions: list[Node] = field(default_factory=list)
+    sections: dict[str, SExpression] = field(default_factory=dict)
+    actions: list[SExpression] = field(default_factory=list)
 
-    def section(self, keyword: str) -> Node:
+    def section(self, keyword: str) -> SExpression:
         """A section; where there is none, one with nothing in it."""
-        return self.sections.get(keyword) or Node(1)
+        return self.sections.get(keyword) or SExpression(1)
 
 
-def read_form(text: str, kind: str, work: Work) -> Form:
+def read_form(text: str, kind: str, work: Work) -> PddlFile:
     """The sections of a file of a kind, ``domain`` or ``problem``.
 
     Raises:
@@ -63,14 +71,14 @@ def read_form(text: str, kind: str, work: Work) -> Form:
     title = node_at(define, 1, f"'({kind} NAME)'")
     if title.head != kind:
         raise expected(f"'{kind}'", title, 0)
-    form = Form(name_at(title, 1, f"the name of the {kind}"))
+    form = PddlFile(name_at(title, 1, f"the name of the {kind}"))
     refuse_more(title, 2)
     for i in range(2, len(define.items)):
         _add_section(form, node_at(define, i, f"a section of a {kind}"), kind)
     return form
 
 
-def _add_section(form: Form, section: Node, kind: str) -> None:
+def _add_section(form: PddlFile, section: SExpression, kind: str) -> None:
     keyword = section.head
     if keyword == ":action" and kind == "domain":
         form.actions.append(section)

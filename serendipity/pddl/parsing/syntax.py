@@ -1,11 +1,11 @@
-"""What stands in sections: typed lists, signatures of predicates and functions, actions."""
+"""Contents of sections: typed lists, signatures of predicates and functions, actions."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple
 
 from serendipity.model import InputError
-from serendipity.pddl.parsing.tree import Node, expected, name_at, naming, node_at, quoted
+from serendipity.pddl.parsing.tree import SExpression, expected, name_at, naming, node_at, quoted
 from serendipity.pddl.parsing.types import ANYTHING, Type
 
 PRIVATE: Final = ":private"
@@ -22,7 +22,7 @@ class Typed(NamedTuple):
     line: int
 
 
-class Signature(NamedTuple):
+class Declaration(NamedTuple):
     """A predicate or function, its line, and its parameters."""
 
     name: str
@@ -32,7 +32,7 @@ class Signature(NamedTuple):
 
 @dataclass(slots=True)
 class ActionText:
-    """What stands in a section ``(:action ...)``.
+    """The parts of a section ``(:action ...)``.
 
     Attributes:
         name: of the action.
@@ -44,11 +44,11 @@ class ActionText:
     name: str
     line: int
     agent: Typed | None = None
-    parts: dict[str, Node] = field(default_factory=dict)
+    parts: dict[str, SExpression] = field(default_factory=dict)
 
 
 def typed_list(
-    node: Node, start: int, what: str, private: int = 0, empty: list[int] | None = None
+    node: SExpression, start: int, what: str, private: int = 0, empty: list[int] | None = None
 ) -> list[Typed]:
     """``a b - type c``, from item ``start`` of a node.
 
@@ -75,7 +75,7 @@ def typed_list(
             _type_at(node, i + 1)
             empty.append(node.line_of(i))
             i += 2
-        elif private and isinstance(item, Node) and item.head == PRIVATE:
+        elif private and isinstance(item, SExpression) and item.head == PRIVATE:
             found += typed_list(item, private, what, empty=empty)
             untyped, i = 0, i + 1
         else:
@@ -85,23 +85,23 @@ def typed_list(
     return found
 
 
-def _variable_at(node: Node, i: int) -> str:
+def _variable_at(node: SExpression, i: int) -> str:
     item = node.items[i] if i < len(node.items) else None
     if isinstance(item, str) and item[0] == "?" and len(item) > 1:
         return item
     raise expected(VARIABLE, node, i)
 
 
-def _type_at(node: Node, i: int) -> Type:
+def _type_at(node: SExpression, i: int) -> Type:
     item = node.items[i] if i < len(node.items) else None
-    if not isinstance(item, Node):
+    if not isinstance(item, SExpression):
         return (name_at(node, i, "a type"),)
     if item.head != "either" or len(item.items) < 2:
         raise expected("a type or '(either TYPE ...)'", node, i)
     return tuple(dict.fromkeys(name_at(item, j, "a type") for j in range(1, len(item.items))))
 
 
-def signatures(section: Node, what: str) -> Iterator[Signature]:
+def signatures(section: SExpression, what: str) -> Iterator[Declaration]:
     """The predicates or functions of a section, private ones among them, functions without results.
 
     Raises:
@@ -122,17 +122,17 @@ def signatures(section: Node, what: str) -> Iterator[Signature]:
             name = name_at(item, 0, f"the name of a {what}")
             with naming(f"{what} {quoted(name)}"):
                 parameters = typed_list(item, 1, VARIABLE)
-            yield Signature(name, item.line, parameters)
+            yield Declaration(name, item.line, parameters)
         i += 1
 
 
-def _without_words(private: Node) -> Node:
-    nodes = Node(private.line)
-    nodes.items = [PRIVATE, *(item for item in private.items if isinstance(item, Node))]
+def _without_words(private: SExpression) -> SExpression:
+    nodes = SExpression(private.line)
+    nodes.items = [PRIVATE, *(item for item in private.items if isinstance(item, SExpression))]
     return nodes
 
 
-def read_action(section: Node) -> ActionText:
+def read_action(section: SExpression) -> ActionText:
     """The parts of a section ``(:action ...)``.
 
     Raises:
@@ -148,7 +148,7 @@ def read_action(section: Node) -> ActionText:
     return action
 
 
-def _read_part(action: ActionText, section: Node, i: int) -> int:
+def _read_part(action: ActionText, section: SExpression, i: int) -> int:
     """Read the part at item ``i``; returns where the next one starts."""
     keyword = section.items[i]
     if not isinstance(keyword, str) or keyword not in (":agent", *_PARTS):
@@ -159,7 +159,7 @@ def _read_part(action: ActionText, section: Node, i: int) -> int:
         action.parts[keyword] = node_at(section, i + 1, f"brackets behind '{keyword}'")
         return i + 2
     end = i + 4 if section.items[i + 2 : i + 3] == ["-"] else i + 2
-    words = Node(section.line_of(i))
+    words = SExpression(section.line_of(i))
     words.items = section.items[i + 1 : end]
     found = typed_list(words, 0, VARIABLE)
     if not found:

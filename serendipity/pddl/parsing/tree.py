@@ -22,8 +22,8 @@ _SHOWN: Final = 60
 _LISTED: Final = 8
 
 
-class Node:
-    """What stands between two brackets.
+class SExpression:
+    """A list in brackets.
 
     Attributes:
         line: of the opening bracket, from 1.
@@ -35,11 +35,11 @@ class Node:
 
     def __init__(self, line: int) -> None:
         self.line = line
-        self.items: list[str | Node] = []
+        self.items: list[str | SExpression] = []
         self.breaks: list[int] | None = None  # most nodes are on one line
 
     @property
-    def head(self) -> "str | Node | None":
+    def head(self) -> "str | SExpression | None":
         """The first item, None where there is nothing."""
         return self.items[0] if self.items else None
 
@@ -54,17 +54,17 @@ class Node:
         self.breaks += [len(self.items)] * count
 
 
-Item = str | Node
+Item = str | SExpression
 
 
-def read_tree(text: str, work: Work) -> Node:
+def read_tree(text: str, work: Work) -> SExpression:
     """The bracketed text, in lower case, without comments, as the items of a node.
 
     Raises:
         InputError: brackets don't match, or are nested too deeply; with the line, without the file.
     """
-    node = Node(1)
-    outer: list[Node] = []
+    node = SExpression(1)
+    outer: list[SExpression] = []
     line = 1
     for tokens in _tokens(text, work):
         for token in tokens:
@@ -74,7 +74,7 @@ def read_tree(text: str, work: Work) -> Node:
                 outer.append(node)
                 if len(outer) > MAX_DEPTH:
                     raise InputError(f"brackets are nested too deeply: at most {MAX_DEPTH}", line=line)
-                node = Node(line)
+                node = SExpression(line)
                 outer[-1].items.append(node)
             elif token == ")":
                 if not outer:
@@ -119,12 +119,12 @@ def _parts(text: str) -> Iterator[str]:
 
 
 def _find(text: str, what: str, start: int) -> int:
-    """Where something is found from ``start`` on; the length of the text where it is not."""
+    """The place of something from ``start`` on; the length of the text where it is not."""
     found = text.find(what, start)
     return len(text) if found < 0 else found
 
 
-def expected(what: str, node: Node, i: int) -> InputError:
+def expected(what: str, node: SExpression, i: int) -> InputError:
     """The error that item ``i`` of a node is not what it should be."""
     got = "')'" if i >= len(node.items) else shown(node.items[i])
     return InputError(f"expected {what}, got {got}", line=node.line_of(i))
@@ -150,19 +150,19 @@ def listed(names: Iterable[str]) -> str:
     return ", ".join([name[:_SHOWN] for name in names[:_LISTED]]) + more
 
 
-def node_at(node: Node, i: int, what: str) -> Node:
+def node_at(node: SExpression, i: int, what: str) -> SExpression:
     """Item ``i`` of a node, which must be a bracketed one.
 
     Raises:
         InputError: it is missing, or a word.
     """
     item = node.items[i] if i < len(node.items) else None
-    if isinstance(item, Node):
+    if isinstance(item, SExpression):
         return item
     raise expected(what, node, i)
 
 
-def name_at(node: Node, i: int, what: str) -> str:
+def name_at(node: SExpression, i: int, what: str) -> str:
     """Item ``i`` of a node, which must be a name.
 
     Raises:
@@ -174,7 +174,7 @@ def name_at(node: Node, i: int, what: str) -> str:
     raise expected(what, node, i)
 
 
-def refuse_more(node: Node, i: int) -> None:
+def refuse_more(node: SExpression, i: int) -> None:
     """Check that a node ends before its item ``i``.
 
     Raises:

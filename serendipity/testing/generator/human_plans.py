@@ -12,7 +12,7 @@ _LONGEST = 6
 
 
 def random_human_plan(dice: Random, task: Task) -> HumanPlan | None:
-    """What somebody may say that the human is going to do: their best or not; None if none was found."""
+    """A plan of the human at random, their best or not; None if none was found."""
     for _ in range(12):
         state, plan = task.init, list[int]()
         while len(plan) < _LONGEST and not (task.goal.holds(state) and dice.random() < 0.8):

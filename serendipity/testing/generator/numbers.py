@@ -11,7 +11,7 @@ from verify.base.optimal_plans import OptimalPlans
 
 DISCOUNTS: Final = ("2/3", "1/7", "0.666666666667", "0.6666666666666666", "0.999999937", "0.000000000000001")
 WEIGHTS: Final = ("1000000000", "999999999.999999999", "1000.000000000001", "1/7", "0.3333333333333333", "0")
-"""What an epoch of the window, or of communication, may cost."""
+"""Prices of an epoch of the window, or of communication."""
 
 _DIGITS: Final = (6, 9, 12, 15)
 _LONGEST: Final = 6

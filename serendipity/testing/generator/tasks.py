@@ -5,7 +5,7 @@ from itertools import combinations, pairwise
 from random import Random
 
 from serendipity.model import Condition, GroundAction, Task
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 from verify.base.optimal_plans import OptimalPlans
 

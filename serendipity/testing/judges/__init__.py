@@ -3,9 +3,9 @@
 ``by_function``, ``by_name`` and ``by_command`` make judges; ``fault`` says why a claim can't be so.
 """
 
-from serendipity.testing.judges.claims import Claim, OutsideJudge, said
+from serendipity.testing.judges.claims import OutsideJudge, Proposal, said
 from serendipity.testing.judges.functions import Answer, by_function
 from serendipity.testing.judges.in_mode import fault
 from serendipity.testing.judges.named import by_command, by_name
 
-__all__ = ["Answer", "Claim", "OutsideJudge", "by_command", "by_function", "by_name", "fault", "said"]
+__all__ = ["Answer", "OutsideJudge", "Proposal", "by_command", "by_function", "by_name", "fault", "said"]

@@ -1,4 +1,4 @@
-"""What a planner claims, and whether it can be so.
+"""Claims of a planner, and faults in them.
 
 Most planners of other people know neither help nor epochs.  What they can be asked is the best joint plan,
 one action after another: ``composite`` with ``horizon="inf"`` and strict interference.  Those that know
@@ -26,7 +26,7 @@ _UNASKED: Final = ("ties", "human_model", "no_block")
 
 
 @dataclass(frozen=True, slots=True)
-class Claim:
+class Proposal:
     """A planner's answer.
 
     Attributes:
@@ -56,7 +56,7 @@ class OutsideJudge:
     """
 
     name: str
-    answer: Callable[[PlanCall, Deadline], Claim]
+    answer: Callable[[PlanCall, Deadline], Proposal]
     unit_costs: bool = False
     every_mode: bool = False
 
@@ -84,19 +84,19 @@ class Proved(Protocol):
 
     @property
     def cost(self) -> Fraction | float | None:
-        """What the team pays; None without a plan."""
+        """The cost to the team; None without a plan."""
 
     @property
     def objective(self) -> Fraction | float | None:
-        """What was minimised; None without a plan."""
+        """The objective; None without a plan."""
 
     @property
     def opportunity(self) -> bool:
         """Whether help pays."""
 
 
-def fault_of_joint(call: PlanCall, claim: Claim, result: Proved | None) -> str | None:
-    """Why a claim about the joint question can't be so; None if it can.
+def fault_of_joint(call: PlanCall, claim: Proposal, result: Proved | None) -> str | None:
+    """The fault in a claim about the joint question, or None.
 
     Args:
         call: what was asked.
@@ -122,7 +122,7 @@ def fault_of_joint(call: PlanCall, claim: Claim, result: Proved | None) -> str |
     return None
 
 
-def said(call: PlanCall, claim: Claim) -> str:
+def said(call: PlanCall, claim: Proposal) -> str:
     """A claim in words."""
     words = (
         claim.status if claim.plan is None else f"{claim.status}, cost {float(cost_of(call, claim.plan)):g}"
@@ -133,7 +133,7 @@ def said(call: PlanCall, claim: Claim) -> str:
 
 
 def cost_of(call: PlanCall, plan: tuple[int, ...]) -> Fraction:
-    """What the team pays for a plan."""
+    """The cost of a plan to the team."""
     discount = exact(call.options.get("discount", "0"), "discount")
     return total(call.task.team_cost(call.task.actions[i], discount) for i in plan)
 
@@ -165,7 +165,7 @@ def action_of(task: Task, name: str, state: frozenset[int]) -> int:
 
 
 def _broken(task: Task, plan: tuple[int, ...]) -> str | None:
-    """Why a sequence is no plan."""
+    """The fault in a sequence that is no plan, or None."""
     state = task.init
     for step, i in enumerate(plan, start=1):
         action = task.actions[i]

@@ -13,7 +13,7 @@ from serendipity.model import Deadline, SerendipityError, UsageError
 from serendipity.model.numbers import exact
 from serendipity.pddl.write import composite_files, composite_names
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import TIME_LIMIT, Claim
+from serendipity.testing.judges.claims import TIME_LIMIT, Proposal
 
 _PLACES: Final = ("domain", "problem", "plan")
 _STEP: Final = re.compile(r"^\s*(?:\d+(?:\.\d+)?\s*:\s*)?\(\s*([^()]*?)\s*\)", re.MULTILINE)
@@ -49,7 +49,7 @@ class Command:
         if not any(f"{{{place}}}" in word for word in self._words for place in _PLACES):
             self._words += [f"{{{place}}}" for place in _PLACES]
 
-    def __call__(self, call: PlanCall, deadline: Deadline) -> Claim:
+    def __call__(self, call: PlanCall, deadline: Deadline) -> Proposal:
         """Its claim.
 
         Raises:
@@ -74,14 +74,14 @@ class Command:
                     stdin=subprocess.DEVNULL,
                 )
             except subprocess.TimeoutExpired:
-                return Claim("unknown", words=TIME_LIMIT)
+                return Proposal("unknown", words=TIME_LIMIT)
             written = _written(folder)
         names = composite_names(call.task)
         claim = _read(done.stdout if written is None else written, names, empty=written is not None)
         if claim is not None:
             return claim
         if done.returncode in (0, *_NO_PLAN):
-            return Claim("infeasible")
+            return Proposal("infeasible")
         last = " ".join((done.stderr or done.stdout).splitlines()[-3:])
         raise SerendipityError(f"exit code {done.returncode}: {last:.200}")
 
@@ -100,7 +100,7 @@ def _written(folder: Path) -> str | None:
     return last.read_text(encoding="utf-8", errors="replace") if last.exists() else None
 
 
-def _read(text: str, names: list[str], *, empty: bool) -> Claim | None:
+def _read(text: str, names: list[str], *, empty: bool) -> Proposal | None:
     """The claim in a text; None if there is none.
 
     Args:
@@ -111,20 +111,20 @@ def _read(text: str, names: list[str], *, empty: bool) -> Claim | None:
     if text.lstrip().startswith("{"):
         return _from_json(text, names)
     steps = _STEP.findall("\n".join(line.partition(";")[0] for line in text.splitlines()))
-    return Claim("optimal", _ids(steps, names)) if steps or empty else None
+    return Proposal("optimal", _ids(steps, names)) if steps or empty else None
 
 
-def _from_json(text: str, names: list[str]) -> Claim:
+def _from_json(text: str, names: list[str]) -> Proposal:
     try:
         data: Any = json.loads(text)
         steps = data["plan"]
         status = data.get("status", "infeasible" if steps is None else "optimal")
         if steps is None:
-            return Claim(str(status))
+            return Proposal(str(status))
         words = [step if isinstance(step, str) else step["action"] for step in steps]
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise SerendipityError(f"its JSON can't be read: {type(error).__name__}: {error}") from None
-    return Claim(str(status), _ids(words, names))
+    return Proposal(str(status), _ids(words, names))
 
 
 def _ids(steps: list[str], names: list[str]) -> tuple[int, ...]:

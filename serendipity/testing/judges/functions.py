@@ -21,7 +21,7 @@ from serendipity.model import Deadline, Task, UsageError
 from serendipity.model.numbers import exact
 from serendipity.testing.asking import call_of, settled
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import TIME_LIMIT, Claim, OutsideJudge, action_of, plan_of
+from serendipity.testing.judges.claims import TIME_LIMIT, OutsideJudge, Proposal, action_of, plan_of
 
 _ALARM: Final = hasattr(signal, "setitimer")
 _JOINT: Final = 2
@@ -57,7 +57,7 @@ def by_function(function: Callable[..., Any], name: str = "") -> OutsideJudge:
     called = name or getattr(function, "__name__", type(function).__name__)
     takes = _takes(function, called)
 
-    def answer(call: PlanCall, deadline: Deadline) -> Claim:
+    def answer(call: PlanCall, deadline: Deadline) -> Proposal:
         try:
             if takes == _JOINT:
                 share = exact(call.options.get("discount", "0"), "discount")
@@ -69,9 +69,9 @@ def by_function(function: Callable[..., Any], name: str = "") -> OutsideJudge:
                 said = function(call.task, asked.options, asked.human_plan_names)
             return _in_epochs(call.task, said)
         except NotImplementedError as error:
-            return Claim("unknown", words=f"not implemented{f': {error}' if str(error) else ''}")
+            return Proposal("unknown", words=f"not implemented{f': {error}' if str(error) else ''}")
         except _HangsError:
-            return Claim("unknown", words=TIME_LIMIT)
+            return Proposal("unknown", words=TIME_LIMIT)
 
     return OutsideJudge(called, answer, every_mode=takes == _EVERY_MODE)
 
@@ -118,18 +118,18 @@ def _takes(function: Callable[..., Any], name: str) -> int:
     )
 
 
-def _joint(task: Task, said: Any) -> Claim:
-    return Claim("infeasible") if said is None else Claim("optimal", plan_of(task, list(said)))
+def _joint(task: Task, said: Any) -> Proposal:
+    return Proposal("infeasible") if said is None else Proposal("optimal", plan_of(task, list(said)))
 
 
-def _in_epochs(task: Task, said: Any) -> Claim:
-    """What a function of every mode said.
+def _in_epochs(task: Task, said: Any) -> Proposal:
+    """The claim of a function of every mode.
 
     Raises:
         ValueError: it is no answer, or there is no action of a name.
     """
     if said is None:
-        return Claim("infeasible")
+        return Proposal("infeasible")
     answer = said if isinstance(said, Answer) else Answer(said)
     window = answer.window
     if window is not None:
@@ -146,4 +146,4 @@ def _in_epochs(task: Task, said: Any) -> Claim:
         epochs += [epoch] * len(chosen)
         actions = [task.actions[i] for i in chosen]
         state = state.difference(*(a.delete for a in actions)).union(*(a.add for a in actions))
-    return Claim("optimal", tuple(plan), epochs=tuple(epochs), window=window)
+    return Proposal("optimal", tuple(plan), epochs=tuple(epochs), window=window)

@@ -10,14 +10,14 @@ from serendipity.testing.asking import call_of, settled
 from serendipity.testing.by_hand import result as result_of
 from serendipity.testing.call import Call
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import Claim, Proved, fault_of_joint
+from serendipity.testing.judges.claims import Proposal, Proved, fault_of_joint
 
 _HELD: Final = ("replay", "window")
 """Claims of a certificate that are about the plan itself; figures are worked out from it here."""
 
 
-def fault(call: PlanCall, claim: Claim, proved: Proved | None) -> str | None:
-    """Why a claim can't be so; None if it can.
+def fault(call: PlanCall, claim: Proposal, proved: Proved | None) -> str | None:
+    """The fault in a claim, or None.
 
     Args:
         call: what was asked.
@@ -41,7 +41,7 @@ def fault(call: PlanCall, claim: Claim, proved: Proved | None) -> str | None:
     return _not_the_least(asked, claim, answer, proved)
 
 
-def as_result(call: Call, claim: Claim) -> Result:
+def as_result(call: Call, claim: Proposal) -> Result:
     """A claim with a plan as a result, its figures worked out from the plan."""
     plan: dict[int, list[str]] = defaultdict(list)
     for epoch, i in zip(claim.epochs or (), claim.plan or (), strict=True):
@@ -62,7 +62,7 @@ def as_result(call: Call, claim: Claim) -> Result:
     return replace(answer, opportunity=claim.window is not None) if call.options.windowed else answer
 
 
-def _not_the_least(call: Call, claim: Claim, answer: Result, proved: Proved) -> str | None:
+def _not_the_least(call: Call, claim: Proposal, answer: Result, proved: Proved) -> str | None:
     least, cost = float(proved.objective or 0), float(answer.objective or 0)
     if call.options.windowed and (claim.window is not None) != proved.opportunity:
         if proved.opportunity:

@@ -10,7 +10,7 @@ from typing import Final
 from serendipity.model import Deadline, UsageError
 from serendipity.model.numbers import exact
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import Claim, OutsideJudge
+from serendipity.testing.judges.claims import OutsideJudge, Proposal
 from serendipity.testing.judges.commands import Command
 from serendipity.testing.judges.functions import by_function
 
@@ -59,12 +59,12 @@ def _engine(name: str, engine: str) -> OutsideJudge:
     except ImportError as error:
         raise UsageError(f"judge '{name}': {error}") from None
 
-    def answer(call: PlanCall, deadline: Deadline) -> Claim:
+    def answer(call: PlanCall, deadline: Deadline) -> Proposal:
         problem, _ = team_problem(call.task, exact(call.options.get("discount", "0"), "discount"))
         with TemporaryDirectory() as scratch, chdir(scratch):  # some leave files where they are called
             solved = solve_with(engine, problem, deadline.left())
         if solved.actions is not None:
-            return Claim("optimal" if solved.optimal else "feasible", solved.actions)
-        return Claim("infeasible" if solved.impossible else "unknown", words=solved.status.name)
+            return Proposal("optimal" if solved.optimal else "feasible", solved.actions)
+        return Proposal("infeasible" if solved.impossible else "unknown", words=solved.status.name)
 
     return OutsideJudge(name, answer, unit_costs=counts_actions_only(engine))

@@ -16,7 +16,7 @@ from serendipity.testing.oracle.suffixes import suffix_rule
 
 @dataclass(frozen=True, slots=True)
 class Optimum:
-    """What an exact planner has to answer; costs as in ``Result``, but exact.
+    """The answer of an exact planner; costs as in ``Result``, but exact.
 
     ``actions`` counts the plan's actions; None where the answer is a mean over ties.
     """
@@ -34,7 +34,7 @@ class Optimum:
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class WindowPlan:
     """The best plan of one window, or of a mode without windows."""
 
     label: Label
@@ -113,34 +113,34 @@ class Solver:
         if self.human_plan is None and self.options.mode == "serendipity":
             return Optimum("infeasible", reason="no-human-plan")
         baseline = self._baseline()
-        found = min(self._candidates(baseline), key=Candidate.order, default=None)
+        found = min(self._candidates(baseline), key=WindowPlan.order, default=None)
         helps = found is not None and self._helps(found, baseline)
         return self._answer(found, baseline, helps=helps)
 
     # -- what is compared
 
-    def _candidates(self, baseline: Label | None) -> Iterator[Candidate]:
+    def _candidates(self, baseline: Label | None) -> Iterator[WindowPlan]:
         yield from self._limited(baseline)
         if baseline is not None and not (self.robots_goal and self.options.windowed):
             yield self._do_nothing(baseline)
 
-    def _limited(self, baseline: Label | None) -> Iterator[Candidate]:
+    def _limited(self, baseline: Label | None) -> Iterator[WindowPlan]:
         """All plans within ``max_cost``."""
         limit = self._max_cost(baseline)
         for candidate in self._windows() if self.options.windowed else self._whole():
             if limit is None or candidate.label[1] <= limit:
                 yield candidate
 
-    def _do_nothing(self, baseline: Label) -> Candidate:
+    def _do_nothing(self, baseline: Label) -> WindowPlan:
         """The baseline: no limit rejects it, and with idle robots it fits the window of its last action."""
         assert self.human_plan is not None
         if not self.options.windowed or not self.human_plan:
-            return Candidate(baseline, baseline[1], None)
+            return WindowPlan(baseline, baseline[1], None)
         window = Window(len(self.human_plan), len(self.human_plan) + 1)
-        return Candidate(baseline, baseline[1] + self._units(self.options.window_weight), window)
+        return WindowPlan(baseline, baseline[1] + self._units(self.options.window_weight), window)
 
     def _baseline(self) -> Label | None:
-        """What doing nothing costs: ``pi_H`` alone, or with robots that reach ``G_R`` (semantics 3.1)."""
+        """The cost of doing nothing: ``pi_H`` alone, or with robots that reach ``G_R`` (semantics 3.1)."""
         plan = self.human_plan
         if plan is None:
             return None
@@ -156,7 +156,7 @@ class Solver:
         layer = _advanced(layer, idle_human, None if epochs == "inf" else int(epochs) - len(plan))
         return min(self._goal_labels(layer), key=lambda label: label[1:], default=None)
 
-    def _helps(self, found: Candidate, baseline: Label | None) -> bool:
+    def _helps(self, found: WindowPlan, baseline: Label | None) -> bool:
         """Whether it is an opportunity (semantics 1, 3.1): cheaper than without robots."""
         if self.human_plan is None:
             return False
@@ -165,14 +165,14 @@ class Solver:
             return False
         if not self.robots_goal or not self._improvable:
             return True
-        unaided = min(self._without_robots()._limited(baseline), key=Candidate.order, default=None)
+        unaided = min(self._without_robots()._limited(baseline), key=WindowPlan.order, default=None)
         return unaided is None or (found.objective, found.label[1]) < (unaided.objective, unaided.label[1])
 
     def _idle(self, baseline: Label | None) -> int | None:
         """Cost of the answer with all robots idle: less than the baseline if a given plan can be improved."""
         if baseline is None or self.robots_goal or not self._improvable:
             return None if baseline is None else baseline[1]
-        found = min(self._without_robots()._candidates(baseline), key=Candidate.order)
+        found = min(self._without_robots()._candidates(baseline), key=WindowPlan.order)
         return found.label[1]
 
     @property
@@ -214,7 +214,7 @@ class Solver:
             saving_alone=human_cost - cost,
         )
 
-    def _answer(self, found: Candidate | None, baseline: Label | None, *, helps: bool) -> Optimum:
+    def _answer(self, found: WindowPlan | None, baseline: Label | None, *, helps: bool) -> Optimum:
         human_cost = None if self.human_plan is None else self.task.cost_of(self.human_plan)
         known = Optimum("optimal", human_cost=human_cost)
         if baseline is not None:
@@ -240,14 +240,14 @@ class Solver:
 
     # -- enumeration
 
-    def _whole(self) -> Iterator[Candidate]:
+    def _whole(self) -> Iterator[WindowPlan]:
         """All composite plans within T, or without an end (semantics 3.4)."""
         epochs = None if self.horizon == "inf" else int(self.horizon or 0)
         layer = _advanced({self.task.init: (NOTHING,)}, self._moves("free", 0), epochs)
         for label in self._goal_labels(layer):
-            yield Candidate(label, label[0], None)
+            yield WindowPlan(label, label[0], None)
 
-    def _windows(self) -> Iterator[Candidate]:
+    def _windows(self) -> Iterator[WindowPlan]:
         """All windows and all plans that fit them (semantics 3.1)."""
         plan = self.human_plan or ()
         last = int(self.horizon or 0)
@@ -264,7 +264,7 @@ class Solver:
                     for rest in suffix(state, xi1, last - xi2 + 1):
                         for label in labels:
                             total = plus(label, rest)
-                            yield Candidate(total, total[0] + weight, Window(xi1, xi2))
+                            yield WindowPlan(total, total[0] + weight, Window(xi1, xi2))
             prefix = advance(prefix, self._moves("prefix", xi1))
 
     def _goal_labels(self, layer: Layer) -> Iterator[Label]:
@@ -359,7 +359,7 @@ def _advanced(layer: Layer, moves: Moves, epochs: int | None) -> Layer:
 
 
 def _smallest_unit(task: Task, options: Options) -> int:
-    """How many units a cost of 1 is, so that all that is added up is whole."""
+    """The number of units in a cost of 1, so that all that is added up is whole."""
     amounts = [options.window_weight]
     if isinstance(options.max_cost, Fraction):
         amounts.append(options.max_cost)

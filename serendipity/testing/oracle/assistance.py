@@ -3,29 +3,29 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from heapq import heappop, heappush
 from typing import NamedTuple
 
 from serendipity.model import GroundAction, Task
+from serendipity.testing.oracle.alone import Alone
+from serendipity.testing.oracle.epochs import State, after, holds, usable
 
-State = frozenset[int]
 Costs = tuple[Fraction, Fraction]
 
 FREE: Costs = (Fraction(0), Fraction(0))
 
 
-class Outcome(NamedTuple):
-    """What one of the prime's optimal actions leads to, from before their move."""
+class Reached(NamedTuple):
+    """The cost of one of the prime's optimal actions, and the state that it leads to."""
 
     cost: Fraction
     state: State
 
 
-class Choice(NamedTuple):
+class Ply(NamedTuple):
     """One thing that the supporter may do, and what may come of it; none where it ends the game."""
 
     cost: Fraction
-    outcomes: tuple[Outcome, ...]
+    outcomes: tuple[Reached, ...]
 
 
 @dataclass(frozen=True)
@@ -33,82 +33,45 @@ class Tree:
     """The whole game from ``I``: per state with the supporter to move all its choices."""
 
     task: Task
-    choices: dict[State, list[Choice]]
+    choices: dict[State, list[Ply]]
 
     def final(self, state: State) -> bool:
         """Whether the prime's goal holds."""
-        return self.task.goal.holds(state)
-
-
-def after(action: GroundAction, state: State) -> State:
-    """The state after an action."""
-    return state.difference(action.delete).union(action.add)
-
-
-def alone(task: Task, start: State) -> tuple[Fraction, int] | None:
-    """The prime's optimal (cost, length) alone, or None."""
-    queue: list[tuple[Fraction, int, list[int]]] = [(Fraction(0), 0, sorted(start))]
-    closed: set[State] = set()
-    while queue:
-        cost, length, facts = heappop(queue)
-        state = frozenset(facts)
-        if task.goal.holds(state):
-            return cost, length
-        if state in closed:
-            continue
-        closed.add(state)
-        for i in task.human_actions:
-            action = task.actions[i]
-            if action.applicable(state):
-                heappush(queue, (cost + action.cost, length + 1, sorted(after(action, state))))
-    return None
-
-
-def optimal_actions(task: Task, state: State) -> list[GroundAction]:
-    """Those that start one of the prime's optimal plans, in the order of names."""
-    optimum = alone(task, state)
-    found = []
-    for i in task.human_actions:
-        action = task.actions[i]
-        if optimum is not None and action.applicable(state):
-            rest = alone(task, after(action, state))
-            if rest is not None and (rest[0] + action.cost, rest[1] + 1) == optimum:
-                found.append(action)
-    return found
+        return holds(self.task.goal, state)
 
 
 def explore(task: Task, *, fixed: bool, no_block: bool) -> Tree:
     """All states that can come up, whatever the supporter does."""
-    robot = task.robots[0]
+    alone, robot = Alone(task), task.robots[0]
     idle = GroundAction("noop", (robot,), (), (), (), (), Fraction(0))
     moves = [idle, *(action for action in task.actions if action.participants == (robot,))]
-    choices: dict[State, list[Choice]] = {}
+    choices: dict[State, list[Ply]] = {}
     pending = [frozenset(task.init)]
     while pending:
         state = pending.pop()
-        if state in choices or task.goal.holds(state):
+        if state in choices or holds(task.goal, state):
             continue
         found = choices[state] = []
         for move in moves:
-            if move.applicable(state):
-                choice = _choice(task, state, move, fixed=fixed, no_block=no_block)
+            if usable(move, state):
+                choice = _choice(alone, state, move, fixed=fixed, no_block=no_block)
                 if choice is not None:
                     found.append(choice)
                     pending.extend(outcome.state for outcome in choice.outcomes)
     return Tree(task, choices)
 
 
-def _choice(task: Task, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Choice | None:
-    middle = after(move, state)
-    if task.goal.holds(middle):
-        return Choice(move.cost, ())
-    actions = optimal_actions(task, middle)
-    if not actions:
-        if no_block and move.name != "noop" and alone(task, state) is not None:
+def _choice(alone: Alone, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Ply | None:
+    middle, actions = after(state, [move]), alone.task.actions
+    if holds(alone.task.goal, middle):
+        return Ply(move.cost, ())
+    ways = alone.optimal(middle)
+    if not ways:
+        if no_block and move.name != "noop" and alone.worth(state) is not None:
             return None
-        return Choice(move.cost, (Outcome(Fraction(0), middle),))
-    chosen = actions[:1] if fixed else actions
-    return Choice(move.cost, tuple(Outcome(action.cost, after(action, middle)) for action in chosen))
+        return Ply(move.cost, (Reached(Fraction(0), middle),))
+    chosen = ways[:1] if fixed else ways
+    return Ply(move.cost, tuple(Reached(actions[i].cost, onward) for i, onward in chosen))
 
 
 def by_rounds(tree: Tree, worst: Callable[[list[Costs]], Costs]) -> Costs | None:
@@ -126,7 +89,7 @@ def by_rounds(tree: Tree, worst: Callable[[list[Costs]], Costs]) -> Costs | None
 
 
 def _value(
-    tree: Tree, choice: Choice, values: dict[State, Costs], worst: Callable[[list[Costs]], Costs]
+    tree: Tree, choice: Ply, values: dict[State, Costs], worst: Callable[[list[Costs]], Costs]
 ) -> Costs | None:
     if not choice.outcomes:
         return (Fraction(0), choice.cost)
@@ -155,7 +118,7 @@ def mean_over_all_policies(tree: Tree, most: int) -> Costs | str | None:
     return best
 
 
-def _policies(tree: Tree, policy: dict[State, Choice], pending: list[State]) -> Iterator[dict[State, Choice]]:
+def _policies(tree: Tree, policy: dict[State, Ply], pending: list[State]) -> Iterator[dict[State, Ply]]:
     pending = [state for state in pending if state not in policy and not tree.final(state)]
     if not pending:
         yield policy
@@ -165,7 +128,7 @@ def _policies(tree: Tree, policy: dict[State, Choice], pending: list[State]) -> 
         yield from _policies(tree, {**policy, state: choice}, rest + [o.state for o in choice.outcomes])
 
 
-def _mean(tree: Tree, policy: dict[State, Choice], start: State) -> Costs | None:
+def _mean(tree: Tree, policy: dict[State, Ply], start: State) -> Costs | None:
     """The mean costs of a policy; None if a run may not end."""
     ending = {state for state, choice in policy.items() if not choice.outcomes}
     grows = True

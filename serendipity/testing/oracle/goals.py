@@ -17,7 +17,7 @@ Sets = tuple[tuple[GroundAction, ...], ...]
 """Robots' action sets, one an epoch."""
 
 
-class Candidate(Protocol):
+class PossibleGoal(Protocol):
     """A goal that the human may have."""
 
     @property
@@ -43,7 +43,7 @@ def robots_sets(task: Task, *, strict: bool) -> list[tuple[GroundAction, ...]]:
     return sets
 
 
-def best_expected(task: Task, options: Options, candidates: Sequence[Candidate], horizon: int) -> Worth:
+def best_expected(task: Task, options: Options, candidates: Sequence[PossibleGoal], horizon: int) -> Worth:
     """Least (objective, cost) over all robots' plans, the human's deviations without robots included."""
     found = []
     for robots in product(robots_sets(task, strict=options.strict), repeat=horizon):
@@ -62,7 +62,7 @@ def best_expected(task: Task, options: Options, candidates: Sequence[Candidate],
 class _Timeline:
     """Every way in which the epochs can go beside one robots' plan, if the candidate is the human's goal."""
 
-    def __init__(self, task: Task, options: Options, candidate: Candidate, robots: Sets) -> None:
+    def __init__(self, task: Task, options: Options, candidate: PossibleGoal, robots: Sets) -> None:
         self.task, self.options, self.robots = task, options, robots
         self.goal = candidate.goal
         self.alone = Alone(replace(task, goal=candidate.goal))

@@ -15,7 +15,7 @@ Visible = Callable[[int, int, State], bool]
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class BeliefState:
     """True state, what the human believes, what remains of their plan."""
 
     state: State
@@ -47,9 +47,9 @@ def best_reaction(
     horizon = len(plan) if options.horizon is None else int(options.horizon)
     world = _World(task, options, visible)
     reached: list[tuple[Fraction, int]] = []
-    layer = {Moment(task.init, task.init, plan): (Fraction(0), 0)}
+    layer = {BeliefState(task.init, task.init, plan): (Fraction(0), 0)}
     for epoch in range(horizon + 1):
-        following: dict[Moment, tuple[Fraction, int]] = {}
+        following: dict[BeliefState, tuple[Fraction, int]] = {}
         for moment, (cost, actions) in layer.items():
             if world.over(moment.state):
                 reached.append((cost, actions))
@@ -77,7 +77,7 @@ class _World:
         actions = (self.task.actions[i] for i in chosen)
         return sum((self.task.team_cost(a, self.options.discount) for a in actions), Fraction(0))
 
-    def unfold(self, now: Moment) -> Iterator[tuple[tuple[int, ...], Moment]]:
+    def unfold(self, now: BeliefState) -> Iterator[tuple[tuple[int, ...], BeliefState]]:
         """Everything that robots can make of the next epoch: what is executed, and then."""
         belief = self._look(now)
         kept, best = self._cost_of(now.plan, belief), self._alone(belief)
@@ -89,12 +89,12 @@ class _World:
                 state = self._after(now.state, chosen)
                 if self._forbidden(now.state, self._after(now.state, his), state):
                     continue
-                yield chosen, Moment(state, believed, rest)
+                yield chosen, BeliefState(state, believed, rest)
 
     def _his_part(
         self, state: State, belief: State, plan: HumanPlan, best: Fraction | None
     ) -> Iterator[tuple[tuple[int, ...], HumanPlan, State]]:
-        """What the human does: a joint action that they would accept, or what they mean to do."""
+        """The human's part: a joint action that they would accept, or what they mean to do."""
         for j in self.joint:
             action = self.task.actions[j]
             if usable(action, state) and usable(action, belief):
@@ -125,7 +125,7 @@ class _World:
             return False
         return self._alone(without_robots) is not None
 
-    def _look(self, now: Moment) -> State:
+    def _look(self, now: BeliefState) -> State:
         if self.options.human_model == "observant":
             return now.state
         assert self.visible is not None, "brute force is told what is visible"

@@ -1,4 +1,4 @@
-"""What the human does after the window (semantics 3.1 rule 3, semantics 3.3)."""
+"""The human's actions after the window (semantics 3.1 rule 3, semantics 3.3)."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -10,7 +10,7 @@ from serendipity.testing.oracle.epochs import State, after, holds, usable
 from serendipity.testing.oracle.labels import NOTHING, Front, Label, front, plus
 
 Price = Callable[[int], Label]
-"""What an action costs, as a label."""
+"""The cost of an action, as a label."""
 
 Suffix = Callable[[State, int, int], Front]
 """Labels of the suffixes from a state, given xi1 and the number of epochs that are left."""

@@ -23,7 +23,7 @@ from serendipity.evaluation.crosscheck import (
     shrink,
 )
 from serendipity.testing.builders import task as build
-from serendipity.testing.judges import Claim, OutsideJudge, by_command, by_name
+from serendipity.testing.judges import OutsideJudge, Proposal, by_command, by_name
 
 SEARCH = {"search": JUDGES["search"]}
 CALL = PlanCall(
@@ -34,30 +34,34 @@ X, Y, Z = range(3)
 """x and then y costs 2."""
 
 
-def judge(claim: Claim) -> OutsideJudge:
+def judge(claim: Proposal) -> OutsideJudge:
     return OutsideJudge("stranger", lambda *_: claim)
 
 
 @pytest.mark.parametrize(
     "claim",
-    [Claim("optimal", (X, Y)), Claim("feasible", (Z,)), Claim("unknown", words="no memory")],
+    [
+        Proposal("optimal", (X, Y)),
+        Proposal("feasible", (Z,)),
+        Proposal("unknown", words="no memory"),
+    ],
     ids=lambda claim: claim.status,
 )
-def test_what_can_be_so_is_no_disagreement(claim: Claim) -> None:
+def test_what_can_be_so_is_no_disagreement(claim: Proposal) -> None:
     assert compare(CALL, SEARCH, outside=[judge(claim)]) is None
 
 
 @pytest.mark.parametrize(
     ("claim", "why"),
     [
-        (Claim("optimal", (Z,)), "its plan costs 5, where 2 is the least"),
-        (Claim("infeasible"), "there is a plan of cost 2"),
-        (Claim("optimal", (Y,)), "step 1 of its plan, 'y r', is not applicable"),
-        (Claim("optimal", (X,)), "its plan misses a goal"),
-        (Claim("infeasible", (X, Y)), "infeasible, with a plan"),
+        (Proposal("optimal", (Z,)), "its plan costs 5, where 2 is the least"),
+        (Proposal("infeasible"), "there is a plan of cost 2"),
+        (Proposal("optimal", (Y,)), "step 1 of its plan, 'y r', is not applicable"),
+        (Proposal("optimal", (X,)), "its plan misses a goal"),
+        (Proposal("infeasible", (X, Y)), "infeasible, with a plan"),
     ],
 )
-def test_what_can_not_be_so_is_one(claim: Claim, why: str) -> None:
+def test_what_can_not_be_so_is_one(claim: Proposal, why: str) -> None:
     found = compare(CALL, SEARCH, outside=[judge(claim)])
     assert found is not None
     assert why in found.said["stranger"]
@@ -65,14 +69,14 @@ def test_what_can_not_be_so_is_one(claim: Claim, why: str) -> None:
 
 def test_a_plan_where_there_is_none_is_one() -> None:
     nothing = PlanCall(build(init="a", goal="b", actions={"x h": "b -> a"}), CALL.options)
-    assert compare(nothing, SEARCH, outside=[judge(Claim("infeasible"))]) is None
-    found = compare(nothing, SEARCH, outside=[judge(Claim("optimal", ()))])
+    assert compare(nothing, SEARCH, outside=[judge(Proposal("infeasible"))]) is None
+    found = compare(nothing, SEARCH, outside=[judge(Proposal("optimal", ()))])
     assert found is not None
     assert "misses a goal" in found.said["stranger"]
 
 
 def test_who_counts_actions_is_asked_about_actions() -> None:
-    call = replace(judge(Claim("unknown")), unit_costs=True).fitted(CALL)
+    call = replace(judge(Proposal("unknown")), unit_costs=True).fitted(CALL)
     assert {action.cost for action in call.task.actions} == {1}
     assert call.options["discount"] == "0"
 
@@ -91,12 +95,12 @@ def test_a_shrunk_case_asks_the_same_question() -> None:
         actions={"x h": "a -> c @ 9", "y r": "a -> b", "z r": "b -> c"},
     )
     call = PlanCall(task, {"mode": "serendipity", "discount": "1/2", "suffix": "subplan"})
-    honest = OutsideJudge("stranger", lambda *_: Claim("optimal", (1, 2)))
+    honest = OutsideJudge("stranger", lambda *_: Proposal("optimal", (1, 2)))
     assert compare(call, SEARCH, outside=[honest]) is None
     assert not shows_it_too(Disagreement(call, {}), SEARCH, outside=[honest])(
         replace(call, options={"mode": "composite"})
     )
-    lying = judge(Claim("optimal", (0,)))
+    lying = judge(Proposal("optimal", (0,)))
     found = compare(call, SEARCH, outside=[lying])
     assert found is not None
     smallest = compare(
@@ -161,20 +165,20 @@ def command(tmp_path: Path, body: str) -> OutsideJudge:
     ids=["file", "numbered", "output", "json"],
 )
 def test_a_command_is_read(body: str, tmp_path: Path) -> None:
-    assert command(tmp_path, body).answer(CALL, Deadline()) == Claim("optimal", (X, Y))
+    assert command(tmp_path, body).answer(CALL, Deadline()) == Proposal("optimal", (X, Y))
 
 
 @pytest.mark.parametrize(
     ("body", "claim"),
     [
-        ("sys.exit(12)", Claim("infeasible")),
-        ("print('{\"plan\": null}')", Claim("infeasible")),
-        ('print(\'{"plan": null, "status": "unknown"}\')', Claim("unknown")),
-        ("open(plan, 'w')", Claim("optimal", ())),
+        ("sys.exit(12)", Proposal("infeasible")),
+        ("print('{\"plan\": null}')", Proposal("infeasible")),
+        ('print(\'{"plan": null, "status": "unknown"}\')', Proposal("unknown")),
+        ("open(plan, 'w')", Proposal("optimal", ())),
     ],
     ids=["exit code", "json", "unknown", "empty"],
 )
-def test_a_command_without_a_plan_is_read(body: str, claim: Claim, tmp_path: Path) -> None:
+def test_a_command_without_a_plan_is_read(body: str, claim: Proposal, tmp_path: Path) -> None:
     assert command(tmp_path, body).answer(CALL, Deadline()) == claim
 
 
@@ -195,7 +199,7 @@ def test_a_command_that_fails_is_a_disagreement(body: str, why: str, tmp_path: P
 
 def test_a_command_that_takes_too_long_knows_nothing(tmp_path: Path) -> None:
     claim = command(tmp_path, "import time; time.sleep(60)").answer(CALL, Deadline(0.3))
-    assert claim == Claim("unknown", words="time limit")
+    assert claim == Proposal("unknown", words="time limit")
 
 
 def test_places_of_files_are_filled_in(tmp_path: Path) -> None:

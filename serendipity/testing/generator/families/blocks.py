@@ -5,7 +5,7 @@ from random import Random
 from typing import Final
 
 from serendipity.model import Task
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families.parts import negated, pairs, prices, with_goals
 
 _TABLE: Final = "table"
@@ -77,14 +77,14 @@ class _World:
         return self._free.format(agent)
 
     def look_of(self, towers: dict[str, str]) -> list[str]:
-        """What is true of blocks."""
+        """The facts about blocks."""
         tops = [x if x not in towers.values() else "" for x in towers]
         literals = [self.clear(x) if x in tops else negated(self.clear(x)) for x in towers]
         literals += [self.sits(x, below) for x, below in towers.items()]
         return [literal for literal in literals if literal[0] != "!"]
 
     def places(self, block: str) -> list[str]:
-        """Where a block may be."""
+        """The places of a block."""
         return [*self._ground, *(x for x in self.names if x != block)]
 
     def move(self, block: str, who: tuple[int, ...], cost: str) -> None:
@@ -124,7 +124,7 @@ class _World:
 
 
 def _towers(dice: Random, names: list[str]) -> dict[str, str]:
-    """What each block is on."""
+    """The block or place below each block."""
     below, tops = dict[str, str](), list[str]()
     for block in dice.sample(names, len(names)):
         below[block] = dice.choice((_TABLE, *tops, *tops))

@@ -5,7 +5,7 @@ from itertools import pairwise, permutations
 from random import Random
 
 from serendipity.model import Task
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families.parts import pairs, prices, with_goals
 
 _Roads = list[tuple[str, str]]

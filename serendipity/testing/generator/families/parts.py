@@ -1,4 +1,4 @@
-"""What the families have in common: pairs of agents, prices, goals."""
+"""Parts that the families share: pairs of agents, prices, goals."""
 
 from collections.abc import Callable, Sequence
 from itertools import combinations
@@ -6,18 +6,18 @@ from random import Random
 from typing import Final
 
 from serendipity.model import Task
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 
 _COSTS: Final = ("1", "1", "2", "3", "0", "0.5", "0.1", "2.5")
 
 
 def pairs(agents: Sequence[str]) -> list[tuple[int, int]]:
-    """Who may do something together."""
+    """The pairs of agents."""
     return list(combinations(range(len(agents)), 2))
 
 
 def prices(dice: Random) -> Callable[[], str]:
-    """What actions cost: all the same, which makes for ties, or anything."""
+    """Prices of actions: all the same, which makes for ties, or anything."""
     return (lambda: "1") if dice.random() < 0.5 else lambda: dice.choice(_COSTS)
 
 

@@ -4,7 +4,7 @@ from random import Random
 
 from serendipity.model import Condition, Task
 from serendipity.model.task.actions import apply
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families.parts import negated, pairs, prices
 
 
@@ -52,7 +52,7 @@ def _panel(dice: Random, builder: Builder, names: list[str]) -> Task:
 
 
 def _circle(dice: Random, builder: Builder, names: list[str]) -> Task:
-    """Who presses one disables the next, until somebody enables it again, which may undo the one before."""
+    """Pressing one disables the next, until somebody enables it again, which may undo the one before."""
     price = prices(dice)
     ready = dice.choice(("ready_{}", "!stuck_{}"))
     for k, name in enumerate(names):
@@ -71,7 +71,7 @@ def _circle(dice: Random, builder: Builder, names: list[str]) -> Task:
 
 
 def _walk(dice: Random, task: Task, actions: range | tuple[int, ...], steps: int) -> frozenset[int]:
-    """Where random actions lead to."""
+    """The state after random actions."""
     state = task.init
     for _ in range(dice.randint(2, steps)):
         ways = [i for i in actions if task.actions[i].applicable(state)]

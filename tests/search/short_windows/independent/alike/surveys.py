@@ -4,7 +4,7 @@ from dataclasses import replace
 from random import Random
 
 from serendipity.model import Task
-from serendipity.testing.generator.builder import Builder
+from serendipity.testing.builders import Builder
 
 
 def survey(dice: Random, places: int, robots: int) -> Task:
