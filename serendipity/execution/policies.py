@@ -1,7 +1,7 @@
 """People by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscient``, ``recorded:FILE``."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 from random import Random
 from typing import Final
@@ -10,9 +10,8 @@ from search import PreparedTask
 from serendipity.execution.faults import probability
 from serendipity.execution.persons import Noisy, Omniscient, Person, Recorded, Replanner
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.task.task import Task, canonical_name, several
-from serendipity.pddl.parsing.files import read_text
-from serendipity.pddl.parsing.lists import actions_in
+from serendipity.model.task.task import Task
+from serendipity.recognition.candidates import ObservedGiven, named_actions
 
 POLICIES: Final = ("recorded:FILE", "omniscient", "observant", "local", "noisy:P")
 """How people are named."""
@@ -84,23 +83,17 @@ def policy_from(task: Task, text: str) -> Policy:
     raise UsageError(f"human: expected one of {', '.join(POLICIES)}, got '{text:.50}'")
 
 
-def recorded_actions(task: Task, file: Path | Sequence[str]) -> tuple[str, ...]:
-    """What was written down, one action an epoch; ``noop`` is an epoch of waiting.
+def recorded_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
+    """The actions that were written down, one an epoch; ``noop`` is an epoch of waiting.
 
     Raises:
         InputError: a line is no action that the human takes part in.
     """
-    if isinstance(file, Path):
-        lines: list[tuple[str, int | None]] = [(n, i) for n, i in actions_in(read_text(file), file)]
-    else:
-        lines = [(name, None) for name in several(file, "human")]
-    where = file if isinstance(file, Path) else None
-    names = []
-    for text, line in lines:
-        name = canonical_name(text)
+    lines = named_actions(given, "human")
+    for name, line in lines:
         ids = task.named.get(name, ())
         if not task.waits(name) and all(task.human not in task.actions[i].participants for i in ids):
+            where = given if isinstance(given, str | PathLike) else None
             human = task.agents[task.human]
             raise InputError(f"recorded action '{name}': expected an action of {human}'s", where, line)
-        names.append(name)
-    return tuple(names)
+    return tuple(name for name, _ in lines)
