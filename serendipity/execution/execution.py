@@ -5,9 +5,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from serendipity.execution.brain import Brain
 from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
 from serendipity.execution.outlook import Outlook, Robots
+from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
 from serendipity.facade.results import named_steps
@@ -104,7 +104,9 @@ class Execution(Tabular):
         self.events: list[dict[str, Any]] = []
         self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
         self._world = World(task, options.discount, strict=options.strict)
-        self._brain: Robots = robots or Brain(task, options, goals, beta, told=told, surely=adapter is None)
+        self._robots: Robots = robots or RobotPolicy(
+            task, options, goals, beta, told=told, surely=adapter is None
+        )
         self._adapter = adapter
         self._failures: Counter[Order] = Counter()
         self._reports: tuple[Reported, ...] = ()
@@ -213,7 +215,7 @@ class Execution(Tabular):
         self._learn_from(happened.unfinished)
         paid, team = self._world.cost(happened.executed)
         self._paid, self._team = self._paid + paid, self._team + team
-        self._brain.saw(his, happened.executed, tried)
+        self._robots.saw(his, happened.executed, tried)
         passed = Passed(
             epoch=decided.epoch,
             decided=decided,
@@ -242,7 +244,7 @@ class Execution(Tabular):
         """
         expect(BY_NAME, facts=facts)
         self._world.change(facts.items())
-        self._brain.surprised()
+        self._robots.surprised()
         self.events.append({"change": dict(facts)})
         self._decided = None
 
@@ -257,7 +259,7 @@ class Execution(Tabular):
             if name not in self.task.agents or self.task.agents.index(name) == self.task.human:
                 known = ", ".join(self.task.agents[i] for i in self.task.robots)
                 raise UsageError(f"robot: expected one of {known}, got '{name}'")
-        self._brain.drop(self.task.agents.index(name) for name in names)
+        self._robots.drop(self.task.agents.index(name) for name in names)
         self._running = [step for step in self._running if not set(step.agents).intersection(names)]
         self.events.append({"drop": names})
         self._decided = None
@@ -270,7 +272,7 @@ class Execution(Tabular):
         while seconds > 0:
             try:
                 with no_collection():
-                    self._brain.decide(self._outlook(), Deadline(min(share, seconds)))
+                    self._robots.decide(self._outlook(), Deadline(min(share, seconds)))
                 return
             except LIMITS:
                 seconds, share = seconds - share, 2 * share
@@ -279,7 +281,7 @@ class Execution(Tabular):
         clock = Deadline(self._deadline)
         try:
             with no_collection():
-                decided = self._brain.decide(self._outlook(), clock)
+                decided = self._robots.decide(self._outlook(), clock)
         except LIMITS:
             return self._late(clock.elapsed())
         seconds = clock.elapsed()
@@ -296,7 +298,7 @@ class Execution(Tabular):
     def _late(self, seconds: float) -> Decided:
         why = Why("late")
         words = why.text(self.human, "late")
-        return Decided(self.epoch, "late", words, goals=self._brain.goals, seconds=seconds, because=why)
+        return Decided(self.epoch, "late", words, goals=self._robots.goals, seconds=seconds, because=why)
 
     def _offer(self, decided: Decided, action: str) -> PlanStep | None:
         name = canonical_name(action)
@@ -309,7 +311,7 @@ class Execution(Tabular):
                 order = Order(missed.step.agents, missed.step.action)
                 self._failures[order] += 1
                 if self._failures[order] == _TRIES:
-                    self._brain.unable(actions_named(self.task, order.action, order.agents))
+                    self._robots.unable(actions_named(self.task, order.action, order.agents))
 
     def _carry_out(self, his: int | None, steps: Sequence[PlanStep]) -> Sequence[Outcome]:
         if self._adapter is None:

@@ -1,4 +1,4 @@
-"""People by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscient``, ``recorded:FILE``."""
+"""Personas, people by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscient``, ``recorded:FILE``."""
 
 from dataclasses import dataclass
 from os import PathLike
@@ -13,13 +13,13 @@ from serendipity.model.errors import InputError, UsageError
 from serendipity.model.task.task import Task
 from serendipity.recognition.candidates import ObservedGiven, named_actions
 
-POLICIES: Final = ("recorded:FILE", "omniscient", "observant", "local", "noisy:P")
+PERSONAS: Final = ("recorded:FILE", "omniscient", "observant", "local", "noisy:P")
 """How people are named."""
 
 
 @dataclass(frozen=True, slots=True)
-class Policy:
-    """What somebody does, so that it can be done again.
+class Persona:
+    """Somebody who acts in a certain way, again and again.
 
     Attributes:
         name: ``recorded``, ``omniscient``, ``observant``, ``local`` or ``noisy``.
@@ -61,26 +61,26 @@ class Policy:
         return Replanner(task, self.name, dice if drawn else None, prepared)
 
 
-def policy_from(task: Task, text: str) -> Policy:
-    """The policy that a text names.
+def persona_from(task: Task, text: str) -> Persona:
+    """The persona that a text names.
 
     Args:
         task: what they act in.
-        text: as in ``POLICIES``; what follows the name stands behind a colon or a blank.
+        text: as in ``PERSONAS``; what follows the name stands behind a colon or a blank.
 
     Raises:
-        UsageError: there is no such policy.
+        UsageError: there is no such persona.
         InputError: the file of ``recorded`` is wrong; it says where.
     """
     name, _, rest = text.strip().replace(" ", ":", 1).partition(":")
     rest = rest.strip()
     if name == "recorded" and rest:
-        return Policy(name, actions=recorded_actions(task, Path(rest)))
+        return Persona(name, actions=recorded_actions(task, Path(rest)))
     if name == "noisy" and rest:
-        return Policy(name, probability(rest, "noisy"))
+        return Persona(name, probability(rest, "noisy"))
     if name in ("omniscient", "observant", "local") and not rest:
-        return Policy(name)
-    raise UsageError(f"human: expected one of {', '.join(POLICIES)}, got '{text:.50}'")
+        return Persona(name)
+    raise UsageError(f"human: expected one of {', '.join(PERSONAS)}, got '{text:.50}'")
 
 
 def recorded_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
