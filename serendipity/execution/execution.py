@@ -271,8 +271,7 @@ class Execution(Tabular):
         share = _FIRST_TRY
         while seconds > 0:
             try:
-                with no_collection():
-                    self._robots.decide(self._outlook(), Deadline(min(share, seconds)))
+                self._asked(Deadline(min(share, seconds)))
                 return
             except LIMITS:
                 seconds, share = seconds - share, 2 * share
@@ -280,20 +279,15 @@ class Execution(Tabular):
     def _decide(self) -> Decided:
         clock = Deadline(self._deadline)
         try:
-            with no_collection():
-                decided = self._robots.decide(self._outlook(), clock)
+            decided = self._asked(clock).at(clock.elapsed())
         except LIMITS:
             return self._late(clock.elapsed())
-        seconds = clock.elapsed()
-        if self._missed(seconds):
-            return self._late(seconds)
-        return decided.at(seconds)
+        in_time = self._deadline is None or decided.seconds <= self._deadline
+        return decided if in_time else self._late(decided.seconds)
 
-    def _outlook(self) -> Outlook:
-        return Outlook(self.epoch, self._world, tuple(self._running))
-
-    def _missed(self, seconds: float) -> bool:
-        return self._deadline is not None and seconds > self._deadline
+    def _asked(self, clock: Deadline) -> Decided:
+        with no_collection():
+            return self._robots.decide(Outlook(self.epoch, self._world, tuple(self._running)), clock)
 
     def _late(self, seconds: float) -> Decided:
         why = Why("late")

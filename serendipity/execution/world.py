@@ -115,11 +115,6 @@ class World:
         """The state that some actions would lead to from here."""
         return apply(self.state, *(self.task.actions[i] for i in actions))
 
-    def conflict(self, action: int, other: int) -> bool:
-        """Whether two actions can't share an epoch."""
-        first, second = self.task.actions[action], self.task.actions[other]
-        return conflicting(first, second, strict=self._strict)
-
     def change(self, facts: Iterable[tuple[str, bool]]) -> None:
         """Set facts to true or false, as somebody has seen them.
 
@@ -142,7 +137,8 @@ class World:
     def _obstacle(self, action: int, executed: Sequence[int]) -> str | None:
         if not self.applicable(action):
             return "inapplicable"
-        return "conflict" if any(self.conflict(action, other) for other in executed) else None
+        first, others = self.task.actions[action], (self.task.actions[i] for i in executed)
+        return "conflict" if any(conflicting(first, o, strict=self._strict) for o in others) else None
 
     @cached_property
     def _facts(self) -> Facts:

@@ -23,7 +23,7 @@ def test_runs_with_time_to_decide_are_those_without_a_deadline(human: str) -> No
 def test_robots_who_begin_again_know_nothing_of_what_has_happened_since() -> None:
     task = serendipity.example("room2")
     robots = RobotPolicy(task, Options(discount="0.9"), None, 1, told=False)  # type: ignore[arg-type]
-    robots.decide(Execution(task)._outlook(), Deadline())
+    Execution(task, robots=robots)._asked(Deadline())
     ready = robots.again()
     first = Execution(task, discount="0.9", robots=ready.again())
     plan = first.decided.plan
