@@ -181,7 +181,7 @@ def test_each_request_has_a_line_of_log(tmp_path: Path) -> None:
         answer = server.client.get("/health")
         server.client.get("/nowhere%0a")
         _, said = server.stop()
-    lines = [line for line in said.splitlines() if "access_log" in line]
+    lines = [line for line in said.splitlines() if "guards.responses" in line]
     assert len(lines) == 2
     assert "127.0.0.1 'GET /health' 200" in lines[0]
     assert lines[0].endswith(answer.headers["x-request-id"])

@@ -11,9 +11,8 @@ from fastapi.responses import HTMLResponse, PlainTextResponse
 from starlette.middleware import Middleware
 
 from serendipity.live.guards.access import Access
-from serendipity.live.guards.access_log import Logged
 from serendipity.live.guards.bodies import BodyLimits
-from serendipity.live.guards.headers import Headed
+from serendipity.live.guards.responses import Responses
 from serendipity.live.play.table import Download
 from serendipity.model import SerendipityError
 
@@ -55,8 +54,7 @@ def application(host: Host, hosts: Sequence[str]) -> FastAPI:
     app = FastAPI(
         openapi_url=None,
         middleware=[
-            Middleware(Logged),
-            Middleware(Headed, inline=False),
+            Middleware(Responses, inline=False),
             Middleware(Access, hosts=hosts),
             Middleware(BodyLimits, most=64 * _KIB, seconds=10.0),
         ],

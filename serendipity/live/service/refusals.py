@@ -10,6 +10,7 @@ from pydantic_core import PydanticSerializationError
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
+from serendipity.live.guards.responses import GONE
 from serendipity.live.service.answering import GoneError
 from serendipity.live.service.requests import Refusal
 
@@ -26,9 +27,6 @@ REFUSALS: Final[dict[int | str, dict[str, Any]]] = {
         (507, "memory is used up"),
     )
 }
-
-_CLOSED: Final = 499
-"""Nobody hears it: the client closed the connection."""
 
 
 async def _refused(_request: Request, error: Exception) -> Response:
@@ -59,7 +57,7 @@ async def _broken(request: Request, error: Exception) -> Response:
 
 
 async def _gone(_request: Request, _error: Exception) -> Response:
-    return Response(status_code=_CLOSED)
+    return Response(status_code=GONE)
 
 
 def _lower(text: str) -> str:
