@@ -13,7 +13,7 @@ from starlette.middleware import Middleware
 from serendipity.live.guards.access import Access
 from serendipity.live.guards.bodies import BodyLimits
 from serendipity.live.guards.responses import Responses
-from serendipity.live.play.table import Download
+from serendipity.live.play.records import Download
 from serendipity.model import SerendipityError
 
 _TYPES: Final = {"js": "text/javascript", "css": "text/css"}
@@ -35,7 +35,7 @@ class Room(Protocol):
 
 
 class Host(Protocol):
-    """What is behind the pages: :class:`.table.Table`, or a study."""
+    """What is behind the pages: :class:`.rounds.SharedRounds`, or a study."""
 
     def room(self, token: str) -> Room | None:
         """The room of a token; that of the first page where it is empty."""

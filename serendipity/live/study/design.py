@@ -11,8 +11,8 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.live.play.labels import labels_for
-from serendipity.live.play.opening import made
-from serendipity.live.play.setting import Setting
+from serendipity.live.play.records import made
+from serendipity.live.play.setting import RoundSetting
 from serendipity.live.play.settings_file import read_settings
 from serendipity.live.study.drawing import draw, numbered, practice
 from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse, report, to_dict
@@ -44,15 +44,15 @@ class Design:
     """
 
     texts: StudyFile
-    scenarios: Mapping[str, Setting]
-    practice: Setting | None
+    scenarios: Mapping[str, RoundSetting]
+    practice: RoundSetting | None
     seed: int
     secret: str
     code: str
     mark: str
     report: str
 
-    def setting(self, scenario: str, condition: str) -> Setting:
+    def setting(self, scenario: str, condition: str) -> RoundSetting:
         """A round of somebody's."""
         return replace(self.scenarios[scenario], condition=condition)
 
@@ -122,7 +122,7 @@ def _begin(folder: Path, texts: StudyFile, labels: Path | None, given: Mapping[s
     }
 
 
-def _shown(setting: Setting, conditions: list[str]) -> Rehearsal:
+def _shown(setting: RoundSetting, conditions: list[str]) -> Rehearsal:
     played = rehearse(setting, conditions)
     wrong = fault(played, conditions)
     if wrong is not None:
@@ -139,7 +139,7 @@ def _how(texts: StudyFile, settings: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _own(own: OwnScenario, folder: Path, labels: Path | None, how: Mapping[str, Any]) -> Setting:
+def _own(own: OwnScenario, folder: Path, labels: Path | None, how: Mapping[str, Any]) -> RoundSetting:
     where = f"scenario {own.name}"
     try:
         if (own.example is None) == (not own.files):
@@ -148,7 +148,7 @@ def _own(own: OwnScenario, folder: Path, labels: Path | None, how: Mapping[str, 
             task = serendipity.example(own.example)
         else:
             task = _loaded([folder / file for file in own.files], own)
-        return Setting(own.name, task, labels=labels_for(task, labels), **how)
+        return RoundSetting(own.name, task, labels=labels_for(task, labels), **how)
     except SerendipityError as error:
         raise InputError(f"{where}: {error}", folder / _TEXTS) from None
 

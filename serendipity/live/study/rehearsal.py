@@ -6,7 +6,7 @@ from statistics import fmean
 from typing import Any
 
 from serendipity.execution import Omniscient, Person, Replanner, moment_of
-from serendipity.live.play.setting import Setting
+from serendipity.live.play.setting import RoundSetting
 from serendipity.model.numbers import plain
 
 
@@ -31,7 +31,7 @@ Rehearsal = Mapping[str, Played]
 """A scenario by condition; ``none`` is always played."""
 
 
-def rehearse(setting: Setting, conditions: Sequence[str]) -> dict[str, Played]:
+def rehearse(setting: RoundSetting, conditions: Sequence[str]) -> dict[str, Played]:
     """A scenario under some conditions, and under ``none``.
 
     Robots that announce their plan have somebody before them who does their part of it, the others somebody
@@ -41,7 +41,7 @@ def rehearse(setting: Setting, conditions: Sequence[str]) -> dict[str, Played]:
     return {name: _play(replace(setting, condition=name)) for name in names}
 
 
-def _play(setting: Setting) -> Played:
+def _play(setting: RoundSetting) -> Played:
     run, person = setting.execution(), _player(setting)
     most = setting.most_epochs or 1_000
     while not run.done and run.epoch <= most:
@@ -50,7 +50,7 @@ def _play(setting: Setting) -> Played:
     return Played(run.done, float(run.human_cost), float(run.cost), helped)
 
 
-def _player(setting: Setting) -> Person:
+def _player(setting: RoundSetting) -> Person:
     if setting.condition == "announced":
         return Omniscient(setting.task)
     return Replanner(setting.task, setting.view)

@@ -10,7 +10,6 @@ from serendipity.model import GroundAction, InputError, Result, Task
 from serendipity.model.numbers import total
 from serendipity.model.task.execution import shares
 from serendipity.pictures.map.layout import lay_out
-from serendipity.pictures.map.names import parts, verb_and_rest, without
 from serendipity.pictures.map.places import Places, Whereabouts, find_places
 from serendipity.pictures.scene.changes import find_changes
 from serendipity.pictures.scene.crowds import cell_size
@@ -42,7 +41,6 @@ def build_scene(task: Task, result: Result) -> Scene:
         name=task.name,
         agents=task.agents,
         human=task.human,
-        layout=None,
         goals=places.goals(task),
         frames=builder.frames(moments, former, last),
         acts=acts,
@@ -145,23 +143,7 @@ class _Builder:
         return Meeting(moment.epoch, place, mine, text + (f" in {place}" if gifts and place else ""))
 
     def _act(self, epoch: int, action: GroundAction) -> Act:
-        verb, detail = verb_and_rest(action.name, [self.task.agents[i] for i in action.participants])
-        if not action.joint:
-            places = self.finder.places_of(action, action.participants[0])
-            reached = [places[f] for f in action.add if f in places]
-            verb, detail = ("go to", reached[0]) if reached else (verb, detail)
-        if verb != "go to":
-            detail = self._without_here(action, detail)
-        return Act(epoch, action.participants, verb, detail, action.name)
-
-    def _without_here(self, action: GroundAction, detail: str) -> str:
-        """A detail without the place and vehicle that participants are in; kept if it is all there is."""
-        here = []
-        for agent in action.participants:
-            places = self.finder.places_of(action, agent)
-            here += [parts(places[f]) for f in action.pre if f in places]
-            here += [parts(vehicle) for vehicle in self.finder.vehicles(action, agent)]
-        return " ".join(without(here, tuple(detail.split()))) or detail
+        return Act(epoch, action.participants, *self.finder.phrase(action, self.task.agents), action.name)
 
     def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
         return tuple(self.task.facts[f] for f in sorted(ids))

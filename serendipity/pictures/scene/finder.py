@@ -1,12 +1,13 @@
 """Where agents and objects are in a state, in vehicles too."""
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
 from serendipity.model import GroundAction
 from serendipity.model.task.actions import State
+from serendipity.pictures.map.names import Parts, parts, verb_and_rest, without
 from serendipity.pictures.map.places import Places, Whereabouts
 
 NOWHERE: Final = Whereabouts()
@@ -74,6 +75,29 @@ class Finder:
             told = self._places.objects[vehicle]
             found |= {f: where.place for f, where in told.items() if where.place is not None}
         return found
+
+    def target(self, action: GroundAction, agent: int) -> str | None:
+        """The place that an agent's own action leads to; None where it leads nowhere."""
+        places = {} if action.joint else self.places_of(action, agent)
+        return next((places[fact] for fact in action.add if fact in places), None)
+
+    def phrase(self, action: GroundAction, agents: Sequence[str]) -> tuple[str, str]:
+        """An action in two short lines, without who does it and where they are; a move is "go to" a place.
+
+        Args:
+            action: the action.
+            agents: names of all agents.
+        """
+        place = self.target(action, action.participants[0])
+        if place is not None:
+            return "go to", place
+        verb, detail = verb_and_rest(action.name, [agents[i] for i in action.participants])
+        here: list[Parts] = []
+        for agent in action.participants:
+            places = self.places_of(action, agent)
+            here += [parts(places[fact]) for fact in action.pre if fact in places]
+            here += map(parts, self.vehicles(action, agent))
+        return verb, " ".join(without(here, tuple(detail.split()))) or detail
 
     def vehicles(self, action: GroundAction, agent: int) -> list[str]:
         """What an agent is in or on while it acts."""

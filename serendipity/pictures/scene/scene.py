@@ -1,6 +1,6 @@
 """The scene: everything that a picture of a plan shows, epoch by epoch, before anything is drawn."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from serendipity.model import Result, Window
@@ -63,13 +63,13 @@ class Frame:
     epoch: int
     at: dict[int, str]
     objects: dict[str, Whereabouts]
-    former_at: str | None
-    made: tuple[str, ...]
-    undone: tuple[str, ...]
-    spent: dict[int, Fraction]
-    former_spent: Fraction
-    caption: str
-    in_window: bool
+    former_at: str | None = None
+    made: tuple[str, ...] = ()
+    undone: tuple[str, ...] = ()
+    spent: dict[int, Fraction] = field(default_factory=dict)
+    former_spent: Fraction = Fraction(0)
+    caption: str = ""
+    in_window: bool = False
 
     @property
     def cost(self) -> Fraction:
@@ -84,13 +84,13 @@ class Scene:
     Attributes:
         name: of the task.
         agents: names by id; ``human`` is an id.
+        result: what is shown.
+        frames: epoch 0, 1, ... to the end of the plan or of the former plan, whichever is later.
         layout: of the map, or None where the task has none.
         goals: places that the human's goal names.
-        frames: epoch 0, 1, ... to the end of the plan or of the former plan, whichever is later.
         acts, former_acts: the two plans.
         window: as in the result.
         changes: facts that change, for the lanes below the timeline.
-        result: what is shown.
         vehicles: objects that others can be in or on.
         towers: whether what is on an object is shown above it.
     """
@@ -98,15 +98,15 @@ class Scene:
     name: str
     agents: tuple[str, ...]
     human: int
-    layout: Layout | None
-    goals: tuple[str, ...]
-    frames: tuple[Frame, ...]
-    acts: tuple[Act, ...]
-    former_acts: tuple[Act, ...]
-    meetings: tuple[Meeting, ...]
-    window: Window | None
-    changes: tuple[Change, ...]
     result: Result
+    frames: tuple[Frame, ...]
+    layout: Layout | None = None
+    goals: tuple[str, ...] = ()
+    acts: tuple[Act, ...] = ()
+    former_acts: tuple[Act, ...] = ()
+    meetings: tuple[Meeting, ...] = ()
+    window: Window | None = None
+    changes: tuple[Change, ...] = ()
     vehicles: frozenset[str] = frozenset()
     towers: bool = False
 

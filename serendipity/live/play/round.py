@@ -7,11 +7,11 @@ import serendipity
 from serendipity.execution import VERDICTS, Decided, Passed
 from serendipity.execution.account import account
 from serendipity.execution.log import decision_of
-from serendipity.live.play.eyes import Eyes
+from serendipity.live.play.knowledge import Knowledge
+from serendipity.live.play.map_view import MapView
 from serendipity.live.play.records import Event
-from serendipity.live.play.setting import Setting
-from serendipity.live.play.stage import Stage
-from serendipity.live.play.words import Words
+from serendipity.live.play.setting import RoundSetting
+from serendipity.live.play.words import Phrases
 from serendipity.model import GroundAction, InputError, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
@@ -22,7 +22,7 @@ _EXPLAINING = 10.0
 """Seconds for an explanation at the end."""
 
 
-class Game:
+class Round:
     """A person, robots and the world.
 
     Args:
@@ -32,7 +32,7 @@ class Game:
         UsageError: the person has no way to reach the goal alone.
     """
 
-    def __init__(self, setting: Setting) -> None:
+    def __init__(self, setting: RoundSetting) -> None:
         self.setting = setting
         task = setting.task
         alone = serendipity.plan(task, mode="individual")
@@ -41,10 +41,9 @@ class Game:
         self.alone = alone.cost
         self.run = setting.execution()
         places = find_places(task)
-        self._words = Words(task, places, setting.labels)
-        self._eyes = Eyes(task, setting.view)
-        self._stage = Stage(task, places, self._eyes)
-        self._stage.look(self.run.state)
+        self._words = Phrases(task, places, setting.labels)
+        self._known = Knowledge(task, setting.view)
+        self._map = MapView(task, places, self._known)
         self._seen: list[dict[str, Any]] = []
         self.human = task.agents[task.human]
 
@@ -71,7 +70,7 @@ class Game:
         shown = {
             "said": self._said(decided),
             "choices": [choice["text"] for choice in self._choices(decided)],
-            "goal": self._words.goal(self._eyes.belief),
+            "goal": self._words.goal(self._known.belief),
         }
         passed = self._step(action)
         return {
@@ -115,11 +114,11 @@ class Game:
             raise InputError(f"epoch {event.get('epoch')}: comes out otherwise than it is recorded", file)
 
     def _step(self, action: str | None) -> Passed:
-        near, before = self._stage.here, self.run.state
+        near, before = self._map.here, self.run.state
         passed = self.run.step(action)
         own = next((step for step in passed.steps if self.human in step.agents), None)
-        self._eyes.look(self.run.state, None if own is None else self._ground(own, before))
-        self._stage.look(self.run.state)
+        self._known.look(self.run.state, None if own is None else self._ground(own, before))
+        self._map.look()
         self._seen.insert(0, self._told(passed, near))
         return passed
 
@@ -132,13 +131,13 @@ class Game:
         return {
             "scenario": self.setting.name,
             "condition": self.setting.condition,
-            "sight": "everywhere" if self._eyes.everywhere else "here",
+            "sight": "everywhere" if self._known.everywhere else "here",
             "human": self.human,
-            "goal": self._words.goal(self._eyes.belief),
+            "goal": self._words.goal(self._known.belief),
             "epoch": run.epoch,
-            "map": self._stage.picture(),
-            "legend": self._stage.legend(),
-            "facts": None if self._stage.here else self._facts(),
+            "map": self._map.picture(),
+            "legend": self._map.legend(),
+            "facts": None if self._map.here else self._facts(),
             "can": [] if decided is None else self._choices(decided),
             "paid": float(run.human_cost),
             "team": float(run.cost),
@@ -181,7 +180,7 @@ class Game:
         """What the person knows to be true, where there is no map."""
         names = self.setting.task.facts
         hidden = {disjunction.fact for disjunction in self.setting.task.disjunctions}
-        return [names[fact] for fact in sorted(self._eyes.belief) if fact not in hidden]
+        return [names[fact] for fact in sorted(self._known.belief) if fact not in hidden]
 
     def _choices(self, decided: Decided) -> list[dict[str, Any]]:
         """What the person can do, as far as they know: what robots offer first, waiting last."""
@@ -201,7 +200,7 @@ class Game:
         for i in task.human_actions:
             action = task.actions[i]
             if self._changes(action) and action.name not in known:
-                place = self._words.target(action, task.human)
+                place = self._words.target(action)
                 known[action.name] = {
                     "action": action.name,
                     "text": self._words.action(action),
@@ -214,7 +213,7 @@ class Game:
 
     def _changes(self, action: GroundAction) -> bool:
         """Whether an action is possible, as far as the person knows, and would change anything."""
-        belief = self._eyes.belief
+        belief = self._known.belief
         return action.applicable(belief) and apply(belief, action) != belief
 
     def _thinking(self, decided: Decided) -> dict[str, Any]:
@@ -278,11 +277,11 @@ class Game:
 
     def _noticed(self, step: PlanStep, near: str | None) -> bool:
         """Whether the person was where a robot did something, or it came to where they are."""
-        if self._eyes.everywhere:
+        if self._known.everywhere:
             return True
         action = self._ground(step, self.run.state)
         facts = (*action.pre, *action.add)
-        return any(self._eyes.sees(fact, self.run.state) for fact in facts) and near is not None
+        return any(self._known.sees(fact, self.run.state) for fact in facts) and near is not None
 
     def _end(self) -> dict[str, Any]:
         """What the round came to."""
