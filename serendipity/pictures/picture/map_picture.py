@@ -114,7 +114,7 @@ def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
     for place, box in layout.boxes.items():
         goal = place in scene.goals
         label, size = fitted(place, box.width - (38 if goal else 14), _LABEL_SIZE, LEAST_LABEL)
-        x, y = box.x + (10 if goal else 0), box.y - box.height / 2 + _LABEL_AT
+        x, y = box.x + (10 if goal else 0), box.top + _LABEL_AT
         width = ems(label) * size
         floor = Style(CORRIDOR if box.corridor else FLOOR)
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)
@@ -126,8 +126,8 @@ def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
 def _outline(box: Box, *, in_plan: bool) -> Rect:
     inset = 0 if in_plan else _ROOM
     return Rect(
-        box.x - box.width / 2 + inset,
-        box.y - box.height / 2 + inset,
+        box.left + inset,
+        box.top + inset,
         box.width - 2 * inset,
         box.height - 2 * inset,
         Style(CORRIDOR if box.corridor else FLOOR, WALL, 2 if in_plan else 3),
@@ -139,11 +139,9 @@ def _door(a: Box, b: Box) -> Line:
     """The opening in the wall between two boxes, in the colour of the floor."""
     floor = Style(stroke=CORRIDOR if a.corridor or b.corridor else FLOOR, width=5)
     if a.y == b.y:
-        left = a if a.x < b.x else b
-        x = left.x + left.width / 2
+        x = (a if a.x < b.x else b).right
         return Line(((x, a.y - _DOOR / 2), (x, a.y + _DOOR / 2)), floor)
-    narrow, upper = (a if a.width < b.width else b), (a if a.y < b.y else b)
-    y = upper.y + upper.height / 2
+    narrow, y = (a if a.width < b.width else b), (a if a.y < b.y else b).bottom
     return Line(((narrow.x - _DOOR / 2, y), (narrow.x + _DOOR / 2, y)), floor)
 
 
@@ -173,7 +171,7 @@ def _meetings(scene: Scene, layout: Layout) -> Iterator[Shape]:
             met[str(meeting.place)].append((index, meeting))
     for place, several in met.items():
         box = layout.boxes[place]
-        x, y = box.x - box.width / 2, box.y - box.height / 2
+        x, y = box.left, box.top
         frame = Rect(x + 4, y + 4, box.width - 8, box.height - 8, Style(stroke=MEETING, width=5), round=12)
         epochs = [str(epoch) for epoch in dict.fromkeys(meeting.epoch for _, meeting in several)]
         text, size = _fitting(epochs, box.width - 30)
