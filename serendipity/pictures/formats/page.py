@@ -134,14 +134,8 @@ def _legend(scene: Scene) -> str:
         kind = "person" if agent == scene.human else "machine"
         sample = f'<i class="{kind}" style="background:{colours[agent]};color:{on(colours[agent])}"></i>'
         items.append(f"{sample}{markup(scene.agents[agent])}")
-    if scene.deviates:
-        items.append(f'<i class="former"></i>{markup(scene.agents[scene.human])}’s former plan')
-    if scene.window is not None:
-        items.append('<i class="window"></i>window')
-    if scene.meetings:
-        items.append('<i class="meeting"></i>hand-over or joint action')
-    if scene.contains:
-        items.append('<i class="together"></i>in it, on it or carried')
+    texts = {kind: markup(text.replace("'s f", "’s f")) for kind, text in scene.legend.items()}
+    items += [f'<i class="{kind}"></i>{text}' for kind, text in texts.items()]
     if scene.goals:
         items.append('<i class="goal"></i>goal')
     return "".join(f"<li>{item}</li>" for item in items)

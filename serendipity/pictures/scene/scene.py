@@ -124,10 +124,17 @@ class Scene:
         return own != [(act.epoch, act.action) for act in self.former_acts]
 
     @property
-    def contains(self) -> bool:
-        """Whether anything ever is in, on or with anything or anybody."""
-        whereabouts = [where for frame in self.frames for where in frame.objects.values()]
-        return any(where.carrier or where.riders or where.holder is not None for where in whereabouts)
+    def legend(self) -> dict[str, str]:
+        """What a picture needs samples of besides the agents, with what they mean."""
+        together = [w for frame in self.frames for w in frame.objects.values()]
+        contains = any(w.carrier or w.riders or w.holder is not None for w in together)
+        meanings = {
+            "former": (self.deviates, f"{self.agents[self.human]}'s former plan"),
+            "window": (self.window is not None, "window"),
+            "meeting": (bool(self.meetings), "hand-over or joint action"),
+            "together": (contains, "in it, on it or carried"),
+        }
+        return {kind: text for kind, (there, text) in meanings.items() if there}
 
     @property
     def key_epoch(self) -> int:
