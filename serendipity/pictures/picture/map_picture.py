@@ -1,8 +1,9 @@
 """The map: places, ways, paths, and the tokens of one frame."""
 
 from collections import defaultdict
-from collections.abc import Iterator
-from itertools import chain
+from collections.abc import Iterator, Sequence
+from itertools import chain, pairwise
+from math import hypot
 from typing import Final
 
 from serendipity.pictures.map.cards import PILL_HEIGHT, PILL_SIZES, RADIUS, pill
@@ -36,7 +37,6 @@ from serendipity.pictures.picture.palette import (
 )
 from serendipity.pictures.picture.tokens import FORMER as FORMER_TOKEN
 from serendipity.pictures.picture.tokens import Token, agent_key, initials, object_key, tokens
-from serendipity.pictures.picture.trails import LANE, trail
 from serendipity.pictures.scene.crowds import LEAST_LABEL, TAG_HEIGHT
 from serendipity.pictures.scene.scene import Meeting, Scene
 
@@ -45,6 +45,7 @@ _DOOR: Final = 40.0
 _ROOM: Final = 4.0  # between a lone place's outline and its cell
 _LABEL_SIZE: Final = 23.0
 _LABEL_AT: Final = 17.0  # below the wall
+_LANE: Final = 7.0  # between neighbouring ones, in the picture's units
 _LANES: Final = 0.36  # share of a place's smaller side that paths beside each other take
 _CROWDED: Final = 3  # ways for each place from which on they are thin
 _FAINT: Final = 0.28
@@ -81,15 +82,44 @@ def trails(scene: Scene) -> dict[str, Steps]:
         return {}
     found: dict[str, Steps] = {}
     side = min(min(box.width, box.height) for box in layout.boxes.values())
-    apart = min(1, _LANES * side / LANE / (len(scene.lanes) + 1))
+    apart = min(1, _LANES * side / _LANE / (len(scene.lanes) + 1))
     if scene.deviates:
-        found[FORMER_TOKEN] = trail(layout, [frame.former_at for frame in scene.frames], 2 * apart)
+        found[FORMER_TOKEN] = _trail(layout, [frame.former_at for frame in scene.frames], 2 * apart)
     for n, agent in enumerate(scene.lanes):
         stops = [frame.at.get(agent) for frame in scene.frames]
         if not layout.boxes.keys() >= set(stops) - {None}:
             continue
-        found[agent_key(agent)] = trail(layout, stops, (1 if n == 0 else n + 2) * apart)
+        found[agent_key(agent)] = _trail(layout, stops, (1 if n == 0 else n + 2) * apart)
     return found
+
+
+def _trail(layout: Layout, stops: Sequence[str | None], lane: float) -> tuple[tuple[Point, ...], ...]:
+    """The points that each step adds to the line of an agent.
+
+    Args:
+        layout: of the map.
+        stops: its place after each epoch, from 0; None while it is nowhere.
+        lane: from 1; how many lanes to the right of the middle; fractions lie between.
+
+    Returns:
+        for each epoch the points that its step adds; none where it stays.
+    """
+    found: list[tuple[Point, ...]] = [()]
+    for here, there in pairwise(stops):
+        if here is None or there is None or here == there:
+            found.append(())
+        else:
+            found.append(tuple(_beside(layout.route(here, there), lane * _LANE)))
+    return tuple(found)
+
+
+def _beside(route: Sequence[Point], offset: float) -> Iterator[Point]:
+    for (x1, y1), (x2, y2) in pairwise(route):
+        length = hypot(x2 - x1, y2 - y1)
+        if length:
+            dx, dy = -(y2 - y1) / length * offset, (x2 - x1) / length * offset
+            yield x1 + dx, y1 + dy
+            yield x2 + dx, y2 + dy
 
 
 def _floor(layout: Layout) -> Iterator[Shape]:

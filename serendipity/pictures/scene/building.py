@@ -14,7 +14,7 @@ from serendipity.pictures.map.places import Places, Whereabouts, find_places
 from serendipity.pictures.scene.changes import find_changes
 from serendipity.pictures.scene.crowds import cell_size
 from serendipity.pictures.scene.finder import Finder
-from serendipity.pictures.scene.replay import Moment, replay, replay_former
+from serendipity.pictures.scene.replay import Snapshot, replay, replay_former
 from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene
 
 MOST_EPOCHS: Final = 2_000
@@ -65,13 +65,13 @@ class _Builder:
         own = result.mode != "assistance"  # there nobody's cost is discounted (semantics 7)
         self.discount = result.options.discount if own else Fraction(0)
 
-    def frames(self, moments: Sequence[Moment], former: Sequence[Moment], last: int) -> tuple[Frame, ...]:
+    def frames(self, moments: Sequence[Snapshot], former: Sequence[Snapshot], last: int) -> tuple[Frame, ...]:
         frames = []
         spent = dict.fromkeys(range(len(self.task.agents)), Fraction(0))
         former_spent = Fraction(0)
         before = moments[0].state
         for epoch in range(last + 1):
-            moment = moments[epoch] if epoch < len(moments) else Moment(epoch, (), moments[-1].state)
+            moment = moments[epoch] if epoch < len(moments) else Snapshot(epoch, (), moments[-1].state)
             then = former[min(epoch, len(former) - 1)]
             for agent, share in shares(self.task, moment.actions, self.discount).items():
                 spent[agent] += share
@@ -95,13 +95,13 @@ class _Builder:
             before = state
         return tuple(frames)
 
-    def acts(self, moment: Moment) -> list[Act]:
+    def acts(self, moment: Snapshot) -> list[Act]:
         """The actions of a moment, the human's first."""
         human = self.task.human
         ordered = sorted(moment.actions, key=lambda a: (human not in a.participants, a.participants))
         return [self._act(moment.epoch, action) for action in ordered]
 
-    def meetings(self, moments: Sequence[Moment]) -> list[Meeting]:
+    def meetings(self, moments: Sequence[Snapshot]) -> list[Meeting]:
         """Joint actions, and objects that somebody takes who did not have them last."""
         found = []
         holders: dict[str, int] = {}
@@ -120,13 +120,13 @@ class _Builder:
             found += [self._joint(moment, action, objects, passed) for action in joint]
         return found
 
-    def _found(self, moment: Moment, name: str, giver: int, taker: int) -> Meeting:
+    def _found(self, moment: Snapshot, name: str, giver: int, taker: int) -> Meeting:
         agents = self.task.agents
         text = f"{agents[taker]} takes {name}, which {agents[giver]} left"
         return Meeting(moment.epoch, self.finder.agents(moment.state).get(taker), (name,), text)
 
     def _joint(
-        self, moment: Moment, action: GroundAction, objects: dict[str, Whereabouts], passed: dict[str, int]
+        self, moment: Snapshot, action: GroundAction, objects: dict[str, Whereabouts], passed: dict[str, int]
     ) -> Meeting:
         act = self._act(moment.epoch, action)
         at = self.finder.agents(moment.state)
@@ -148,7 +148,7 @@ class _Builder:
     def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
         return tuple(self.task.facts[f] for f in sorted(ids))
 
-    def _caption(self, moment: Moment, *, ended: bool) -> str:
+    def _caption(self, moment: Snapshot, *, ended: bool) -> str:
         if moment.epoch == 0:
             return "Before anybody has done anything."
         if ended:
