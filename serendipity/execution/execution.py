@@ -204,7 +204,8 @@ class Execution(Tabular):
         """
         expect_or_none(TEXT, action=action)
         decided = self.decided
-        offer = None if action is None else self._offer(decided, action)
+        name = None if action is None else canonical_name(action)
+        offer = next((step for step in decided.offers if step.action == name), None)
         his = None if action is None or offer is not None else self._world.his(action)
         in_vain = his is not None and not self._world.applicable(his)
         tried, his = (his, None) if in_vain else (None, his)
@@ -219,7 +220,7 @@ class Execution(Tabular):
         passed = Passed(
             epoch=decided.epoch,
             decided=decided,
-            human=None if action is None else canonical_name(action),
+            human=name,
             in_vain=in_vain,
             steps=named_steps(
                 self.task, self.options.discount, (Step(decided.epoch, i) for i in happened.executed)
@@ -293,10 +294,6 @@ class Execution(Tabular):
         why = Why("late")
         words = why.text(self.human, "late")
         return Decided(self.epoch, "late", words, goals=self._robots.goals, seconds=seconds, because=why)
-
-    def _offer(self, decided: Decided, action: str) -> PlanStep | None:
-        name = canonical_name(action)
-        return next((step for step in decided.offers if step.action == name), None)
 
     def _learn_from(self, unfinished: Sequence[Unfinished]) -> None:
         """What fails again and again is not counted on any more."""

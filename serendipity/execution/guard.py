@@ -73,7 +73,8 @@ class Following:
 
     def promise(self) -> HumanPlan:
         """The plan that they go on with if nothing better turns up: the oldest as cheap as any, or none."""
-        return self._oldest().actions
+        oldest = min(self.plans, key=lambda plan: plan.cost, default=self._human.intentions.of(()))
+        return oldest.actions
 
     @property
     def alone(self) -> Fraction | None:
@@ -88,9 +89,6 @@ class Following:
         """
         key = self._human.alone.key(self._human.packed.pack(state))
         return None if key == INFINITE_KEY else self._human.keys.cost(key)
-
-    def _oldest(self) -> Intention:
-        return min(self.plans, key=lambda plan: plan.cost, default=self._human.intentions.of(()))
 
     def acted(self, own: int | None, executed: Iterable[int], tried: int | None = None) -> None:
         """Say what the person did: plans that begin otherwise are not theirs.
@@ -211,10 +209,7 @@ def _after(state: int, effects: Iterable[tuple[int, int]]) -> int:
 
 
 class RobotActions:
-    """What robots can do, by what it would spoil.
-
-    Args:
-        task: the task.
+    """What robots can do in a task, by what it would spoil.
 
     Attributes:
         all: ids of everything that robots take part in.

@@ -15,10 +15,7 @@ _AT_IT = ("helps", "waits")
 
 
 class HelpHistory:
-    """What was decided, and what has become of it.
-
-    Args:
-        task: the task.
+    """What was decided in a task, and what has become of it.
 
     Attributes:
         helped: whether robots have done anything for help.
@@ -83,9 +80,6 @@ class HelpHistory:
 
 class Untouched:
     """The state as it would be if robots had done nothing since the person last took something from them.
-
-    Args:
-        task: the task.
 
     Attributes:
         state: ids of the facts that would be true.

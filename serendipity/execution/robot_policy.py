@@ -64,7 +64,7 @@ class RobotPolicy:
         self._told = told
         self._gone: dict[int, frozenset[int]] = {}
         self._failing: frozenset[int] = frozenset()
-        self._beliefs = None if goals is None else Beliefs.about(task, goals, beta)
+        self._beliefs = None if goals is None else Beliefs(task, goals, beta)
         conditions = [task.goal] if self._beliefs is None else [c.goal for c in self._beliefs.candidates]
         tasks = [task if goal == task.goal else task.with_goal(goal) for goal in conditions]
         self._hypotheses = Hypotheses(tasks, options, told=told, surely=surely)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, Unpack
 from search import PreparedTask
 from search.kernel.library import library
 from serendipity.execution.adapters import AdapterChoice, Maker
-from serendipity.execution.decided import Decided
 from serendipity.execution.execution import Execution
 from serendipity.execution.faults import Faults
 from serendipity.execution.log import log_lines
@@ -108,12 +107,15 @@ def execute(
     expect(WHOLE, runs=runs, seed=seed, jobs=jobs)
     expect_or_none(WHOLE, epochs=epochs)
     expect_or_none(FUNCTION, on_progress=on_progress)
-    for name, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
+    for what, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
         if number < 1:
-            raise UsageError(f"{name}: expected at least 1, got {number}")
+            raise UsageError(f"{what}: expected at least 1, got {number}")
     if ties not in TIES:
         raise UsageError(f"ties: expected one of {', '.join(TIES)}, got '{ties}'")
-    persona = _persona(task, human)
+    if isinstance(human, str):
+        name, persona = human, persona_from(task, human)
+    else:
+        name, persona = "recorded", Persona("recorded", actions=recorded_actions(task, human))
     if persona.told and goals is not None:
         raise UsageError("goals: an omniscient person keeps to the robots' plan, so robots know the goal")
     model = human_model or persona.human_model
@@ -125,7 +127,7 @@ def execute(
     series = _Series(
         task=task,
         persona=persona,
-        name=human if isinstance(human, str) else persona.name,
+        name=name,
         drawn=ties == "drawn",
         adapters=adapters,
         epochs=epochs or 100 + 10 * len(alone.human_plan or ()),
@@ -137,12 +139,6 @@ def execute(
     assignments = [(series, number, seed + number - 1) for number in range(1, runs + 1)]
     done = _all_run(assignments, jobs, on_progress)
     return Runs(series.name, tuple(row for row, _ in done), tuple(lines for _, lines in done))
-
-
-def _persona(task: Task, human: str | Sequence[str]) -> Persona:
-    if isinstance(human, str):
-        return persona_from(task, human)
-    return Persona("recorded", actions=recorded_actions(task, human))
 
 
 def _all_run(
@@ -240,7 +236,8 @@ class _Series:
                     run.drop(gone)
                     left = [robot for robot in left if robot not in gone]
                 spoilt += _spoils(run, person)
-        verdicts = Counter(passed.decided.verdict for passed in run.passed)
+        decided = [passed.decided for passed in run.passed]
+        verdicts = Counter(each.verdict for each in decided)
         row = Run(
             run=number,
             seed=seed,
@@ -253,17 +250,13 @@ class _Series:
             spoilt=spoilt,
             stopped=verdicts["stopped"],
             late=verdicts["late"],
-            open=sum(_is_open(passed.decided) for passed in run.passed),
-            slowest=max((passed.decided.seconds for passed in run.passed), default=0.0),
+            open=sum(d.verdict != "late" and d.plan is not None and not d.proved for d in decided),
+            slowest=max((each.seconds for each in decided), default=0.0),
             **_recognised(run, self.goal),
         )
         ties = TIES[self.drawn]
         notes = {"run": number, "seed": seed, "policy": self.name, "ties": ties, "faults": asdict(faults)}
         return row, tuple(log_lines(run, **notes))
-
-
-def _is_open(decided: Decided) -> bool:
-    return decided.verdict != "late" and decided.plan is not None and not decided.proved
 
 
 def _spoils(run: Execution, person: Person) -> bool:

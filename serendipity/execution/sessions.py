@@ -11,12 +11,7 @@ _MOST: Final = 3
 
 
 class Sessions:
-    """Sessions of a task, by the actions that are left out; the last few are kept.
-
-    Args:
-        task: the task.
-        **options: of their calls.
-    """
+    """Sessions of a task under some options, by the actions that are left out; the last few are kept."""
 
     def __init__(self, task: Task, **options: Any) -> None:
         self._task = task

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import Final
 
 from serendipity.model.errors import UsageError
@@ -121,7 +120,7 @@ class World:
         Raises:
             UsageError: there is no such fact.
         """
-        self.state = fitted(self._facts.seen(self.state, facts), self.task.disjunctions)
+        self.state = fitted(Facts(self.task.facts).seen(self.state, facts), self.task.disjunctions)
 
     def cost(self, actions: Iterable[int]) -> tuple[Fraction, Fraction]:
         """What actions cost the human, undiscounted, and the team."""
@@ -139,7 +138,3 @@ class World:
             return "inapplicable"
         first, others = self.task.actions[action], (self.task.actions[i] for i in executed)
         return "conflict" if any(conflicting(first, o, strict=self._strict) for o in others) else None
-
-    @cached_property
-    def _facts(self) -> Facts:
-        return Facts(self.task.facts)

@@ -124,8 +124,8 @@ def play(
         raise UsageError(f"--rounds: expected a number from 1 to 50, got {rounds}")
     try:
         from serendipity.live.guards import addresses
+        from serendipity.live.guards.connections import serve as run
         from serendipity.live.play.application import application
-        from serendipity.live.server import serve as run
     except ImportError as missing:
         raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
     opened: Host

@@ -16,13 +16,7 @@ from serendipity.pictures.scene.scene import Frame, Scene
 
 
 class MapView:
-    """The map of a task, drawn anew after each epoch.
-
-    Args:
-        task: the task.
-        places: its map.
-        knowledge: of the person.
-    """
+    """The map of a task as its person knows it, drawn anew after each epoch."""
 
     def __init__(self, task: Task, places: Places, knowledge: Knowledge) -> None:
         self._task = task

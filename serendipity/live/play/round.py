@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Any
 
 import serendipity
-from serendipity.execution import VERDICTS, Decided, Passed
-from serendipity.execution.account import account
+from serendipity.execution import Decided, Passed
+from serendipity.execution.decided import account
 from serendipity.execution.log import decision_of
 from serendipity.live.play.knowledge import Knowledge
 from serendipity.live.play.map_view import MapView
@@ -126,18 +126,18 @@ class Round:
 
     def view(self) -> dict[str, Any]:
         """Everything that the page shows of the round."""
-        run = self.run
+        run, names = self.run, self.setting.task.facts
         decided = None if self.done else run.decided
+        known, hidden = sorted(self._known.belief), {d.fact for d in self.setting.task.disjunctions}
         return {
             "scenario": self.setting.name,
-            "condition": self.setting.condition,
             "sight": "everywhere" if self._known.everywhere else "here",
             "human": self.human,
             "goal": self._words.goal(self._known.belief),
             "epoch": run.epoch,
             "map": self._map.picture(),
             "legend": self._map.legend(),
-            "facts": None if self._map.here else self._facts(),
+            "facts": None if self._map.here else [names[fact] for fact in known if fact not in hidden],
             "can": [] if decided is None else self._choices(decided),
             "paid": float(run.human_cost),
             "team": float(run.cost),
@@ -176,15 +176,9 @@ class Round:
         task = self.setting.task
         return task.actions[variant_named(task, step.action, step.agents, state)]
 
-    def _facts(self) -> list[str]:
-        """What the person knows to be true, where there is no map."""
-        names = self.setting.task.facts
-        hidden = {disjunction.fact for disjunction in self.setting.task.disjunctions}
-        return [names[fact] for fact in sorted(self._known.belief) if fact not in hidden]
-
     def _choices(self, decided: Decided) -> list[dict[str, Any]]:
         """What the person can do, as far as they know: what robots offer first, waiting last."""
-        task = self.setting.task
+        task, belief = self.setting.task, self._known.belief
         choices = [
             {
                 "action": step.action,
@@ -199,7 +193,8 @@ class Round:
         known: dict[str, dict[str, Any]] = {}
         for i in task.human_actions:
             action = task.actions[i]
-            if self._changes(action) and action.name not in known:
+            changes = action.applicable(belief) and apply(belief, action) != belief
+            if changes and action.name not in known:
                 place = self._words.target(action)
                 known[action.name] = {
                     "action": action.name,
@@ -211,18 +206,20 @@ class Round:
         own = sorted(known.values(), key=lambda choice: choice["kind"])
         return [*choices, *own, {"action": None, "text": "wait", "kind": "wait", "cost": 0, "place": None}]
 
-    def _changes(self, action: GroundAction) -> bool:
-        """Whether an action is possible, as far as the person knows, and would change anything."""
-        belief = self._known.belief
-        return action.applicable(belief) and apply(belief, action) != belief
-
     def _thinking(self, decided: Decided) -> dict[str, Any]:
         return {
             "verdict": decided.verdict,
-            "meaning": VERDICTS[decided.verdict],
             "reason": decided.reason,
             "goals": [{"name": name, "share": share} for name, share in decided.goals.items()],
-            "plan": [self._planned(step) for step in decided.plan or ()],
+            "plan": [
+                {
+                    "epoch": self.run.epoch + step.epoch - 1,
+                    "agents": list(step.agents),
+                    "text": self._words.step(step),
+                    "help": list(step.agents) != [self.human],
+                }
+                for step in decided.plan or ()
+            ],
             "expected": None if decided.expected is None else self._words.step(decided.expected),
             "window": None if decided.window is None else decided.window.to_dict(),
             "cost": decided.cost,
@@ -230,20 +227,13 @@ class Round:
             "milliseconds": round(1000 * decided.seconds),
         }
 
-    def _planned(self, step: PlanStep) -> dict[str, Any]:
-        """A step of the robots' plan, with the epoch counted from the beginning."""
-        return {
-            "epoch": self.run.epoch + step.epoch - 1,
-            "agents": list(step.agents),
-            "text": self._words.step(step),
-            "help": list(step.agents) != [self.human],
-        }
-
     def _said(self, decided: Decided) -> str | None:
         """What robots say aloud, where they do."""
-        if self.setting.condition == "announced" and decided.verdict == "stopped":
+        if self.setting.condition != "announced":
+            return None
+        if decided.verdict == "stopped":
             return "I have stopped helping; please go on alone."
-        if self.setting.condition != "announced" or decided.verdict not in ("helps", "waits"):
+        if decided.verdict not in ("helps", "waits"):
             return None
         task = self.setting.task
         mine = [s for s in decided.plan or () if list(s.agents) != [self.human]]
@@ -256,8 +246,8 @@ class Round:
             text = f"{self._words.step(step, robot)} (epoch {self.run.epoch + step.epoch - 1})"
             said.setdefault(self._words.robots(step), []).append(text)
         one = len(task.robots) == 1
-        speeches = (f"{'I' if one else _capital(who)} will {', '.join(does)}." for who, does in said.items())
-        return " ".join(speeches) + wish
+        names = {who: "I" if one else who[:1].upper() + who[1:] for who in said}
+        return " ".join(f"{names[who]} will {', '.join(does)}." for who, does in said.items()) + wish
 
     def _told(self, passed: Passed, near: str | None) -> dict[str, Any]:
         """An epoch as the person has seen it."""
@@ -269,10 +259,8 @@ class Round:
             did = f"tried to {passed.human}, in vain"
         else:
             did = "waited"
-        others = []
-        for step in passed.steps:
-            if self.human not in step.agents and self._noticed(step, near):
-                others.append(f"{self._words.robots(step)}: {self._words.step(step)}")
+        seen = (s for s in passed.steps if self.human not in s.agents and self._noticed(s, near))
+        others = [f"{self._words.robots(step)}: {self._words.step(step)}" for step in seen]
         return {"epoch": passed.epoch, "you": did, "others": others}
 
     def _noticed(self, step: PlanStep, near: str | None) -> bool:
@@ -285,14 +273,9 @@ class Round:
 
     def _end(self) -> dict[str, Any]:
         """What the round came to."""
-        run, discount = self.run, self.setting.discount
+        run = self.run
         paid, team = float(run.human_cost), float(run.cost)
-        lines = []
-        for passed in run.passed:
-            for step in passed.steps:
-                if list(step.agents) != [self.human]:
-                    who = " and ".join(step.agents)
-                    lines.append({"epoch": passed.epoch, "text": f"{who}: {self._words.step(step)}"})
+        theirs = [s for passed in run.passed for s in passed.steps if list(s.agents) != [self.human]]
         return {
             "paid": paid,
             "team": team,
@@ -300,13 +283,10 @@ class Round:
             "saved": round(self.alone - team, 9),
             "spared": round(self.alone - paid, 9),
             "epochs": len(run.passed),
-            "help": lines,
+            "help": [
+                {"epoch": s.epoch, "text": f"{' and '.join(s.agents)}: {self._words.step(s)}"} for s in theirs
+            ],
             "reached": run.done,
             **self.robots(),
-            "discount": float(discount),
             "reasons": [{"epoch": p.epoch, "text": p.decided.reason} for p in run.passed],
         }
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -24,12 +24,7 @@ _BUCKETS = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60)
 
 
 class Metrics:
-    """Figures of one server; several in a process do not mix.
-
-    Args:
-        pool: its workers.
-        sessions: its sessions.
-    """
+    """Figures of one server, of its workers and sessions; several servers in a process do not mix."""
 
     def __init__(self, pool: Pool, sessions: Sessions) -> None:
         self._registry = registry = CollectorRegistry()

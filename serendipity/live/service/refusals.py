@@ -43,8 +43,8 @@ async def _malformed(request: Request, error: Exception) -> Response:
     if first["loc"] == ("body",) and "json" not in request.headers.get("content-type", ""):
         return JSONResponse({"error": "body: expected JSON, and 'Content-Type: application/json'"}, 422)
     where = ".".join(str(part) for part in first["loc"][1:]) or "body"
-    found = _lower(first["msg"].removeprefix("Value error, "))
-    return JSONResponse({"error": f"{where}: {found}"}, 422)
+    found = first["msg"].removeprefix("Value error, ")
+    return JSONResponse({"error": f"{where}: {found[:1].lower()}{found[1:]}"}, 422)
 
 
 async def _too_deep(_request: Request, _error: Exception) -> Response:
@@ -58,10 +58,6 @@ async def _broken(request: Request, error: Exception) -> Response:
 
 async def _gone(_request: Request, _error: Exception) -> Response:
     return Response(status_code=GONE)
-
-
-def _lower(text: str) -> str:
-    return text[:1].lower() + text[1:]
 
 
 HANDLERS: Final[dict[Any, Callable[[Request, Exception], Coroutine[Any, Any, Response]]]] = {

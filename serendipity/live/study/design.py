@@ -24,7 +24,6 @@ from serendipity.writing.together import write_together
 _SCHEMA: Final = "serendipity.study/1"
 _TEXTS: Final = "study.toml"
 _KEPT: Final = "study.json"
-_FORMER: Final = ("consent.txt", "questions.txt")
 _USUAL: Final = {"rounds": 4, "discount": "3/5", "view": "observant", "deadline": 2.0}
 
 
@@ -77,9 +76,6 @@ def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Desig
         InputError: a file of the folder is wrong.
     """
     made(folder, "--study")
-    former = next((name for name in _FORMER if (folder / name).exists()), None)
-    if former is not None:
-        raise InputError(f"is not read any more: its text stands in {_TEXTS} now", folder / former)
     file = folder / _TEXTS
     texts = read_settings(file, StudyFile) if file.exists() else StudyFile.model_validate({})
     if texts.scenarios and given.get("rounds") not in (None, len(texts.scenarios)):
@@ -165,7 +161,9 @@ def _design(folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[s
     how = _how(texts, kept["settings"])
     own = {scenario.name: scenario for scenario in texts.scenarios}
     scenarios = {
-        name: _own(own[name], folder, labels, how) if name in own else numbered(_number(name), **how)
+        name: _own(own[name], folder, labels, how)
+        if name in own
+        else numbered(int(name.rpartition("-")[2]), **how)
         for name in kept["scenarios"]
     }
     trial = None if kept["practice"] is None else numbered(kept["practice"], **how)
@@ -181,10 +179,6 @@ def _design(folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[s
         mark,
         kept["report"],
     )
-
-
-def _number(name: str) -> int:
-    return int(name.rpartition("-")[2])
 
 
 def _read(file: Path) -> dict[str, Any] | None:

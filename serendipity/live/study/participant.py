@@ -10,7 +10,7 @@ from serendipity.live.play.round import Round
 from serendipity.live.play.rounds import RecordedRounds
 from serendipity.live.play.setting import RoundSetting
 from serendipity.live.study.design import Design
-from serendipity.live.study.texts import Question
+from serendipity.live.study.texts import Item
 from serendipity.model import InputError, UsageError
 
 _SHOWN: Final = (
@@ -190,7 +190,7 @@ class Participant(RecordedRounds):
         else:
             self._add("end", condition=self.joined["condition"], code=self._design.code)
 
-    def _questions(self) -> list[Question]:
+    def _questions(self) -> list[Item]:
         return self._design.texts.questions if self.stage == "questions" else self._design.texts.closing
 
     def _setting(self, number: int) -> RoundSetting:

@@ -57,7 +57,8 @@ def _map(title: str, savings: Savings, starts: int, horizon: int) -> Iterator[Sh
 def _cell(x: int, y: int, value: Fraction | None, most: Fraction, window: str) -> Group:
     share = float(value / most) if value is not None and value > 0 else 0.0
     side = _CELL - 2
-    colour = _UNFIT if value is None else _mixed(share)
+    mixed = bytes(round(low + share * (high - low)) for low, high in zip(_LOW, _HIGH, strict=True))
+    colour = _UNFIT if value is None else f"#{mixed.hex()}"
     label = "" if value is None else f"{float(value):.3g}"
     shown = "no plan fits" if value is None else f"saves {label}"
     return Group(
@@ -67,8 +68,3 @@ def _cell(x: int, y: int, value: Fraction | None, most: Fraction, window: str) -
         ),
         title=f"{window}: {shown}",
     )
-
-
-def _mixed(share: float) -> str:
-    channels = (round(low + share * (high - low)) for low, high in zip(_LOW, _HIGH, strict=True))
-    return "#" + bytes(channels).hex()

@@ -3,14 +3,11 @@
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final
 
 from serendipity.model import GroundAction
 from serendipity.model.task.actions import State
 from serendipity.pictures.map.names import Parts, parts, verb_and_rest, without
 from serendipity.pictures.map.places import Places, Whereabouts
-
-NOWHERE: Final = Whereabouts()
 
 
 class Finder:
@@ -29,20 +26,19 @@ class Finder:
         for agent in sorted(self._places.positions.keys() | self._places.riding.keys()):
             places = self._places.positions.get(agent, {})
             place = next((place for f, place in places.items() if f in state), None)
-            if place is None and agent in self._places.riding:
-                place = self._vehicle_at(self._places.riding[agent], state)
+            if place is None:
+                ridden = (name for f, name in self._places.riding.get(agent, {}).items() if f in state)
+                told = self._places.objects.get(next(ridden, ""), {})
+                place = next((where.place for f, where in told.items() if f in state), None)
             if place is not None:
                 found[agent] = place
         return found
 
-    def _vehicle_at(self, riding: dict[int, str], state: State) -> str | None:
-        told = next((self._places.objects[name] for f, name in riding.items() if f in state), {})
-        return next((where.place for f, where in told.items() if f in state), None)
-
     def objects(self, state: State) -> dict[str, Whereabouts]:
         """Where each object is, who rides it, and who holds or rides what carries it."""
+        still = self._places.still
         told = {
-            name: next((where for f, where in of.items() if f in state), self._otherwise(name))
+            name: next((where for f, where in of.items() if f in state), Whereabouts(still.get(name)))
             for name, of in self._places.objects.items()
         }
         riders: dict[str, tuple[int, ...]] = defaultdict(tuple)
@@ -51,10 +47,6 @@ class Finder:
             if vehicle is not None:
                 riders[vehicle] += (agent,)
         return {name: self._resolved(name, told, riders) for name in told}
-
-    def _otherwise(self, name: str) -> Whereabouts:
-        """Where an object is of which nothing is told."""
-        return Whereabouts(self._places.still[name]) if name in self._places.still else NOWHERE
 
     def _resolved(
         self, name: str, told: dict[str, Whereabouts], riders: Mapping[str, tuple[int, ...]]
