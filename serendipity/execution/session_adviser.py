@@ -5,7 +5,7 @@ from dataclasses import replace
 from serendipity.execution.advice import Advice, DecisionPoint
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.execution.pledge import Pledge
-from serendipity.execution.sessions import Sessions
+from serendipity.execution.sessions import RestrictedSessions
 from serendipity.model.answers.result import Result
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
@@ -35,9 +35,9 @@ class SessionAdviser:
         self._actions = actions
         self._told = told
         common = {"discount": options.discount, "interference": options.interference}
-        self._beside = Sessions(task, **common, mode=options.mode, human_model=options.human_model)
+        self._beside = RestrictedSessions(task, **common, mode=options.mode, human_model=options.human_model)
         free = task.with_goal(task.goal, Condition())  # robots' own goals can wait
-        self._joint = Sessions(free, **common, mode="composite", horizon=INFINITE)
+        self._joint = RestrictedSessions(free, **common, mode="composite", horizon=INFINITE)
         self._pledges: dict[frozenset[int], Pledge] = {}
 
     def advise(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Advice | None:

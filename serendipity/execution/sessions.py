@@ -10,7 +10,7 @@ _MOST: Final = 3
 """Sessions at once: what is to be left alone changes seldom, and goes back and forth."""
 
 
-class Sessions:
+class RestrictedSessions:
     """Sessions of a task under some options, by the actions that are left out; the last few are kept."""
 
     def __init__(self, task: Task, **options: Any) -> None:

@@ -3,7 +3,7 @@
 from search.simulation.companion import Companion
 from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.guard import Following
-from serendipity.execution.sessions import Sessions
+from serendipity.execution.sessions import RestrictedSessions
 from serendipity.execution.why import Why
 from serendipity.facade.session import Session
 from serendipity.model.errors import LimitReachedError, PlanError
@@ -29,9 +29,9 @@ class Unbound:
         self._companion = companion
         self._model = options.human_model
         common = {"discount": options.discount, "interference": options.interference}
-        self._sessions = Sessions(task, **common)
+        self._sessions = RestrictedSessions(task, **common)
         free = task.with_goal(task.goal, Condition())
-        self._joint = Sessions(free, **common, mode="composite", horizon=INFINITE)
+        self._joint = RestrictedSessions(free, **common, mode="composite", horizon=INFINITE)
         self._nothing: tuple[frozenset[int], frozenset[int], HumanPlan] | None = None
         """Where no help pays: state, what is barred, promise; it stays so while all goes as promised."""
 

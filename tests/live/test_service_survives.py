@@ -12,7 +12,7 @@ import pytest
 from starlette.exceptions import HTTPException
 
 from serendipity.cli.app import main
-from serendipity.live.service.sessions import Sessions
+from serendipity.live.service.sessions import SessionStore
 from tests.live.server import Server, serving, workers_of
 
 ROOM2 = {"example": "room2"}
@@ -163,7 +163,7 @@ def test_what_workers_have_in_temporary_files_goes_with_them(tmp_path: Path) -> 
 
 
 def test_sessions_have_a_share_of_memory() -> None:
-    sessions = Sessions(1000, 3 * 2**20, 3600)
+    sessions = SessionStore(1000, 3 * 2**20, 3600)
     begun = {"task": {"domain": "\N{ROBOT FACE}" * 2**18}}  # four bytes each
     for _ in range(2):
         sessions.add(sessions.begin(begun))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.model import Task
 from serendipity.pictures.map.floor_plan import corridor, floor_plan
-from serendipity.pictures.map.layout import Box, Layout, lay_out
+from serendipity.pictures.map.layout import Box, MapLayout, lay_out
 from serendipity.pictures.map.places import Places, find_places
 from serendipity.testing.builders import task as build
 
@@ -47,7 +47,7 @@ def touch(a: Box, b: Box) -> bool:
     return beside or (above and abs(a.x - b.x) < (a.width + b.width) / 2 - 1e-6)
 
 
-def inside(layout: Layout) -> bool:
+def inside(layout: MapLayout) -> bool:
     boxes, slack = layout.boxes.values(), 1e-6
     inner = min(min(box.left, box.top) for box in boxes) >= -slack
     return inner and all(b.right <= layout.width + slack and b.bottom <= layout.height + slack for b in boxes)

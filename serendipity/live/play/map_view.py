@@ -5,7 +5,7 @@ from typing import Any
 from serendipity.live.play.knowledge import Knowledge
 from serendipity.model import Options, Result, Task
 from serendipity.pictures.formats.svg import svg
-from serendipity.pictures.map.layout import Layout, lay_out
+from serendipity.pictures.map.layout import MapLayout, lay_out
 from serendipity.pictures.map.places import Places
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture
 from serendipity.pictures.picture.palette import agent_colours, on
@@ -23,7 +23,7 @@ class MapView:
         self._places = places
         self._finder = Finder(places)
         self._knowledge = knowledge
-        self._layout: Layout | None = None
+        self._layout: MapLayout | None = None
         self._size = (0.0, 0.0)
         self._frames: list[Frame] = []
         self.look()

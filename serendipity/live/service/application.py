@@ -16,7 +16,7 @@ from serendipity.live.guards.responses import Responses
 from serendipity.live.service.calls import call_router, session_router
 from serendipity.live.service.metrics import Metrics
 from serendipity.live.service.refusals import HANDLERS, REFUSALS
-from serendipity.live.service.sessions import Sessions
+from serendipity.live.service.sessions import SessionStore
 from serendipity.live.workers.pool import Pool, PoolLimits
 
 
@@ -50,7 +50,7 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         token: what requests have to bring, or None.
     """
     pool = Pool(limits.pool)
-    sessions = Sessions(limits.sessions, limits.session_bytes, limits.session_seconds)
+    sessions = SessionStore(limits.sessions, limits.session_bytes, limits.session_seconds)
     metrics = Metrics(pool, sessions)
 
     @asynccontextmanager

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Request, Response
 
 from serendipity.live.service import requests as asked
 from serendipity.live.service.answering import Answers, all_of, answers, as_events, as_json
-from serendipity.live.service.sessions import Remembered, Sessions
+from serendipity.live.service.sessions import Remembered, SessionStore
 from serendipity.live.workers.pool import Pool
 
 Described = dict[int | str, dict[str, Any]]
@@ -48,7 +48,7 @@ def call_router(pool: Pool) -> APIRouter:
     return router
 
 
-def session_router(pool: Pool, sessions: Sessions) -> APIRouter:
+def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
     """The paths of sessions' calls."""
     router = APIRouter(prefix="/sessions", tags=["sessions"])
 

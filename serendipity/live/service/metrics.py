@@ -14,7 +14,7 @@ from prometheus_client.registry import Collector
 from starlette.responses import Response
 from starlette.types import Scope
 
-from serendipity.live.service.sessions import Sessions
+from serendipity.live.service.sessions import SessionStore
 from serendipity.live.workers.pool import Pool
 
 _METHODS = ("GET", "POST", "DELETE", "HEAD", "OPTIONS")
@@ -26,7 +26,7 @@ _BUCKETS = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60)
 class Metrics:
     """Figures of one server, of its workers and sessions; several servers in a process do not mix."""
 
-    def __init__(self, pool: Pool, sessions: Sessions) -> None:
+    def __init__(self, pool: Pool, sessions: SessionStore) -> None:
         self._registry = registry = CollectorRegistry()
         ProcessCollector(registry=registry)
         self._requests = Counter(

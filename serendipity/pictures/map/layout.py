@@ -72,7 +72,7 @@ class Box:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class MapLayout:
     """All places, from (0, 0) to (width, height).
 
     Attributes:
@@ -89,7 +89,7 @@ class Layout:
     width: float
     height: float
 
-    def around(self, places: Iterable[str]) -> "Layout":
+    def around(self, places: Iterable[str]) -> "MapLayout":
         """The part of the map between some places, for pictures that can't be scrolled."""
         kept = [self.boxes[place] for place in places]
         left, right = (pick(box.x for box in kept) for pick in (min, max))
@@ -102,7 +102,7 @@ class Layout:
         left, top = min(box.left for box in near.values()), min(box.top for box in near.values())
         boxes = {place: box.moved(-left, -top) for place, box in near.items()}
         links = tuple((a, b) for a, b in self.links if a in near and b in near)
-        return Layout(boxes, links, self.doors.intersection(links), *_extent(boxes.values()))
+        return MapLayout(boxes, links, self.doors.intersection(links), *_extent(boxes.values()))
 
     def route(self, source: str, target: str) -> tuple[Point, ...]:
         """The way from the middle of one place to the middle of the other, round the corner."""
@@ -114,7 +114,7 @@ class Layout:
         return tuple(dict.fromkeys([(a.x, a.y), corner, (b.x, b.y)]))
 
 
-def lay_out(places: Places, size: Size | None = None) -> Layout:
+def lay_out(places: Places, size: Size | None = None) -> MapLayout:
     """Lay out a map; parts that no way connects stand side by side.
 
     Args:
@@ -147,15 +147,15 @@ def lay_out(places: Places, size: Size | None = None) -> Layout:
         right = max(boxes[place].right for place in found) + _GAP * CELL
         walls = {frozenset(edge) for edge in tree.edges} if plan else set()
         doors += [link for link in places.links if frozenset(link) in walls]
-    return Layout(boxes, places.links, frozenset(doors), *_extent(boxes.values()))
+    return MapLayout(boxes, places.links, frozenset(doors), *_extent(boxes.values()))
 
 
-def _shaft(levels: Sequence[str], size: Size) -> Layout:
+def _shaft(levels: Sequence[str], size: Size) -> MapLayout:
     """Places above one another, as wide as high ones may be; ways go through the floors between them."""
     width, height = size
     boxes = {place: Box(width, (i + 0.5) * height, 2 * width, height) for i, place in enumerate(levels)}
     links = tuple(pairwise(levels))
-    return Layout(boxes, links, frozenset(links), *_extent(boxes.values()))
+    return MapLayout(boxes, links, frozenset(links), *_extent(boxes.values()))
 
 
 def _extent(boxes: Iterable[Box]) -> Point:
@@ -188,7 +188,7 @@ def _graph_boxes(graph: "nx.Graph[str]", size: Size) -> dict[str, Box]:
     }
 
 
-def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> Layout:
+def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> MapLayout:
     left, top = (min(axis) for axis in zip(*cells.values(), strict=True))
     width, height = size
     boxes = {
@@ -197,7 +197,7 @@ def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> Layo
         )
         for place, (x, y) in cells.items()
     }
-    return Layout(boxes, places.links, frozenset(), *_extent(boxes.values()))
+    return MapLayout(boxes, places.links, frozenset(), *_extent(boxes.values()))
 
 
 def _named_cells(graph: "nx.Graph[str]") -> dict[str, tuple[int, int]]:

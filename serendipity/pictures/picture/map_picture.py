@@ -7,15 +7,15 @@ from math import hypot
 from typing import Final
 
 from serendipity.pictures.map.cards import PILL_HEIGHT, PILL_SIZES, RADIUS, pill
-from serendipity.pictures.map.layout import Box, Layout
+from serendipity.pictures.map.layout import Box, MapLayout
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import (
     BOLD,
     Circle,
     Group,
-    Line,
     Picture,
     Point,
+    Polyline,
     Rect,
     Shape,
     Style,
@@ -93,7 +93,7 @@ def trails(scene: Scene) -> dict[str, Steps]:
     return found
 
 
-def _trail(layout: Layout, stops: Sequence[str | None], lane: float) -> tuple[tuple[Point, ...], ...]:
+def _trail(layout: MapLayout, stops: Sequence[str | None], lane: float) -> tuple[tuple[Point, ...], ...]:
     """The points that each step adds to the line of an agent.
 
     Args:
@@ -122,24 +122,24 @@ def _beside(route: Sequence[Point], offset: float) -> Iterator[Point]:
             yield x2 + dx, y2 + dy
 
 
-def _floor(layout: Layout) -> Iterator[Shape]:
+def _floor(layout: MapLayout) -> Iterator[Shape]:
     in_plan = {place for door in layout.doors for place in door}
     lines = [link for link in layout.links if link not in layout.doors]
     crowded = len(lines) > _CROWDED * len(layout.boxes)
     way = Style(stroke=WALL, width=1.5, opacity=0.45) if crowded else Style(stroke=WALL, width=3)
     for a, b in lines:
         if a not in in_plan:
-            yield Line(layout.route(a, b), way)
+            yield Polyline(layout.route(a, b), way)
     for place, box in layout.boxes.items():
         yield _outline(box, in_plan=place in in_plan)
     for a, b in sorted(layout.doors):
         yield _door(layout.boxes[a], layout.boxes[b])
     for a, b in lines:
         if a in in_plan:  # a passage that no floor plan of a tree has room for
-            yield Line(layout.route(a, b), Style(stroke=WALL, width=6, dash=(2, 9)))
+            yield Polyline(layout.route(a, b), Style(stroke=WALL, width=6, dash=(2, 9)))
 
 
-def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
+def _labels(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
     """Above the paths, on the colour of the floor so that both can be read."""
     for place, box in layout.boxes.items():
         goal = place in scene.goals
@@ -165,19 +165,19 @@ def _outline(box: Box, *, in_plan: bool) -> Rect:
     )
 
 
-def _door(a: Box, b: Box) -> Line:
+def _door(a: Box, b: Box) -> Polyline:
     """The opening in the wall between two boxes, in the colour of the floor."""
     floor = Style(stroke=CORRIDOR if a.corridor or b.corridor else FLOOR, width=5)
     if a.y == b.y:
         x = (a if a.x < b.x else b).right
-        return Line(((x, a.y - _DOOR / 2), (x, a.y + _DOOR / 2)), floor)
+        return Polyline(((x, a.y - _DOOR / 2), (x, a.y + _DOOR / 2)), floor)
     narrow, y = (a if a.width < b.width else b), (a if a.y < b.y else b).bottom
-    return Line(((narrow.x - _DOOR / 2, y), (narrow.x + _DOOR / 2, y)), floor)
+    return Polyline(((narrow.x - _DOOR / 2, y), (narrow.x + _DOOR / 2, y)), floor)
 
 
 def _flag(x: float, y: float) -> Group:
-    pole = Line(((x, y - 10), (x, y + 10)), Style(stroke=INK, width=2))
-    cloth = Line(((x, y - 10), (x + 14, y - 5), (x, y)), Style(GOAL, INK, 1), closed=True)
+    pole = Polyline(((x, y - 10), (x, y + 10)), Style(stroke=INK, width=2))
+    cloth = Polyline(((x, y - 10), (x + 14, y - 5), (x, y)), Style(GOAL, INK, 1), closed=True)
     return Group((pole, cloth), title="the human's goal")
 
 
@@ -186,14 +186,14 @@ def _trails(scene: Scene, epoch: int) -> Iterator[Shape]:
     for key, steps in trails(scene).items():
         whole = tuple(chain.from_iterable(steps))
         if key == FORMER_TOKEN:
-            yield Line(whole, Style(stroke=FORMER, width=4, dash=(9, 8)), data={"ghost": key})
+            yield Polyline(whole, Style(stroke=FORMER, width=4, dash=(9, 8)), data={"ghost": key})
             continue
-        yield Line(whole, Style(stroke=colours[key], width=4, opacity=_FAINT))
+        yield Polyline(whole, Style(stroke=colours[key], width=4, opacity=_FAINT))
         done = tuple(chain.from_iterable(steps[: epoch + 1]))
-        yield Line(done, Style(stroke=colours[key], width=5), data={"trail": key})
+        yield Polyline(done, Style(stroke=colours[key], width=5), data={"trail": key})
 
 
-def _meetings(scene: Scene, layout: Layout) -> Iterator[Shape]:
+def _meetings(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
     """A frame and a tag for each place where somebody meets."""
     met: dict[str, list[tuple[int, Meeting]]] = defaultdict(list)
     for index, meeting in enumerate(scene.meetings):

@@ -6,8 +6,8 @@ from typing import Final
 from serendipity.pictures.picture.drawing import (
     Circle,
     Group,
-    Line,
     Picture,
+    Polyline,
     Rect,
     Shape,
     Style,
@@ -89,7 +89,7 @@ def timeline_picture(
     shapes = [
         *_columns(scene, first, end),
         *_window(scene, first, end),
-        *(Line(((0, top), (width, top)), Style(stroke=_RULE, width=1)) for top in tops),
+        *(Polyline(((0, top), (width, top)), Style(stroke=_RULE, width=1)) for top in tops),
         *_acts(scene, first, end),
         *_facts(scene, first, end),
     ]
@@ -158,7 +158,7 @@ def _acts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
         middles = [tops[agent] + _LANE / 2 for agent in act.agents]
         if len(middles) > 1:
             bond = Style(stroke=MEETING, width=10)
-            shapes.append(Line(((COLUMN / 2, min(middles)), (COLUMN / 2, max(middles))), bond))
+            shapes.append(Polyline(((COLUMN / 2, min(middles)), (COLUMN / 2, max(middles))), bond))
         joint = len(act.agents) > 1
         for agent, middle in zip(act.agents, middles, strict=True):
             edge = MEETING if joint else colours[agent]

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from serendipity.model import Result, Window
-from serendipity.pictures.map.layout import Layout
+from serendipity.pictures.map.layout import MapLayout
 from serendipity.pictures.map.places import Whereabouts
 from serendipity.pictures.scene.changes import Change
 
@@ -100,7 +100,7 @@ class Scene:
     human: int
     result: Result
     frames: tuple[Frame, ...]
-    layout: Layout | None = None
+    layout: MapLayout | None = None
     goals: tuple[str, ...] = ()
     acts: tuple[Act, ...] = ()
     former_acts: tuple[Act, ...] = ()

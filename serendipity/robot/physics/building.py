@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Final
 
-from serendipity.pictures.map.layout import Box, Layout
+from serendipity.pictures.map.layout import Box, MapLayout
 from serendipity.robot.physics.engine import Colour, Engine, Link
 
 CELL: Final = 0.8
@@ -39,7 +39,7 @@ class Rooms:
         width, depth: of the whole, in metres.
     """
 
-    def __init__(self, engine: Engine, layout: Layout) -> None:
+    def __init__(self, engine: Engine, layout: MapLayout) -> None:
         self._engine = engine
         self._layout = layout
         self._scale = CELL / min(side for box in layout.boxes.values() for side in (box.width, box.height))
