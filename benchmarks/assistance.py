@@ -21,7 +21,7 @@ from pathlib import Path
 import serendipity
 from benchmarks.problems import PROBLEMS
 from search import PreparedTask
-from search.assistance import joint_optimum
+from search.modes.assistance import joint_optimum
 from serendipity import Task
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline

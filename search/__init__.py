@@ -7,9 +7,9 @@ Knows the model (``serendipity.model``) and nothing of ``verify``.  Every call t
 from search.human.plan_graph import PlanGraph
 from search.planner import solve
 from search.prediction import AtHand, at_hand, optimal_human_plans
-from search.prepared_task import PreparedTask, prepare
-from search.tie_bound import least_over_ties
-from search.warm_start import WarmStart
+from search.call.prepared_task import PreparedTask, prepare
+from search.modes.tie_bound import least_over_ties
+from search.strategies.warm_start import WarmStart
 
 __all__ = [
     "AtHand",

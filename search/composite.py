@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.packed.parallelise import schedule
 from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason

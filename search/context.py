@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from search.engine.best_first import Node
-from search.heuristics.first_interaction import no_team_bound
-from search.heuristics.interactions import Interactions
-from search.heuristics.private_distances import PrivateDistances
+from search.bounds.first_interaction import no_team_bound
+from search.bounds.interactions import Interactions
+from search.bounds.private_distances import PrivateDistances
 from search.human.individual_planner import FoundPlan, HumanOptimum, IndividualPlanner
 from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_keys
 from search.human.plan_graph import PlanGraph
@@ -19,7 +19,7 @@ from search.packed.operators import Operator, changed
 from search.packed.packed_task import PackedGoal
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction, Successors, as_option
-from search.prepared_task import PreparedTask, TaskTables
+from search.call.prepared_task import PreparedTask, TaskTables
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline

@@ -4,9 +4,9 @@ from collections.abc import Generator, Iterator
 from contextlib import suppress
 from typing import Final
 
-from search.apart.one_by_one import FIRST, one_by_one
+from search.short_windows.independent.one_by_one import FIRST, one_by_one
 from search.composite import is_for_kernel
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space, Ties, best_first
 from search.engine.until import EnoughError, Until, few, risen
 from search.joint_plans import JointPlans
@@ -139,7 +139,7 @@ class Improvements:
 
     def _in_one_epoch_each(self, longer: int) -> Iterator[Incumbent]:
         """Robots by numbers, all agents together if there are few states, robots one by one, all together."""
-        from search.timetable.all_together import AllTogether  # only here: most calls come by without
+        from search.short_windows.joint.all_together import AllTogether  # only here: most calls come by without
 
         assert self._plan is not None and self._epochs is not None, "there is a window"
         asked = self._context, self._plan, self._epochs, self._best, self._progress, longer

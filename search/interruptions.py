@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.planner import left_alone
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from search.spaces.fixed_window import FixedWindow, Weighed
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline

@@ -5,7 +5,7 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, Ties, best_first
 from search.engine.paths import path_steps
 from search.packed.cost_vector import INFINITE_KEY

@@ -6,18 +6,18 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from search.composite import CompositeCall, Known, team_for
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_sets, path_steps, plan_steps
 from search.engine.until import EnoughError
-from search.heuristics.first_interaction import no_team_bound
+from search.bounds.first_interaction import no_team_bound
 from search.improvements import Improvements, is_settled
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.prediction import AtHand, Prediction, expected_plan, individual_answers
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.warm_start import WarmStart, replayed
+from search.strategies.warm_start import WarmStart, replayed
 from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE, Options

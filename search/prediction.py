@@ -5,12 +5,12 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Final, NamedTuple
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.paths import plan_steps
 from search.human.individual_planner import FoundPlan
 from search.human.plan_graph import PlanGraph
-from search.prepared_task import PreparedTask
-from search.warm_start import WarmStart, warm_plan
+from search.call.prepared_task import PreparedTask
+from search.strategies.warm_start import WarmStart, warm_plan
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.options import INFINITE, Options

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from copy import copy
 from math import prod
 
-from search.heuristics.achievers import shared_fields
-from search.heuristics.interactions import Interactions
-from search.heuristics.private_distances import OwnPrivateDistances
+from search.bounds.achievers import shared_fields
+from search.bounds.interactions import Interactions
+from search.bounds.private_distances import OwnPrivateDistances
 from search.human.pattern_database import PatternDatabase, private_fields, translated
 from search.human.tables import HumanTables
 from search.packed.cost_vector import CostScales

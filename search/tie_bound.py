@@ -7,13 +7,13 @@ what each plan allows.  A window of n epochs is answered only if it saves at lea
 
 from fractions import Fraction
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.dominance import ParetoFront
-from search.heuristics.first_interaction import Bounds, no_bound, no_team_bound
+from search.bounds.first_interaction import Bounds, no_bound, no_team_bound
 from search.human.plan_graph import PlanGraph
 from search.planner import solve
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.windowed import InLayers, Windowed
 from serendipity.model.errors import LIMITS

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from search.abstractions.mutexes import Pairs
-from search.apart.rows import Rows, column
+from search.short_windows.independent.rows import Rows, column
 from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline

@@ -11,7 +11,7 @@ from heapq import heappop, heappush
 
 import numpy as np
 
-from search.apart.rows import Amounts
+from search.short_windows.independent.rows import Amounts
 from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection
 from heapq import heapify, heappop, heappush
 from typing import Final, NamedTuple
 
-from search.apart.provision import Value
+from search.short_windows.independent.provision import Value
 from search.packed.cost_vector import FAR
 from search.packed.operators import split
 from search.packed.packed_task import PackedTask

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Final
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.task import HumanPlan
@@ -42,7 +42,7 @@ def one_by_one(
     Raises:
         LimitReachedError: the deadline of the call came, not only that of its part for this.
     """
-    from search.apart.short_windows import (
+    from search.short_windows.independent.short_windows import (
         short_windows,
     )  # only here: it loads what most calls come by without
 

@@ -4,15 +4,15 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
-from search.apart.conditions import lost_values
-from search.apart.landmarks import Landmark, Landmarks
-from search.apart.outcomes import Outcomes, Together, outcomes
-from search.apart.provision import Provision, Value
-from search.apart.remaining import Remaining, left_to_pay, values
-from search.apart.rows import Amounts, column, states
-from search.apart.timeline import Timeline, TooManyStatesError
-from search.apart.window import ACTION, FEW, Window
-from search.context import SearchContext
+from search.short_windows.independent.conditions import lost_values
+from search.short_windows.independent.landmarks import Landmark, Landmarks
+from search.short_windows.independent.outcomes import Outcomes, Together, outcomes
+from search.short_windows.independent.provision import Provision, Value
+from search.short_windows.independent.remaining import Remaining, left_to_pay, values
+from search.short_windows.independent.rows import Amounts, column, states
+from search.short_windows.independent.timeline import Timeline, TooManyStatesError
+from search.short_windows.independent.window import ACTION, FEW, Window
+from search.call.context import SearchContext
 from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 

@@ -11,8 +11,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from search.apart.rows import Amounts, Rows, agree, cheapest, column
-from search.apart.timeline import Layer, TooManyStatesError
+from search.short_windows.independent.rows import Amounts, Rows, agree, cheapest, column
+from search.short_windows.independent.timeline import Layer, TooManyStatesError
 from serendipity.model.resources.deadline import Deadline
 
 MOST_OUTCOMES: Final = 500_000

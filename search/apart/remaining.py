@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from search.apart.landmarks import Landmark
-from search.apart.outcomes import Outcomes
-from search.apart.provision import Value
-from search.apart.rows import Amounts, Rows, codes, column, states
+from search.short_windows.independent.landmarks import Landmark
+from search.short_windows.independent.outcomes import Outcomes
+from search.short_windows.independent.provision import Value
+from search.short_windows.independent.rows import Amounts, Rows, codes, column, states
 from search.packed.cost_vector import FAR
 
 _AT_ONCE: Final = 8

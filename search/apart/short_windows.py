@@ -10,14 +10,14 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Final, Protocol
 
-from search.apart.alike.robots import CountedRobots
-from search.apart.alike.tally import Tally, tally
-from search.apart.conditions import are_apart
-from search.apart.one_window import RobotsApart
-from search.apart.provision import Provision, by_others, provisions
-from search.apart.timeline import TooManyStatesError
-from search.apart.window import ACTION, Window
-from search.context import SearchContext
+from search.short_windows.independent.alike.robots import CountedRobots
+from search.short_windows.independent.alike.tally import Tally, tally
+from search.short_windows.independent.conditions import are_apart
+from search.short_windows.independent.one_window import RobotsApart
+from search.short_windows.independent.provision import Provision, by_others, provisions
+from search.short_windows.independent.timeline import TooManyStatesError
+from search.short_windows.independent.window import ACTION, Window
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.operators import Operator, split

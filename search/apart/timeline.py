@@ -11,9 +11,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from search.apart.detours import detours, leaves
-from search.apart.provision import Provision
-from search.apart.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
+from search.short_windows.independent.detours import detours, leaves
+from search.short_windows.independent.provision import Provision
+from search.short_windows.independent.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
 from search.packed.cost_vector import FAR, NEVER
 from search.packed.operators import Operator, asked_by, split
 from search.packed.packed_task import PackedTask

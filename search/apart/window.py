@@ -3,10 +3,10 @@
 from collections.abc import Collection
 from typing import Final
 
-from search.apart.landmarks import Landmarks
-from search.apart.provision import Value
-from search.apart.remaining import Remaining
-from search.context import SearchContext
+from search.short_windows.independent.landmarks import Landmarks
+from search.short_windows.independent.provision import Value
+from search.short_windows.independent.remaining import Remaining
+from search.call.context import SearchContext
 from search.packed.cost_vector import ACTIONS_BITS, FAR, INFINITE_KEY
 from search.packed.operators import Operator
 

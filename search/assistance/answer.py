@@ -6,18 +6,18 @@ from fractions import Fraction
 from functools import partial
 from typing import Final, TypeVar
 
-from search.assistance.bounds.bound import Bound
-from search.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
-from search.assistance.game.game import Game
-from search.assistance.game.rules import Mean, Worst
-from search.assistance.game.solution import ZERO, Costs, Solution
-from search.assistance.phase import PhaseDeadline
-from search.assistance.solvers.cheapest_run import CheapestRun
-from search.assistance.solvers.lao_star import LaoStar
-from search.assistance.writing import Writer
+from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
+from search.modes.assistance.game.game import Game
+from search.modes.assistance.game.rules import Mean, Worst
+from search.modes.assistance.game.solution import ZERO, Costs, Solution
+from search.modes.assistance.phase import PhaseDeadline
+from search.modes.assistance.solvers.cheapest_run import CheapestRun
+from search.modes.assistance.solvers.lao_star import LaoStar
+from search.modes.assistance.writing import Writer
 from search.packed.cost_vector import INFINITE_KEY
 from search.prediction import at_hand
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model.answers.answer import Answer, PolicyBounds, Status
 from serendipity.model.answers.policy import Policy
 from serendipity.model.errors import LIMITS, limit_reason

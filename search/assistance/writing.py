@@ -1,7 +1,7 @@
 """Writes solutions in the model's terms: names of facts and actions, plans by epochs."""
 
-from search.assistance.game.game import NOOP, Game, Move
-from search.assistance.game.solution import Costs, Solution
+from search.modes.assistance.game.game import NOOP, Game, Move
+from search.modes.assistance.game.solution import Costs, Solution
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.errors import LIMITS

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Final
 
 from search.abstractions.patterns import Field, patterns
-from search.algorithms.astar import AStar
+from search.engine.astar import AStar
 from search.classical.parity import Parity, parity_of
 from search.classical.problem import ClassicalProblem
 from search.classical.told import Told, memory_for

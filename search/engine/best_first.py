@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeVar
 
-from search.algorithms.shortest_paths import LevelQueue
+from search.engine.shortest_paths import LevelQueue
 from serendipity.model.resources.deadline import Deadline
 
 _PATIENCE = 1.25

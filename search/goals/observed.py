@@ -10,13 +10,13 @@ from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 
-from search.algorithms.astar import AStar
-from search.context import SearchContext
+from search.engine.astar import AStar
+from search.call.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import by_most_asked
 from search.packed.operators import forms_of
 from search.packed.successor_generator import Lookup
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition

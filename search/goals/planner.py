@@ -17,16 +17,16 @@ from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import count
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.paths import path_steps, plan_steps
-from search.goals.candidate import Candidate
-from search.goals.expectation import Expectation, Rank
-from search.goals.timeline import Ended, GoalTimeline, Situation
+from search.modes.goals.candidate import Candidate
+from search.modes.goals.expectation import Expectation, Rank
+from search.modes.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packings import human_facts
 from search.packed.successor_generator import NOTHING, JointAction, Successors, as_option, together
 from search.planner import solve
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from search.spaces.factory import suffix_rule
 from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS

@@ -25,9 +25,9 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from itertools import chain
 
-from search.algorithms.shortest_paths import LevelQueue
-from search.heuristics.achiever_costs import AchieverCosts, Label, Node, Spot, Teams
-from search.heuristics.interactions import Need
+from search.engine.shortest_paths import LevelQueue
+from search.bounds.achiever_costs import AchieverCosts, Label, Node, Spot, Teams
+from search.bounds.interactions import Need
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import by_variable
 from search.packed.operators import Operator, forms_of

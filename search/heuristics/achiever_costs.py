@@ -1,6 +1,6 @@
 """What it costs robots, at least, to provide one need, by where they are.
 
-Distances come from :mod:`search.heuristics.achiever_automaton`, whose glossary holds here, too.
+Distances come from :mod:`search.bounds.achiever_automaton`, whose glossary holds here, too.
 """
 
 from collections.abc import Callable
@@ -56,7 +56,7 @@ class AchieverCosts:
     Args:
         settled: what was explored of a spot, if it was.
         teams: who may have acted last, by the field's value.
-        unchanged: see :class:`search.heuristics.achiever_automaton.AchieverAutomaton`.
+        unchanged: see :class:`search.bounds.achiever_automaton.AchieverAutomaton`.
         field: the outside field.
         places: place field by robot's bit.
         found: distance by spot, a key increment.

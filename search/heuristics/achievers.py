@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 
-from search.heuristics.achiever_automaton import AchieverAutomaton
-from search.heuristics.achiever_costs import AchieverCosts
-from search.heuristics.interactions import Interactions
+from search.bounds.achiever_automaton import AchieverAutomaton
+from search.bounds.achiever_costs import AchieverCosts
+from search.bounds.interactions import Interactions
 from search.packed.cost_vector import INFINITE_KEY, NEVER
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask

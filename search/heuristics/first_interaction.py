@@ -14,9 +14,9 @@ from functools import cached_property
 from operator import itemgetter
 from typing import NamedTuple, Protocol
 
-from search.heuristics.achievers import Provided
-from search.heuristics.interactions import Interactions
-from search.heuristics.private_distances import PrivateDistances
+from search.bounds.achievers import Provided
+from search.bounds.interactions import Interactions
+from search.bounds.private_distances import PrivateDistances
 from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY, NEVER
 from search.packed.successor_generator import Idle

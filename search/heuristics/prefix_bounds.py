@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from itertools import accumulate
 from typing import Final, NamedTuple
 
-from search.heuristics.achievers import Provided
+from search.bounds.achievers import Provided
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.state_cache import StateCache
 from search.packed.successor_generator import Idle

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from search.algorithms.shortest_paths import LevelQueue, backward
-from search.heuristics.interactions import Interactions, Seen
+from search.engine.shortest_paths import LevelQueue, backward
+from search.bounds.interactions import Interactions, Seen
 from search.human.pattern_database import PatternDatabase, Predecessors
 from search.packed.cost_vector import INFINITE_KEY, NEVER, Weights, own_weights
 from search.packed.packed_task import PackedTask

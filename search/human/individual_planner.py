@@ -8,7 +8,7 @@ search per projection, and a search also fills in the states along its result.
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
-from search.algorithms.astar import AStar
+from search.engine.astar import AStar
 from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph, edges_into
 from search.packed.cost_vector import INFINITE_KEY

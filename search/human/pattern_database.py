@@ -15,7 +15,7 @@ from itertools import accumulate
 from operator import mul
 from typing import Final, NamedTuple
 
-from search.algorithms.shortest_paths import backward
+from search.engine.shortest_paths import backward
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_weights
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Signature, set_by

@@ -13,10 +13,10 @@ from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.successor_generator import Successors
-from search.prepared_task import PreparedTask
-from search.simulation.human import Human
-from search.simulation.simulator import Simulated, simulate_from, way_on
-from search.simulation.space import Reactive, Start
+from search.call.prepared_task import PreparedTask
+from search.modes.simulation.human import Human
+from search.modes.simulation.simulator import Simulated, simulate_from, way_on
+from search.modes.simulation.space import Reactive, Start
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.resources.deadline import Deadline

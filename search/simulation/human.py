@@ -3,14 +3,14 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.human.individual_planner import canonical
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask, TaskTables
-from search.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
-from search.simulation.intention import Intention, Intentions
+from search.call.prepared_task import PreparedTask, TaskTables
+from search.modes.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
+from search.modes.simulation.intention import Intention, Intentions
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.visibility import Visible

@@ -3,17 +3,17 @@
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.prediction import AtHand
-from search.prepared_task import PreparedTask
-from search.simulation.human import Human
-from search.simulation.simulator import way_on
-from search.simulation.space import Reactive, Start
+from search.call.prepared_task import PreparedTask
+from search.modes.simulation.human import Human
+from search.modes.simulation.simulator import way_on
+from search.modes.simulation.space import Reactive, Start
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.warm_start import WarmStart
+from search.strategies.warm_start import WarmStart
 from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from search.packed.operators import Operator, applicable
-from search.prepared_task import PreparedTask
-from search.simulation.human import Glance, Human
-from search.simulation.intention import Intention
-from search.simulation.space import Start
+from search.call.prepared_task import PreparedTask
+from search.modes.simulation.human import Glance, Human
+from search.modes.simulation.intention import Intention
+from search.modes.simulation.space import Start
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline

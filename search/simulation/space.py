@@ -13,8 +13,8 @@ from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
 from search.packed.operators import applicable
 from search.packed.successor_generator import NOTHING, JointAction, Successors
-from search.simulation.human import Glance, Human
-from search.simulation.intention import Intention
+from search.modes.simulation.human import Glance, Human
+from search.modes.simulation.intention import Intention
 
 
 class Mind(NamedTuple):

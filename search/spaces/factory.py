@@ -4,11 +4,11 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Space
 from search.engine.dominance import ParetoFront
-from search.heuristics.achievers import Achievers, Provided
-from search.heuristics.first_interaction import (
+from search.bounds.achievers import Achievers, Provided
+from search.bounds.first_interaction import (
     Bounds,
     FirstInteraction,
     Timed,
@@ -16,8 +16,8 @@ from search.heuristics.first_interaction import (
     no_team_bound,
     survivors,
 )
-from search.heuristics.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
-from search.heuristics.private_distances import Corridor
+from search.bounds.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
+from search.bounds.private_distances import Corridor
 from search.human.pattern_database import NOTHING_KNOWN
 from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
 from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout

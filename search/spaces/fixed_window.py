@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.heuristics.first_interaction import Bounds, Choice, no_bound, no_team_bound
-from search.heuristics.prefix_bounds import FirstInteractionOnTheWay
+from search.bounds.first_interaction import Bounds, Choice, no_bound, no_team_bound
+from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.human.suffix_rules import Suffix
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import NOTHING, JointAction, Successors

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable, changed

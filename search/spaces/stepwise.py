@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.heuristics.first_interaction import Bounds
+from search.bounds.first_interaction import Bounds
 from search.packed.packed_task import PackedGoal
 from search.packed.successor_generator import NOTHING, JointAction, Successors
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.heuristics.first_interaction import Bounds
+from search.bounds.first_interaction import Bounds
 from search.packed.cost_vector import CostLayout
 from search.packed.packed_task import PackedGoal
 from search.packed.successor_generator import NOTHING, JointAction, Successors

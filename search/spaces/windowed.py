@@ -11,8 +11,8 @@ from typing import NamedTuple, Protocol
 
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.heuristics.first_interaction import Bounds
-from search.heuristics.prefix_bounds import FirstInteractionOnTheWay
+from search.bounds.first_interaction import Bounds
+from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.human.pattern_database import PatternDatabase
 from search.human.suffix_rules import Suffix
 from search.packed.cost_vector import CostLayout

@@ -7,16 +7,16 @@ the human follows ``pi_H`` robots are in their way, and there may be few enough 
 from collections.abc import Collection, Iterator
 from typing import Final
 
-from search.apart.conditions import lost_values
+from search.short_windows.independent.conditions import lost_values
 from search.classical.problem import MOST_WEIGHT, ClassicalProblem
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress
 from search.human.own_problem import own_planner
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, own_costs
 from search.spaces.factory import suffix_rule
 from search.spaces.from_composite import Suggestions
-from search.timetable.epochs import Epochs, Leaving
+from search.short_windows.joint.epochs import Epochs, Leaving
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan

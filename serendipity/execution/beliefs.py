@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from search.goals import Explainer
+from search.modes.goals import Explainer
 from serendipity.model.numbers import Number
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task

@@ -16,9 +16,9 @@ from typing import NamedTuple
 from search.human.individual_planner import canonical
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
-from search.simulation.human import Human
-from search.simulation.intention import Intention
-from search.simulation.space import Start
+from search.modes.simulation.human import Human
+from search.modes.simulation.intention import Intention
+from search.modes.simulation.space import Start
 from serendipity.model.options import Options
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import HumanPlan, Task

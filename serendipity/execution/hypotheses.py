@@ -11,7 +11,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from search import PreparedTask
-from search.simulation.companion import Companion
+from search.modes.simulation.companion import Companion
 from serendipity.execution.advice import Advice, Adviser, Allows, DecisionPoint
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.execution.reactive_adviser import ReactiveAdviser

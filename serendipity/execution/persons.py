@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from search import PreparedTask
 from search.packed.operators import applicable
-from search.simulation.human import Human
+from search.modes.simulation.human import Human
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
-from search.simulation.companion import Companion, Course
+from search.modes.simulation.companion import Companion, Course
 from serendipity.execution.advice import Advice, DecisionPoint
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.facade.results import named_steps

@@ -1,6 +1,6 @@
 """Help if robots had promised nothing: the reason why they do nothing."""
 
-from search.simulation.companion import Companion
+from search.modes.simulation.companion import Companion
 from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.guard import Following
 from serendipity.execution.sessions import RestrictedSessions

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final, Unpack
 
-from search.interruptions import Interruptions, WindowOutcome
-from search.interruptions import interruptions as search_windows
+from search.modes.interruptions import Interruptions, WindowOutcome
+from search.modes.interruptions import interruptions as search_windows
 from serendipity.facade.call import options_from
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps

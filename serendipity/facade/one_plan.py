@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import Final
 
 from search import solve
-from search.simulation import solve_for_human
+from search.modes.simulation import solve_for_human
 from serendipity.facade.call import Call
 from serendipity.facade.simulation import realised
 from serendipity.model.answers.answer import Answer, Improvement

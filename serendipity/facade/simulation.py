@@ -5,8 +5,8 @@ from fractions import Fraction
 from typing import Final, Literal
 
 from search import PreparedTask
-from search.simulation import Epoch, Simulated
-from search.simulation import simulate as play
+from search.modes.simulation import Epoch, Simulated
+from search.modes.simulation import simulate as play
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model.answers.result import Result

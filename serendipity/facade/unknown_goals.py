@@ -10,7 +10,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Final
 
-from search.goals import Candidate, explanations, solve_expected
+from search.modes.goals import Candidate, explanations, solve_expected
 from serendipity.facade import ties
 from serendipity.facade.call import Call, Solver
 from serendipity.model import Task, UsageError

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from search.goals import Likelihood, explanations
+from search.modes.goals import Likelihood, explanations
 from serendipity.model import Deadline, Task, UsageError, exact
 from serendipity.model.answers.recognition import GoalPosterior, Recognition
 from serendipity.model.arguments import TASK, expect

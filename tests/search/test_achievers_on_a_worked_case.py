@@ -2,10 +2,10 @@
 
 import pytest
 
-from search.heuristics.achiever_automaton import AchieverAutomaton
-from search.heuristics.interactions import Need
+from search.bounds.achiever_automaton import AchieverAutomaton
+from search.bounds.interactions import Need
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask, TaskTables
+from search.call.prepared_task import PreparedTask, TaskTables
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task
 

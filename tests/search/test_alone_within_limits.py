@@ -4,7 +4,7 @@ import pytest
 
 from search import PreparedTask
 from search.classical.planner import ClassicalPlanner
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from search import PreparedTask
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_bounds
 from serendipity.facade.planning import plan

@@ -4,10 +4,10 @@ from fractions import Fraction
 
 import pytest
 
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.packed.cost_vector import INFINITE_KEY
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from search.spaces.factory import joint_space
 from search.spaces.stepwise import Stepwise
 from serendipity.model.options import Options

@@ -12,7 +12,7 @@ from hypothesis.strategies import SearchStrategy
 
 import search.improvements
 import serendipity
-from search.context import SearchContext
+from search.call.context import SearchContext
 from serendipity import Result, Task, UsageError
 from serendipity.model.numbers import as_written
 from serendipity.testing.oracle import Optimum, best

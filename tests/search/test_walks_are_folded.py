@@ -6,7 +6,7 @@ import pytest
 
 import serendipity
 from search import PreparedTask
-from search.context import SearchContext
+from search.call.context import SearchContext
 from serendipity.model import Window
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing import builders

@@ -11,7 +11,7 @@ import serendipity
 from serendipity.model import Certificate, LimitReachedError, Options, Result, Task, UsageError
 from serendipity.testing.cases import case_2, case_4, case_5, case_8, case_10
 from serendipity.testing.countdown import Countdown
-from tests.search.goals.test_worked_cases import helped, workshop
+from tests.search.modes.goals.test_worked_cases import helped, workshop
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED
 from verify.calls.solve import solve
 from verify.certificate.certify import certify

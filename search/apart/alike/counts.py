@@ -11,9 +11,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from search.apart.alike.robot import Edge, Robot
-from search.apart.rows import Amounts
-from search.apart.timeline import TooManyStatesError
+from search.short_windows.independent.alike.robot import Edge, Robot
+from search.short_windows.independent.rows import Amounts
+from search.short_windows.independent.timeline import TooManyStatesError
 from search.packed.cost_vector import FAR
 from serendipity.model.resources.deadline import Deadline
 

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
-from search.apart.alike.robot import Edge, Place, Robot
+from search.short_windows.independent.alike.robot import Edge, Place, Robot
 from search.packed.operators import Operator
 
 

@@ -8,9 +8,9 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
-from search.apart.alike.tally import Tally
-from search.apart.provision import Value
-from search.apart.timeline import TooManyStatesError
+from search.short_windows.independent.alike.tally import Tally
+from search.short_windows.independent.provision import Value
+from search.short_windows.independent.timeline import TooManyStatesError
 from search.packed.operators import Operator, applicable, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline

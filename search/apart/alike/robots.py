@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 
-from search.apart.alike.counts import Counts
-from search.apart.alike.robot import Robot
-from search.apart.alike.tally import Tally
-from search.apart.alike.window import AlikeWindow, Until
-from search.apart.landmarks import Landmarks
-from search.apart.provision import Value
-from search.context import SearchContext
+from search.short_windows.independent.alike.counts import Counts
+from search.short_windows.independent.alike.robot import Robot
+from search.short_windows.independent.alike.tally import Tally
+from search.short_windows.independent.alike.window import AlikeWindow, Until
+from search.short_windows.independent.landmarks import Landmarks
+from search.short_windows.independent.provision import Value
+from search.call.context import SearchContext
 from search.packed.operators import Operator
 from serendipity.model.task.task import HumanPlan
 

@@ -7,8 +7,8 @@ have been sent).  Where things are alike, it does not matter to the human which 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from search.apart.alike.things import Things
-from search.apart.provision import Value
+from search.short_windows.independent.alike.things import Things
+from search.short_windows.independent.provision import Value
 from search.packed.operators import asked_by, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import Final
 
-from search.apart.provision import Value
+from search.short_windows.independent.provision import Value
 from search.packed.operators import Operator, split
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline

@@ -7,18 +7,18 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from search.apart.alike.counts import Counts, run
-from search.apart.alike.lifted import lifted
-from search.apart.alike.robot import Robot
-from search.apart.alike.tally import Tally
-from search.apart.landmarks import Landmark, Landmarks
-from search.apart.outcomes import MOST_OUTCOMES, Outcomes
-from search.apart.provision import Value
-from search.apart.remaining import Remaining, left_to_pay
-from search.apart.rows import Amounts, Rows, column
-from search.apart.timeline import TooManyStatesError
-from search.apart.window import Window
-from search.context import SearchContext
+from search.short_windows.independent.alike.counts import Counts, run
+from search.short_windows.independent.alike.lifted import lifted
+from search.short_windows.independent.alike.robot import Robot
+from search.short_windows.independent.alike.tally import Tally
+from search.short_windows.independent.landmarks import Landmark, Landmarks
+from search.short_windows.independent.outcomes import MOST_OUTCOMES, Outcomes
+from search.short_windows.independent.provision import Value
+from search.short_windows.independent.remaining import Remaining, left_to_pay
+from search.short_windows.independent.rows import Amounts, Rows, column
+from search.short_windows.independent.timeline import TooManyStatesError
+from search.short_windows.independent.window import Window
+from search.call.context import SearchContext
 from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 

@@ -1,15 +1,15 @@
 """A lower bound on the value of a state: both together, without turns.
 
 Where the states that the two can reach together are few, the joint optimum itself, from
-one table.  Elsewhere a relaxation of it, see :mod:`search.assistance.bounds.relaxed_provision`.
+one table.  Elsewhere a relaxation of it, see :mod:`search.modes.assistance.bounds.relaxed_provision`.
 """
 
 from typing import Final
 
-from search.assistance.bounds.relaxed_provision import RelaxedProvision
-from search.assistance.distances.arcs import Arc, ClosureTooLargeError
-from search.assistance.distances.closure import Closure
-from search.assistance.game.game import Game
+from search.modes.assistance.bounds.relaxed_provision import RelaxedProvision
+from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.modes.assistance.distances.closure import Closure
+from search.modes.assistance.game.game import Game
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 

@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable, Mapping
 from heapq import heappop, heappush
 from typing import NamedTuple
 
-from search.algorithms.and_or import AndOrGraph, Rule
-from search.assistance.game.game import Game
+from search.engine.and_or import AndOrGraph, Rule
+from search.modes.assistance.game.game import Game
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
-from search.algorithms.astar import AStar
-from search.assistance.game.game import Game
+from search.engine.astar import AStar
+from search.modes.assistance.game.game import Game
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Operator

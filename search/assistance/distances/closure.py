@@ -8,8 +8,8 @@ layers in arrays.
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
-from search.algorithms.shortest_paths import backward
-from search.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.engine.shortest_paths import backward
+from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.packed_task import PackedGoal
@@ -17,8 +17,8 @@ from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
 if TYPE_CHECKING:
-    from search.assistance.distances.layers import Layers
-    from search.assistance.distances.perimeter import Perimeter
+    from search.modes.assistance.distances.layers import Layers
+    from search.modes.assistance.distances.perimeter import Perimeter
 
 SMALL: Final = 3_000
 """States that are explored one by one before arrays take over."""
@@ -142,7 +142,7 @@ class Closure:
     def _settle_in_layers(self, start: int, limit: int) -> bool:
         """Whether it could be done: with too many states, or too little memory for them, it can't."""
         # Loads numpy: only a task with a large closure pays for it.
-        from search.assistance.distances.layers import Layers
+        from search.modes.assistance.distances.layers import Layers
 
         try:
             self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._deadline))
@@ -156,7 +156,7 @@ class Closure:
 
     def _grow_ball(self, start: int) -> bool:
         """Whether there is a ball now that there was not before."""
-        from search.assistance.distances.perimeter import ball_around
+        from search.modes.assistance.distances.perimeter import ball_around
 
         if self._balls:
             return False

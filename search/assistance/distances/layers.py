@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from search.algorithms.shortest_paths import LevelQueue
-from search.assistance.distances.arcs import Arc, ClosureTooLargeError
-from search.assistance.distances.arrays import Indices, Kinds, Places, Words, distinct
+from search.engine.shortest_paths import LevelQueue
+from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.modes.assistance.distances.arrays import Indices, Kinds, Places, Words, distinct
 from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.resources.deadline import Deadline

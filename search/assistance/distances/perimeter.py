@@ -14,9 +14,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from search.algorithms.shortest_paths import LevelQueue
-from search.assistance.distances.arcs import Arc
-from search.assistance.distances.arrays import Places, Stored, distinct
+from search.engine.shortest_paths import LevelQueue
+from search.modes.assistance.distances.arcs import Arc
+from search.modes.assistance.distances.arrays import Places, Stored, distinct
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.errors import LIMITS, LimitReachedError

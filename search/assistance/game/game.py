@@ -11,12 +11,12 @@ from functools import cached_property
 from math import lcm
 from typing import Final, NamedTuple
 
-from search.assistance.distances.watched import Watched
-from search.assistance.game.own import OwnCosts
+from search.modes.assistance.distances.watched import Watched
+from search.modes.assistance.game.own import OwnCosts
 from search.packed.cost_vector import INFINITE_KEY, require_room
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import HumanPlan

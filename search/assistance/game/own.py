@@ -6,9 +6,9 @@ a table over the rest is filled in where it is asked for.
 
 from typing import Final
 
-from search.assistance.distances.arcs import Arc, ClosureTooLargeError
-from search.assistance.distances.closure import Closure
-from search.assistance.distances.watched import Watched
+from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
+from search.modes.assistance.distances.closure import Closure
+from search.modes.assistance.distances.watched import Watched
 from search.human.individual_planner import IndividualPlanner
 from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY

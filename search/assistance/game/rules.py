@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-from search.assistance.game.game import Game
-from search.assistance.game.solution import Costs
+from search.modes.assistance.game.game import Game
+from search.modes.assistance.game.solution import Costs
 from search.packed.cost_vector import INFINITE_KEY
 
 Value = Any

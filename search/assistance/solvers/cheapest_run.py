@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from search.assistance.bounds.bound import Bound
-from search.assistance.game.game import NOOP, Game, Move
-from search.assistance.game.solution import MAX_FLOORS, ZERO, Costs, Entry, Solution
+from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.game.game import NOOP, Game, Move
+from search.modes.assistance.game.solution import MAX_FLOORS, ZERO, Costs, Entry, Solution
 from search.engine.best_first import Progress, best_first
 from search.packed.cost_vector import INFINITE_KEY
 

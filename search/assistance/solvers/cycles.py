@@ -9,10 +9,10 @@ somewhere would make the mean of the values fall below itself.
 
 from collections.abc import Mapping
 
-from search.algorithms.and_or import AndOrGraph, Rule
-from search.assistance.game.rules import Mean, Value
-from search.assistance.solvers.evaluate import Option, evaluate, option_value
-from search.assistance.solvers.graph import Graph
+from search.engine.and_or import AndOrGraph, Rule
+from search.modes.assistance.game.rules import Mean, Value
+from search.modes.assistance.solvers.evaluate import Option, evaluate, option_value
+from search.modes.assistance.solvers.graph import Graph
 from serendipity.model.resources.deadline import Deadline
 
 Model = dict[int, list[Option]]

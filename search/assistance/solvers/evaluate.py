@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from search.assistance.game.game import Move
-from search.assistance.game.rules import ChoiceRule, Mean, Value
-from search.assistance.solvers.components import components
-from search.assistance.solvers.linear import Row, solve_linear
+from search.modes.assistance.game.game import Move
+from search.modes.assistance.game.rules import ChoiceRule, Mean, Value
+from search.modes.assistance.solvers.components import components
+from search.modes.assistance.solvers.linear import Row, solve_linear
 from serendipity.model.resources.deadline import Deadline
 
 

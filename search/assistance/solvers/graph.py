@@ -3,10 +3,10 @@
 A *choice* is a state with the supporter to move, a *reply* one with the prime to move.
 """
 
-from search.assistance.bounds.bound import Bound
-from search.assistance.game.game import NOOP, Game, Move
-from search.assistance.game.rules import ChoiceRule, Value
-from search.assistance.solvers.evaluate import Option
+from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.game.game import NOOP, Game, Move
+from search.modes.assistance.game.rules import ChoiceRule, Value
+from search.modes.assistance.solvers.evaluate import Option
 from search.packed.cost_vector import INFINITE_KEY
 
 

@@ -4,18 +4,18 @@ A pass follows the policy that is best by the present bounds, expands what it me
 backs values up (as in LAO*, Hansen and Zilberstein 2001).  When a pass raises nothing,
 the policy is evaluated exactly; if it is worth its bound, it is optimal.  Where runs may
 return to a state, backing up alone may not get there: then everything looked at is
-solved at once, see :mod:`search.assistance.solvers.cycles`.
+solved at once, see :mod:`search.modes.assistance.solvers.cycles`.
 """
 
 from collections.abc import Iterator
 
-from search.assistance.bounds.bound import Bound
-from search.assistance.game.game import Game, Move
-from search.assistance.game.rules import ChoiceRule, Value
-from search.assistance.game.solution import MAX_FLOORS, Costs, Entry, Solution
-from search.assistance.solvers.cycles import solve_all
-from search.assistance.solvers.evaluate import Option, evaluate
-from search.assistance.solvers.graph import Graph
+from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.game.game import Game, Move
+from search.modes.assistance.game.rules import ChoiceRule, Value
+from search.modes.assistance.game.solution import MAX_FLOORS, Costs, Entry, Solution
+from search.modes.assistance.solvers.cycles import solve_all
+from search.modes.assistance.solvers.evaluate import Option, evaluate
+from search.modes.assistance.solvers.graph import Graph
 from search.packed.cost_vector import INFINITE_KEY
 
 _MOST_BACKUPS = 1000

@@ -137,8 +137,8 @@ def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str
     if mode == "assistance":
         modules += [
             "serendipity.facade.assistance",
-            "search.assistance.distances.layers",
-            "search.assistance.distances.perimeter",
+            "search.modes.assistance.distances.layers",
+            "search.modes.assistance.distances.perimeter",
             "verify.policy",
         ]
     if goals is not None:

@@ -22,8 +22,8 @@ MemoryLimit = Annotated[
 
 
 PLANNING: Final = (
-    "search.apart.short_windows",
-    "search.timetable.all_together",
+    "search.short_windows.independent.short_windows",
+    "search.short_windows.joint.all_together",
     "search.classical.canonical",
     "search.classical.team",
     "search.kernel.signatures",

@@ -5,10 +5,10 @@ from random import Random
 import pytest
 
 from search.abstractions.mutexes import Pairs
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.algorithms.and_or import AndOrGraph, Rule
+from search.engine.and_or import AndOrGraph, Rule
 from serendipity.model.resources.deadline import Deadline
 
 STATES = range(6)

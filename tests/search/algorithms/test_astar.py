@@ -3,9 +3,9 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.algorithms.astar import AStar
+from search.engine.astar import AStar
 from serendipity.model.resources.deadline import Deadline
-from tests.search.algorithms.graphs import NODES, Edges, distances, graphs, turned
+from tests.search.engine.graphs import NODES, Edges, distances, graphs, turned
 
 FAR = 1000
 

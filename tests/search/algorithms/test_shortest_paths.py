@@ -3,9 +3,9 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.algorithms.shortest_paths import LevelQueue, backward
+from search.engine.shortest_paths import LevelQueue, backward
 from serendipity.model.resources.deadline import Deadline
-from tests.search.algorithms.graphs import NODES, Edges, distances, graphs, turned
+from tests.search.engine.graphs import NODES, Edges, distances, graphs, turned
 
 sources = st.dictionaries(st.integers(0, NODES - 1), st.integers(0, 3), min_size=1, max_size=3)
 

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 
 import search.improvements
 import serendipity
-from search.apart import timeline
-from search.apart.short_windows import ShortWindows, short_windows
-from search.context import SearchContext
+from search.short_windows.independent import timeline
+from search.short_windows.independent.short_windows import ShortWindows, short_windows
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from search.spaces.windowed import Windowed
 from serendipity.model import Options, Task
 from serendipity.model.errors import LimitReachedError

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from search.apart.outcomes import outcomes
-from search.apart.rows import cheapest
-from search.apart.timeline import Layer, TooManyStatesError
+from search.short_windows.independent.outcomes import outcomes
+from search.short_windows.independent.rows import cheapest
+from search.short_windows.independent.timeline import Layer, TooManyStatesError
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.countdown import Countdown

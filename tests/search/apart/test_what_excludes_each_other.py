@@ -2,11 +2,11 @@
 
 import pytest
 
-from search.apart.conditions import are_apart, lost_values
-from search.context import SearchContext
+from search.short_windows.independent.conditions import are_apart, lost_values
+from search.call.context import SearchContext
 from search.packed.operators import asked_by
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build

@@ -5,17 +5,17 @@ from random import Random
 
 import pytest
 
-from search.apart import timeline
-from search.apart.detours import detours, leaves
+from search.short_windows.independent import timeline
+from search.short_windows.independent.detours import detours, leaves
 from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
-from tests.search.apart.test_bounds_are_admissible import ONE_EPOCH, admissible_bound, bound_and_cost
+from tests.search.short_windows.independent.test_bounds_are_admissible import ONE_EPOCH, admissible_bound, bound_and_cost
 
 _CHORES = {f"a_chore_{i} h": f"-> chore_{i} @ 1" for i in range(5)}
 _DONE = " ".join(f"chore_{i}" for i in range(5))

@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.apart.landmarks import Landmarks
-from search.apart.provision import Value
-from search.apart.remaining import left_to_pay
-from search.apart.rows import codes, column
+from search.short_windows.independent.landmarks import Landmarks
+from search.short_windows.independent.provision import Value
+from search.short_windows.independent.remaining import left_to_pay
+from search.short_windows.independent.rows import codes, column
 from search.packed.cost_vector import FAR
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build

@@ -7,16 +7,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.assistance.distances import closure
-from search.assistance.distances.closure import Arc, Closure
-from search.assistance.distances.perimeter import ball_around
+from search.modes.assistance.distances import closure
+from search.modes.assistance.distances.closure import Arc, Closure
+from search.modes.assistance.distances.perimeter import ball_around
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
-from tests.search.assistance.strategies import games
-from tests.search.assistance.test_search_equals_brute_force import solve
+from tests.search.modes.assistance.strategies import games
+from tests.search.modes.assistance.test_search_equals_brute_force import solve
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from serendipity.model import Deadline, Decision, Options, Policy
 from serendipity.model.answers.answer import PolicyBounds
 from serendipity.model.numbers import as_written
 from serendipity.testing.cases import case_5, case_6
-from tests.search.assistance.strategies import games
+from tests.search.modes.assistance.strategies import games
 from verify.policy import check_policy
 
 TIES = ("optimistic", "fixed", "robust", "expected")

@@ -7,7 +7,7 @@ import pytest
 import serendipity
 from benchmarks.assistance import domain_of, number, problems
 from search import PreparedTask
-from search.assistance import joint_optimum
+from search.modes.assistance import joint_optimum
 from serendipity import Task
 from serendipity.testing.oracle.assistance import Costs
 

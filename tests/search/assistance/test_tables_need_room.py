@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import serendipity
-from search.assistance.distances import closure
-from search.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
-from search.assistance.distances.layers import Layers
-from search.assistance.distances.perimeter import PackedPlaces, ball_around
+from search.modes.assistance.distances import closure
+from search.modes.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
+from search.modes.assistance.distances.layers import Layers
+from search.modes.assistance.distances.perimeter import PackedPlaces, ball_around
 from search.packed.cost_vector import ACTIONS_BITS
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline, LimitReachedError
@@ -43,8 +43,8 @@ def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.M
     arcs, goal, mask = line(40)
     values = [list(range(40))]
     assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
-    monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
-    monkeypatch.setattr("search.assistance.distances.perimeter._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.perimeter._LARGE", 0)
     with pytest.raises(ClosureTooLargeError):
         Closure(arcs, goal, [mask], values, 1000, Full()).key(0)
     with pytest.raises(LimitReachedError):
@@ -62,7 +62,7 @@ def test_a_ball_asks_for_all_it_may_touch() -> None:
 def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
     arcs, goal, mask = line(40)
     Layers(arcs, goal, [mask], 0, 1000, Full())  # little is not asked for
-    monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
     with pytest.raises(LimitReachedError):
         Layers(arcs, goal, [mask], 0, 1000, Full())
 
@@ -85,6 +85,6 @@ def test_edges_are_in_order_of_their_targets() -> None:
 def test_answers_are_the_same_without_tables(ties: str, monkeypatch: pytest.MonkeyPatch) -> None:
     full = serendipity.plan(case_5(), mode="assistance", ties=ties)
     monkeypatch.setattr(closure, "SMALL", 1)
-    monkeypatch.setattr("search.assistance.distances.layers._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
     answer = serendipity.plan(case_5(), mode="assistance", ties=ties, deadline=Full())
     assert (answer.status, answer.bounds) == (full.status, full.bounds)

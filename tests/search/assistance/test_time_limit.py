@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 
 import serendipity
 from search import PreparedTask
-from search.assistance import assist
-from search.assistance.bounds import bound
-from search.assistance.bounds import relaxed_provision as provision
-from search.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
-from search.assistance.distances import closure
-from search.assistance.distances import perimeter as ball
-from search.assistance.game.game import Game
-from search.assistance.solvers import cheapest_run, lao_star
+from search.modes.assistance import assist
+from search.modes.assistance.bounds import bound
+from search.modes.assistance.bounds import relaxed_provision as provision
+from search.modes.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
+from search.modes.assistance.distances import closure
+from search.modes.assistance.distances import perimeter as ball
+from search.modes.assistance.game.game import Game
+from search.modes.assistance.solvers import cheapest_run, lao_star
 from serendipity.model import Options, Task
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.deadline import Deadline
@@ -23,7 +23,7 @@ from serendipity.testing.builders import task
 from serendipity.testing.cases import case_5, case_6
 from serendipity.testing.countdown import Countdown
 from serendipity.testing.oracle.assistance import by_rounds, explore
-from tests.search.assistance.strategies import games
+from tests.search.modes.assistance.strategies import games
 
 TIES = ("optimistic", "fixed", "robust", "expected")
 

@@ -2,12 +2,12 @@
 
 from hypothesis import given
 
-from search.assistance.distances.watched import Watched
+from search.modes.assistance.distances.watched import Watched
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
-from tests.search.assistance.strategies import games
+from tests.search.modes.assistance.strategies import games
 
 
 @given(task=games())

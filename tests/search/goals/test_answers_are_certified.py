@@ -12,14 +12,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
-from search.goals import Candidate
+from search.modes.goals import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle.goals import best_expected, robots_sets
 from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
-from tests.search.goals.strategies import literals, rivals
-from tests.search.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
-from tests.search.goals.test_worked_cases import helped, workshop
+from tests.search.modes.goals.strategies import literals, rivals
+from tests.search.modes.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
+from tests.search.modes.goals.test_worked_cases import helped, workshop
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import Call
 from verify.goals import together

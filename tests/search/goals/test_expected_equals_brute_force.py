@@ -10,15 +10,15 @@ from hypothesis import strategies as st
 import serendipity
 from search import PreparedTask
 from search.engine.paths import plan_steps
-from search.goals import Candidate, solve_expected
-from search.goals.planner import _Search
+from search.modes.goals import Candidate, solve_expected
+from search.modes.goals.planner import _Search
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.oracle.goals import best_expected, robots_sets
 from serendipity.testing.strategies import Call, calls
-from tests.search.goals.strategies import literals, rivals
+from tests.search.modes.goals.strategies import literals, rivals
 from verify.base.individual import IndividualOptimum
 from verify.goals.timelines import Timeline, rule_fault
 from verify.rules.case import Case

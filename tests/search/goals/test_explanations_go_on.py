@@ -5,7 +5,7 @@ from random import Random
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.goals import Explainer, explanations
+from search.modes.goals import Explainer, explanations
 from serendipity.model import Condition, Task
 from serendipity.model.task.actions import apply
 from serendipity.testing.strategies import tasks, usar_tasks

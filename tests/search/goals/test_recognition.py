@@ -13,7 +13,7 @@ from serendipity.model import Condition, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import Alone, optimal_human_plan
 from serendipity.testing.strategies import tasks
-from tests.search.goals.strategies import literals, reachable_goals
+from tests.search.modes.goals.strategies import literals, reachable_goals
 
 
 def fork() -> Task:

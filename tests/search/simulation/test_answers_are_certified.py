@@ -13,7 +13,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import case_1, case_2, case_4
 from serendipity.testing.oracle.reactions import best_reaction
-from tests.search.simulation.strategies import Reaction, reactions
+from tests.search.modes.simulation.strategies import Reaction, reactions
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import Call
 from verify.certificate.reactions import cheapest_reaction

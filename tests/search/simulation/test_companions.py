@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from search import PreparedTask
 from search.prediction import canonical_human_plan
-from search.simulation.companion import Companion
-from search.simulation.space import Start
+from search.modes.simulation.companion import Companion
+from search.modes.simulation.space import Start
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.builders import usar
 from serendipity.testing.strategies import tasks, usar_tasks

@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given
 
 from search import PreparedTask
-from search.simulation import simulate, solve_for_human
+from search.modes.simulation import simulate, solve_for_human
 from serendipity.model.answers.answer import Answer
 from serendipity.testing.oracle.reactions import best_reaction
-from tests.search.simulation.strategies import Reaction, reactions
+from tests.search.modes.simulation.strategies import Reaction, reactions
 
 MODELS = ["observant", "local"]
 

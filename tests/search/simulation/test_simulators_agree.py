@@ -3,8 +3,8 @@
 from hypothesis import given, settings
 
 from search import PreparedTask
-from search.simulation import simulate
-from tests.search.simulation.strategies import Played, played
+from search.modes.simulation import simulate
+from tests.search.modes.simulation.strategies import Played, played
 from verify.simulator import play
 
 EXAMPLES = 10_000 if settings().max_examples >= 1000 else 300

@@ -7,7 +7,7 @@ import pytest
 from search import PreparedTask
 from search.human.individual_planner import canonical
 from search.kernel.library import library
-from search.simulation.human import Human
+from search.modes.simulation.human import Human
 from serendipity.model import Options, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.countdown import Countdown

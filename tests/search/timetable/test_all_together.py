@@ -9,14 +9,14 @@ import pytest
 
 import search.improvements
 import serendipity
-from search.context import SearchContext
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Progress
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
-from search.prepared_task import PreparedTask
-from search.timetable import all_together as room
-from search.timetable import epochs
-from search.timetable.all_together import AllTogether
+from search.call.prepared_task import PreparedTask
+from search.short_windows.joint import all_together as room
+from search.short_windows.joint import epochs
+from search.short_windows.joint.all_together import AllTogether
 from serendipity.evaluation.crosscheck import random_call
 from serendipity.model import Options, Task
 from serendipity.model.numbers import as_written

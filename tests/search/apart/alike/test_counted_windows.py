@@ -12,16 +12,16 @@ from hypothesis import strategies as st
 
 import search.improvements
 import serendipity
-from search.apart.short_windows import ShortWindows, short_windows
-from search.context import SearchContext
+from search.short_windows.independent.short_windows import ShortWindows, short_windows
+from search.call.context import SearchContext
 from search.engine.best_first import Incumbent
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model import Options, Task
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.countdown import Countdown
 from serendipity.testing.oracle import best
-from tests.search.apart.alike.surveys import survey
+from tests.search.short_windows.independent.alike.surveys import survey
 
 ONE_EPOCH = Options(mode="serendipity", max_window=1)
 
@@ -118,7 +118,7 @@ def test_ways_that_are_not_found_leave_a_bound(monkeypatch: pytest.MonkeyPatch) 
         task, options = survey(dice, dice.choice((5, 6, 7)), dice.choice((1, 1, 2))), _options(dice)
         exact = counted(task, options)
         with monkeypatch.context() as patched:
-            patched.setattr("search.apart.alike.window.lifted", lambda *_: None)
+            patched.setattr("search.short_windows.independent.alike.window.lifted", lambda *_: None)
             found = counted(task, options)
         assert (found is None) == (exact is None)
         if found is not None and exact is not None:

@@ -2,18 +2,18 @@
 
 from random import Random
 
-from search.apart.alike.robots import CountedRobots
-from search.apart.alike.tally import tally
-from search.apart.one_window import RobotsApart
-from search.apart.short_windows import Robots
-from search.apart.window import ACTION, Window
-from search.context import SearchContext
+from search.short_windows.independent.alike.robots import CountedRobots
+from search.short_windows.independent.alike.tally import tally
+from search.short_windows.independent.one_window import RobotsApart
+from search.short_windows.independent.short_windows import Robots
+from search.short_windows.independent.window import ACTION, Window
+from search.call.context import SearchContext
 from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.operators import Operator
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model import Options
 from serendipity.model.resources.deadline import Deadline
-from tests.search.apart.alike.surveys import survey
+from tests.search.short_windows.independent.alike.surveys import survey
 
 
 def _least(window: Window, limit: int) -> int:

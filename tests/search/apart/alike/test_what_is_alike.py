@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from search.apart.alike.robots import CountedRobots
-from search.apart.alike.tally import tally
-from search.apart.alike.things import Things
-from search.context import SearchContext
+from search.short_windows.independent.alike.robots import CountedRobots
+from search.short_windows.independent.alike.tally import tally
+from search.short_windows.independent.alike.things import Things
+from search.call.context import SearchContext
 from search.packed.packed_task import PackedTask
-from search.prepared_task import PreparedTask
+from search.call.prepared_task import PreparedTask
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
