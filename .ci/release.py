@@ -29,7 +29,7 @@ BELONGS = re.compile(r"(serendipity|search|verify|serendipity_planner-[^/]*\.dis
 T = TypeVar("T")
 USES = {
     "plot": ("-m", "serendipity", "interruptions", "--example", "room2", "--heat-map", "windows.png"),
-    "live": ("-c", "import serendipity.live.server"),
+    "live": ("-c", "import serendipity.live.guards.connections"),
     "dask": ("-c", "import distributed"),
     "data": ("-m", "serendipity", "interruptions", "--example", "room2", "-o", "windows.parquet"),
     "up": ("-c", "import serendipity.up"),

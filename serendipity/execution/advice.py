@@ -1,7 +1,7 @@
-"""What robots are advised to do from a moment on, whoever has worked it out."""
+"""Advice to robots: what they had best do from a moment on, whoever has worked it out."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
 
@@ -38,43 +38,35 @@ class Advice:
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
-    """What is asked of an adviser.
+class DecisionPoint:
+    """An epoch that is to come, whichever goal the person has.
 
     Attributes:
         state: ids of the facts that are true.
-        following: what the person may be following.
         out: ids of actions that nobody can do any more.
         barred: these, and those that wait for what robots have begun to be finished.
         running: ids of what they have begun, and go on with in any case.
-        allows: what may happen in the epoch that is to come.
+        allows: what may happen in it.
     """
 
     state: frozenset[int]
-    following: Following
     out: frozenset[int]
     barred: frozenset[int]
     running: frozenset[int]
     allows: Allows
 
 
-def without(task: Task, removed: frozenset[int]) -> Task:
-    """A task without some of its actions."""
-    if not removed:
-        return task
-    kept = tuple(action for i, action in enumerate(task.actions) if i not in removed)
-    return replace(task, actions=kept, known_variables=task.variables)
-
-
 class Adviser(Protocol):
     """Plans for one goal of the person's."""
 
-    def advise(self, question: Question, deadline: Deadline) -> Advice | None:
+    def advise(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Advice | None:
         """The best plan that is found in time; None where there is none.
+
+        Args:
+            following: what the person may be following.
+            now: where things stand.
+            deadline: polled.
 
         Raises:
             LimitReachedError: the deadline came before there was any.
         """
-
-    def again(self) -> "Adviser":
-        """The same, which knows what this one knows, and goes its own way from here."""

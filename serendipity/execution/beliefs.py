@@ -8,7 +8,7 @@ from search.modes.goals import Explainer
 from serendipity.model.numbers import Number
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
-from serendipity.recognition.candidates import CandidateGoal, GoalsGiven, candidate_goals
+from serendipity.recognition.candidates import GoalsGiven, candidate_goals
 from serendipity.recognition.recognise import posterior, strictness
 
 _LIKELY: Final = 0.2
@@ -24,32 +24,30 @@ class Beliefs:
 
     Args:
         task: the task.
-        candidates: the goals, with their priors.
+        goals: candidates, with their priors.
         beta: how strictly the person is taken to minimise cost.
+
+    Attributes:
+        candidates: the goals.
+        weights: how probable each is.
+
+    Raises:
+        InputError: ``goals`` are wrong; it says where.
+        UsageError: ``beta`` is.
     """
 
-    def __init__(self, task: Task, candidates: Sequence[CandidateGoal], beta: float) -> None:
-        self.candidates = tuple(candidates)
+    def __init__(self, task: Task, goals: GoalsGiven, beta: Number) -> None:
+        self.candidates = candidate_goals(task, goals)
         self._task = task
-        self._explainer = Explainer(task, [candidate.goal for candidate in candidates])
-        self._beta = beta
-        self._priors = [candidate.prior for candidate in candidates]
+        self._explainer = Explainer(task, [candidate.goal for candidate in self.candidates])
+        self._beta = strictness(beta)
+        self._priors = [candidate.prior for candidate in self.candidates]
         self._observed: list[str] = []
         self._disturbed = False
         self._out: set[int] = set()
         self.weights = list(self._priors)
         own = (task.actions[i] for i in task.human_actions)
         self._concern = frozenset(f for a in own for f in (*a.pre, *a.neg, *a.add, *a.delete))
-
-    @classmethod
-    def about(cls, task: Task, goals: GoalsGiven, beta: Number) -> "Beliefs":
-        """Nothing seen yet.
-
-        Raises:
-            InputError: ``goals`` are wrong; it says where.
-            UsageError: ``beta`` is.
-        """
-        return cls(task, candidate_goals(task, goals), strictness(beta))
 
     def saw(self, own: int | None, executed: Sequence[int]) -> None:
         """Take in an epoch: what the person did alone, and everything that took place."""
@@ -75,18 +73,16 @@ class Beliefs:
             LimitReachedError: the deadline came first; the weights stay as they were.
         """
         if self._observed:
-            self._weigh(deadline)
+            found = self._explainer.explain(self._observed, deadline, canonical=False)
+            priors = zip(self.candidates, self._priors, strict=True)
+            weighed = [replace(candidate, prior=prior) for candidate, prior in priors]
+            recognition = posterior(self._task, weighed, tuple(self._observed), found, self._beta)
+            self.weights = [goal.weight for goal in recognition.goals]
         self._rule_out()
         if self._disturbed:
             self._priors, self._observed = list(self.weights), []
             self._explainer = self._explainer.at(state)
             self._disturbed = False
-
-    def _weigh(self, deadline: Deadline) -> None:
-        found = self._explainer.explain(self._observed, deadline, canonical=False)
-        weighed = [replace(c, prior=prior) for c, prior in zip(self.candidates, self._priors, strict=True)]
-        recognition = posterior(self._task, weighed, tuple(self._observed), found, self._beta)
-        self.weights = [goal.weight for goal in recognition.goals]
 
     def possible(self) -> list[int]:
         """Indices of the goals that can't be ruled out.

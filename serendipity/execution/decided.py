@@ -1,11 +1,13 @@
 """What robots decide for an epoch, and what came of it: the values that callers see and logs hold."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from typing import Any, Final
 
 from serendipity.execution.why import Why
 from serendipity.execution.world import WHY, Unfinished
+from serendipity.model.numbers import plain
 from serendipity.model.table import Cell
 from serendipity.model.task.plans import PlanStep, Window
 from serendipity.robot import Order, Report
@@ -177,11 +179,7 @@ class Passed:
         )
 
     def lines(self, human: str) -> list[str]:
-        """The epoch in words.
-
-        Args:
-            human: the person's name.
-        """
+        """The epoch in words, about a person of that name."""
         return list(event_lines(self.to_dict(), human))
 
 
@@ -209,6 +207,34 @@ def event_lines(event: Mapping[str, Any], human: str) -> Iterator[str]:
             report = told.get((*missed["agents"], missed["action"]))
             yield f"  does not happen: {missed['action']} ({WHY[missed['why']]}){_reported(report)}"
         yield f"  robots: {event['decision']['reason']}"
+
+
+def account(passed: Sequence[Passed], human: str, alone: float | None) -> Iterator[str]:
+    """What robots did in some epochs, and what it came to.
+
+    Args:
+        passed: the epochs, from the first one on.
+        human: the person's name.
+        alone: what they would have paid alone; None where they had no plan.
+    """
+    for _, same in groupby(passed, key=_sentence):
+        epochs = list(same)
+        first, last = epochs[0], epochs[-1]
+        span = f"Epoch {first.epoch}" if first is last else f"Epochs {first.epoch} to {last.epoch}"
+        steps = [step for epoch in epochs for step in epoch.steps if step.agents != (human,)]
+        does = f" ({', '.join(step.action for step in steps)})" if steps else ""
+        yield f"{span}: {first.decided.reason}{does}."
+    if passed:
+        end = passed[-1]
+        instead = "" if alone is None else f" instead of {plain(alone)} alone"
+        arrived = f"{human} paid {plain(end.human_cost)}{instead}, the team {plain(end.cost)}."
+        yield arrived if end.done else f"{human} is not there yet."
+
+
+def _sentence(passed: Passed) -> tuple[object, ...]:
+    """What epochs of one sentence have in common."""
+    why = passed.decided.because
+    return passed.decided.verdict, None if why is None else (why.kind, why.cause)
 
 
 def _reported(report: Mapping[str, Any] | None) -> str:

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from serendipity.execution.brain import Brain
 from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
 from serendipity.execution.outlook import Outlook, Robots
+from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
 from serendipity.facade.results import named_steps
@@ -104,7 +104,9 @@ class Execution(Tabular):
         self.events: list[dict[str, Any]] = []
         self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
         self._world = World(task, options.discount, strict=options.strict)
-        self._brain: Robots = robots or Brain(task, options, goals, beta, told=told, surely=adapter is None)
+        self._robots: Robots = robots or RobotPolicy(
+            task, options, goals, beta, told=told, surely=adapter is None
+        )
         self._adapter = adapter
         self._failures: Counter[Order] = Counter()
         self._reports: tuple[Reported, ...] = ()
@@ -202,7 +204,8 @@ class Execution(Tabular):
         """
         expect_or_none(TEXT, action=action)
         decided = self.decided
-        offer = None if action is None else self._offer(decided, action)
+        name = None if action is None else canonical_name(action)
+        offer = next((step for step in decided.offers if step.action == name), None)
         his = None if action is None or offer is not None else self._world.his(action)
         in_vain = his is not None and not self._world.applicable(his)
         tried, his = (his, None) if in_vain else (None, his)
@@ -213,11 +216,11 @@ class Execution(Tabular):
         self._learn_from(happened.unfinished)
         paid, team = self._world.cost(happened.executed)
         self._paid, self._team = self._paid + paid, self._team + team
-        self._brain.saw(his, happened.executed, tried)
+        self._robots.saw(his, happened.executed, tried)
         passed = Passed(
             epoch=decided.epoch,
             decided=decided,
-            human=None if action is None else canonical_name(action),
+            human=name,
             in_vain=in_vain,
             steps=named_steps(
                 self.task, self.options.discount, (Step(decided.epoch, i) for i in happened.executed)
@@ -242,7 +245,7 @@ class Execution(Tabular):
         """
         expect(BY_NAME, facts=facts)
         self._world.change(facts.items())
-        self._brain.surprised()
+        self._robots.surprised()
         self.events.append({"change": dict(facts)})
         self._decided = None
 
@@ -257,7 +260,7 @@ class Execution(Tabular):
             if name not in self.task.agents or self.task.agents.index(name) == self.task.human:
                 known = ", ".join(self.task.agents[i] for i in self.task.robots)
                 raise UsageError(f"robot: expected one of {known}, got '{name}'")
-        self._brain.drop(self.task.agents.index(name) for name in names)
+        self._robots.drop(self.task.agents.index(name) for name in names)
         self._running = [step for step in self._running if not set(step.agents).intersection(names)]
         self.events.append({"drop": names})
         self._decided = None
@@ -269,8 +272,7 @@ class Execution(Tabular):
         share = _FIRST_TRY
         while seconds > 0:
             try:
-                with no_collection():
-                    self._brain.decide(self._outlook(), Deadline(min(share, seconds)))
+                self._asked(Deadline(min(share, seconds)))
                 return
             except LIMITS:
                 seconds, share = seconds - share, 2 * share
@@ -278,29 +280,20 @@ class Execution(Tabular):
     def _decide(self) -> Decided:
         clock = Deadline(self._deadline)
         try:
-            with no_collection():
-                decided = self._brain.decide(self._outlook(), clock)
+            decided = self._asked(clock).at(clock.elapsed())
         except LIMITS:
             return self._late(clock.elapsed())
-        seconds = clock.elapsed()
-        if self._missed(seconds):
-            return self._late(seconds)
-        return decided.at(seconds)
+        in_time = self._deadline is None or decided.seconds <= self._deadline
+        return decided if in_time else self._late(decided.seconds)
 
-    def _outlook(self) -> Outlook:
-        return Outlook(self.epoch, self._world, tuple(self._running))
-
-    def _missed(self, seconds: float) -> bool:
-        return self._deadline is not None and seconds > self._deadline
+    def _asked(self, clock: Deadline) -> Decided:
+        with no_collection():
+            return self._robots.decide(Outlook(self.epoch, self._world, tuple(self._running)), clock)
 
     def _late(self, seconds: float) -> Decided:
         why = Why("late")
         words = why.text(self.human, "late")
-        return Decided(self.epoch, "late", words, goals=self._brain.goals, seconds=seconds, because=why)
-
-    def _offer(self, decided: Decided, action: str) -> PlanStep | None:
-        name = canonical_name(action)
-        return next((step for step in decided.offers if step.action == name), None)
+        return Decided(self.epoch, "late", words, goals=self._robots.goals, seconds=seconds, because=why)
 
     def _learn_from(self, unfinished: Sequence[Unfinished]) -> None:
         """What fails again and again is not counted on any more."""
@@ -309,7 +302,7 @@ class Execution(Tabular):
                 order = Order(missed.step.agents, missed.step.action)
                 self._failures[order] += 1
                 if self._failures[order] == _TRIES:
-                    self._brain.unable(actions_named(self.task, order.action, order.agents))
+                    self._robots.unable(actions_named(self.task, order.action, order.agents))
 
     def _carry_out(self, his: int | None, steps: Sequence[PlanStep]) -> Sequence[Outcome]:
         if self._adapter is None:

@@ -9,8 +9,6 @@ replans when that is cheaper, or has to, never pays more than they would have al
 """
 
 from collections.abc import Iterable, Sequence
-from copy import copy
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from typing import NamedTuple
@@ -21,20 +19,9 @@ from search.modes.simulation.intention import Intention
 from search.modes.simulation.space import Start
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
+from serendipity.model.options import Options
+from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import HumanPlan, Task
-
-
-@dataclass(frozen=True, slots=True)
-class Needed:
-    """What the plans that a person may be following ask for.
-
-    Attributes:
-        true: ids of facts that must not become false.
-        false: ids of facts that must not become true.
-    """
-
-    true: frozenset[int] = frozenset()
-    false: frozenset[int] = frozenset()
 
 
 class Following:
@@ -43,18 +30,17 @@ class Following:
     Args:
         human: the person, as robots imagine them.
         state: ids of the facts that are true in the beginning, as the person knows.
-        sees_all: whether they see at once what robots do.
-        strict: whether interference is strict.
+        options: the person's model, and what may share an epoch.
 
     Attributes:
         plans: their steps that are left: those that were predicted, the oldest first.
     """
 
-    def __init__(self, human: Human, state: frozenset[int], *, sees_all: bool, strict: bool) -> None:
-        self.plans: list[Intention] = []
+    def __init__(self, human: Human, state: frozenset[int], options: Options) -> None:
+        self.plans: tuple[Intention, ...] = ()
         self._human = human
-        self._sees_all = sees_all
-        self._strict = strict
+        self._sees_all = options.human_model == "observant"
+        self._strict = options.strict
         self._task = human.packed.task
         self._state = self._belief = human.packed.pack(state)
 
@@ -63,16 +49,9 @@ class Following:
         """Whether they have no plan alone."""
         return not self.plans
 
-    @property
-    def start(self) -> Start:
-        """Where they are, what they believe, and what they go on with."""
-        return Start(self._state, self._belief, self._oldest())
-
-    def again(self) -> "Following":
-        """The same, which goes its own way from here."""
-        other = copy(self)
-        other.plans = list(self.plans)
-        return other
+    def start_of(self, human: Human) -> Start:
+        """Where they are, what they believe, and what they go on with, for a human who is packed alike."""
+        return Start(self._state, self._belief, human.intentions.of(self.promise()))
 
     def look(self, state: frozenset[int]) -> None:
         """The person looks up.
@@ -87,22 +66,29 @@ class Following:
         self._state = human.packed.pack(state)
         self._belief = human.eyes.look(self._belief, self._state)
         goal = human.packed.goal
-        self.plans = [plan for plan in self.plans if plan.works(self._belief, goal)]
+        self.plans = tuple(plan for plan in self.plans if plan.works(self._belief, goal))
         limit = min((human.key_of(plan.cost) for plan in self.plans), default=INFINITE_KEY)
         if human.alone.key(self._belief, limit) < limit:  # nobody leaves a plan for one that is no cheaper
-            self.plans.append(human.intentions.of(canonical(human.alone, self._belief)))
+            self.plans += (human.intentions.of(canonical(human.alone, self._belief)),)
 
     def promise(self) -> HumanPlan:
         """The plan that they go on with if nothing better turns up: the oldest as cheap as any, or none."""
-        return self._oldest().actions
+        oldest = min(self.plans, key=lambda plan: plan.cost, default=self._human.intentions.of(()))
+        return oldest.actions
 
     @property
     def alone(self) -> Fraction | None:
         """What that costs; None where they have no plan."""
         return None if self.hopeless else self._task.cost_of(self.promise())
 
-    def _oldest(self) -> Intention:
-        return min(self.plans, key=lambda plan: plan.cost, default=self._human.intentions.of(()))
+    def cost_alone(self, state: frozenset[int]) -> Fraction | None:
+        """What the person pays from a state with robots idle; None where they don't get there.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        key = self._human.alone.key(self._human.packed.pack(state))
+        return None if key == INFINITE_KEY else self._human.keys.cost(key)
 
     def acted(self, own: int | None, executed: Iterable[int], tried: int | None = None) -> None:
         """Say what the person did: plans that begin otherwise are not theirs.
@@ -120,16 +106,16 @@ class Following:
         if own is not None:
             name = task.actions[own].name
             begun = (p for p in self.plans if p.op is not None and task.actions[p.op.action].name == name)
-            self.plans = list(dict.fromkeys(plan.rest for plan in begun))
+            self.plans = tuple(dict.fromkeys(plan.rest for plan in begun))
 
-    def needed(self) -> Needed:
+    def needed(self) -> Condition:
         """What the plans ask for: the preconditions of all their steps, and the goal."""
         true, false = set(self._task.goal.positive), set(self._task.goal.negative)
         for plan in self.plans:
             for i in plan.actions:
                 true.update(self._task.actions[i].pre)
                 false.update(self._task.actions[i].neg)
-        return Needed(frozenset(true), frozenset(false))
+        return Condition(tuple(true), tuple(false))
 
     def spoilt(self, robots: Sequence[int], offers: Sequence[int], *, surely: bool = True) -> bool:
         """Whether what robots do in an epoch could spoil the plan of the person, whichever it is.
@@ -222,11 +208,8 @@ def _after(state: int, effects: Iterable[tuple[int, int]]) -> int:
     return state & kept | put
 
 
-class Hands:
-    """What robots can do by themselves, by what it would spoil.
-
-    Args:
-        task: the task.
+class RobotActions:
+    """What robots can do in a task, by what it would spoil.
 
     Attributes:
         all: ids of everything that robots take part in.
@@ -235,25 +218,15 @@ class Hands:
     def __init__(self, task: Task) -> None:
         self._task = task
         self.all = self.of(task.robots)
-        self._adding: dict[int, list[int]] = {}
-        self._deleting: dict[int, list[int]] = {}
-        for i, action in enumerate(task.actions):
-            if task.human in action.participants:
-                continue
-            for fact in action.add:
-                self._adding.setdefault(fact, []).append(i)
-            for fact in action.delete:
-                self._deleting.setdefault(fact, []).append(i)
+        self._alone = [i for i in self.all if task.human not in task.actions[i].participants]
 
-    def off(self, needed: Needed) -> frozenset[int]:
-        """Ids of robots' actions that would spoil something needed."""
-        spoiling = {i for fact in needed.true for i in self._deleting.get(fact, ())}
-        spoiling.update(i for fact in needed.false for i in self._adding.get(fact, ()))
-        return frozenset(spoiling)
+    def spoiling(self, needed: Condition) -> frozenset[int]:
+        """Ids of what robots can do by themselves that would make something needed untrue."""
+        true, false = frozenset(needed.positive), frozenset(needed.negative)
+        own = ((i, self._task.actions[i]) for i in self._alone)
+        return frozenset(i for i, a in own if not (true.isdisjoint(a.delete) and false.isdisjoint(a.add)))
 
-    def of(self, robots: Sequence[int]) -> frozenset[int]:
+    def of(self, robots: Iterable[int]) -> frozenset[int]:
         """Ids of everything that some robots take part in."""
-        away = set(robots)
-        if not away:
-            return frozenset()
-        return frozenset(i for i, a in enumerate(self._task.actions) if away.intersection(a.participants))
+        chosen = frozenset(robots)
+        return frozenset(i for i, a in enumerate(self._task.actions) if not chosen.isdisjoint(a.participants))

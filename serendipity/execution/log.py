@@ -30,29 +30,24 @@ class LogLine(NamedTuple):
     value: dict[str, Any]
 
 
-def header(run: Execution, /, **notes: Any) -> dict[str, Any]:
-    """The first line of a log: what was asked.
+def log_lines(run: Execution, /, **notes: Any) -> Iterator[dict[str, Any]]:
+    """All lines of a log; the first one, its header, says what was asked.
 
     Args:
         run: the execution.
-        **notes: whatever else is to be remembered: seed, who the person was.
+        **notes: whatever else the header is to remember: seed, who the person was.
     """
     options = run.options
-    return {
+    yield {
         "schema": SCHEMA,
         "task": run.task.name,
-        "human": run.task.agents[run.task.human],
+        "human": run.human,
         "mode": options.mode,
         "discount": str(options.discount),
         "human_model": options.human_model,
         "interference": options.interference,
         **notes,
     }
-
-
-def log_lines(run: Execution, /, **notes: Any) -> Iterator[dict[str, Any]]:
-    """All lines of a log; see :func:`header`."""
-    yield header(run, **notes)
     yield from run.events
 
 

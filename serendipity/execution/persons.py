@@ -1,14 +1,13 @@
 """People who can be plugged into an execution: what somebody who may be helped does in each epoch."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from random import Random
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from search import PreparedTask
-from search.call.context import SearchContext
-from search.modes.simulation.human import Glance, Human
-from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Operator, applicable
+from search.modes.simulation.human import Human
+from search.packed.operators import applicable
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
@@ -76,20 +75,22 @@ class Replanner:
         self._dice = dice
         self._human_model = human_model
         self._joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
-        self._begin(task, prepared or PreparedTask(task))
+        self._begin(prepared or PreparedTask(task))
 
-    def _begin(self, task: Task, prepared: PreparedTask) -> None:
+    def _begin(self, prepared: PreparedTask) -> None:
         """Begin anew, with nothing in mind, from a state that they know."""
-        self._task = task
+        self._task = prepared.task
         self._human = Human(
             prepared, Options(), Deadline(), human_model=self._human_model, actions=self._joint
         )
-        self._expected = self._human.packed.pack(task.init)
+        self._expected = self._human.packed.pack(self._task.init)
         self._intention = self._human.intentions.of(())
 
-    def _begin_at(self, state: frozenset[int]) -> None:
-        task = self._task.at(state)
-        self._begin(task, PreparedTask(task))
+    def _packed(self, state: frozenset[int]) -> int:
+        """A state, packed; where it does not fit what they know of, they begin anew in it."""
+        if not self._task.fits(state):
+            self._begin(PreparedTask(self._task.at(state)))
+        return self._human.packed.pack(state)
 
     @property
     def plan(self) -> HumanPlan:
@@ -98,17 +99,19 @@ class Replanner:
 
     def choose(self, moment: Moment) -> str | None:
         """See :class:`Person`."""
-        if not self._task.fits(moment.state):
-            self._begin_at(moment.state)
-        human = self._human
-        state = human.packed.pack(moment.state)
-        belief = human.eyes.look(self._expected, state)
-        look = self._look(belief)
+        state, task = self._packed(moment.state), self._task
+        human, belief = self._human, self._human.eyes.look(self._expected, state)
+        look = human.decide(belief, self._intention)
+        if self._dice is not None and look.replanned:
+            graph = human.alone.plans(belief)
+            assert graph is not None, "who replans has a plan"
+            look = replace(look, intention=human.intentions.of(graph.drawn(self._dice.choice)))
         self._expected, self._intention = belief, look.intention
-        joint = next((op for op in self._offered(moment) if self._accepts(op, state, belief, look)), None)
-        if joint is not None:
-            self._expected = belief & joint.keep | joint.put
-            return self._task.actions[joint.action].name
+        for step in moment.offers:
+            for joint in map(human.packed.op, actions_named(task, step.action, step.agents)):
+                if applicable(joint, state) and human.accepts(joint, belief, look.best):
+                    self._expected = belief & joint.keep | joint.put
+                    return task.actions[joint.action].name
         own = look.intention.op
         if look.best is None or own is None:
             return None
@@ -117,36 +120,18 @@ class Replanner:
             self._intention = look.intention.rest
         else:
             self._expected = human.learn(belief, state, own)
-        return self._task.actions[own.action].name
+        return task.actions[own.action].name
 
     def does(self, state: frozenset[int], action: int | None) -> None:
         """Say that they did something else than they had chosen: an own action, or nothing."""
-        if not self._task.fits(state):
-            self._begin_at(state)
-        human = self._human
-        belief = human.eyes.look(self._expected, human.packed.pack(state))
-        if action is not None:
-            after = apply(state, self._task.actions[action])
-            changed = human.packed.pack(state) ^ human.packed.pack(after)
-            belief = belief & ~changed | human.packed.pack(after) & changed
-        self._expected = belief
+        packed = self._packed(state)
+        belief = self._human.eyes.look(self._expected, packed)
+        keep, put = (-1, 0) if action is None else self._human.packed.effect(action)
+        self._expected = belief & keep | put
 
-    def _look(self, belief: int) -> Glance:
-        look = self._human.decide(belief, self._intention)
-        if self._dice is None or not look.replanned:
-            return look
-        graph = self._human.alone.plans(belief)
-        assert graph is not None, "who replans has a plan"
-        drawn = graph.drawn(self._dice.choice)
-        return Glance(self._human.intentions.of(drawn), look.kept, look.best)
-
-    def _offered(self, moment: Moment) -> Iterable[Operator]:
-        for step in moment.offers:
-            for i in actions_named(self._task, step.action, step.agents):
-                yield self._human.packed.op(i)
-
-    def _accepts(self, op: Operator, state: int, belief: int, look: Glance) -> bool:
-        return applicable(op, state) and self._human.accepts(op, belief, look.best)
+    def _is_stuck(self, state: frozenset[int]) -> bool:
+        """Whether they have no plan alone from a state that fits what they last saw."""
+        return self._human.stuck(self._human.packed.pack(state))
 
 
 class Omniscient:
@@ -196,8 +181,7 @@ class Noisy:
         self._task = task
         self._probability = probability
         self._dice = dice
-        self._alone = prepared or PreparedTask(task)
-        self._usual = Replanner(task, "observant", dice if ties else None, self._alone)
+        self._usual = Replanner(task, "observant", dice if ties else None, prepared)
 
     @property
     def plan(self) -> HumanPlan:
@@ -209,6 +193,7 @@ class Noisy:
         stray = self._dice.random() < self._probability
         if not stray:
             return self._usual.choose(moment)
+        self._usual.does(moment.state, None)
         others = [None, *(i for i in self._task.human_actions if self._way_back(moment.state, i))]
         action = self._dice.choice(others)
         self._usual.does(moment.state, action)
@@ -216,7 +201,7 @@ class Noisy:
 
     def _way_back(self, state: frozenset[int], action: int) -> bool:
         ground = self._task.actions[action]
-        return ground.applicable(state) and has_plan(self._alone, apply(state, ground))
+        return ground.applicable(state) and not self._usual._is_stuck(apply(state, ground))
 
 
 class Recorded:
@@ -257,9 +242,3 @@ class Recorded:
             return name if own else self._next.choose(moment)
         self._next.does(moment.state, possible)
         return name
-
-
-def has_plan(prepared: PreparedTask, state: frozenset[int]) -> bool:
-    """Whether the human can reach the goal alone from a state."""
-    context = SearchContext(prepared.at(state), Options(), Deadline())
-    return context.alone.key(context.packed.init) < INFINITE_KEY

@@ -3,8 +3,9 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import groupby
 
-from serendipity.execution.advice import Advice, Question
+from serendipity.execution.advice import Advice, DecisionPoint
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named, variant_named
@@ -41,40 +42,40 @@ class Pledge:
         cost = advice.cost - _cost(now)
         return cls(state, now, after, replace(advice, plan=rest, window=window, cost=cost))
 
-    def rest(self, task: Task, question: Question, *, mend: bool) -> Advice | None:
+    def rest(self, task: Task, now: DecisionPoint, *, mend: bool, hopeless: bool) -> Advice | None:
         """What there is to go on with; None where that does not lead to the goal any more.
 
         Args:
             task: the task.
-            question: from where, and without what.
+            now: from where, and without what.
             mend: the person waits for what did not take place, so the whole plan is an epoch late.
+            hopeless: the person has no plan alone: robots' own goals can wait.
         """
-        if self.state == question.state:
-            return self.later if self._goes(task, question, self.later.plan) else None
+        if self.state == now.state:
+            return self.later if _goes(task, now, self.later.plan, hopeless=hopeless) else None
         if not mend:
             return None
-        missed = tuple(step for step in self.now if not _done(task, step, question.state))
-        if not missed or not any(step.agents != (task.agents[task.human],) for step in missed):
+        missed = tuple(step for step in self.now if not _done(task, step, now.state))
+        if all(step.agents == (task.agents[task.human],) for step in missed):
             return None
         plan = (*missed, *_moved(self.later.plan, by=1))
-        if not self._goes(task, question, plan):
+        if not _goes(task, now, plan, hopeless=hopeless):
             return None
         return replace(self.later, plan=plan, window=None, cost=self.later.cost + _cost(missed), proved=False)
 
-    def _goes(self, task: Task, question: Question, plan: Sequence[PlanStep]) -> bool:
-        """Whether a plan leads to the goals from where things stand, by those who are at hand."""
-        state: frozenset[int] | None = question.state
-        steps: dict[int, list[PlanStep]] = {}
-        for step in plan:
-            ids = set(actions_named(task, step.action, step.agents))
-            barred = question.barred - question.running if step.epoch == 1 else question.out
-            if ids <= barred:
-                return False
-            steps.setdefault(step.epoch, []).append(step)
-        for epoch in sorted(steps):
-            state = None if state is None else _after(task, state, steps[epoch])
-        content = question.following.hopeless or (state is not None and task.robot_goal.holds(state))
-        return state is not None and task.goal.holds(state) and content
+
+def _goes(task: Task, now: DecisionPoint, plan: Sequence[PlanStep], *, hopeless: bool) -> bool:
+    """Whether a plan leads to the goals from where things stand, by those who are at hand."""
+    state: frozenset[int] | None = now.state
+    for epoch, group in groupby(sorted(plan, key=_epoch), _epoch):
+        steps = list(group)
+        barred = now.barred - now.running if epoch == 1 else now.out
+        if any(barred.issuperset(actions_named(task, step.action, step.agents)) for step in steps):
+            return False
+        state = None if state is None else _after(task, state, steps)
+    if state is None or not task.goal.holds(state):
+        return False
+    return hopeless or task.robot_goal.holds(state)
 
 
 def _after(task: Task, state: frozenset[int], steps: Iterable[PlanStep]) -> frozenset[int] | None:
@@ -100,3 +101,7 @@ def _moved(steps: Iterable[PlanStep], by: int = -1) -> Iterator[PlanStep]:
 
 def _cost(steps: Iterable[PlanStep]) -> Fraction:
     return total(as_written(step.cost) for step in steps)
+
+
+def _epoch(step: PlanStep) -> int:
+    return step.epoch

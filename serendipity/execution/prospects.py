@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from serendipity.execution.advice import Advice
-from serendipity.execution.imagined import Imagined
+from serendipity.execution.hypotheses import Hypothesis
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.execution import steps_named
 from serendipity.model.task.plans import PlanStep
@@ -17,13 +17,13 @@ class Prospect:
 
     Attributes:
         goal: index of the goal.
-        imagined: the person with that goal.
+        hypothesis: what is so if it is theirs.
         advice: the plan, from the present state; None where there was none in time.
         weight: how probable the goal is.
     """
 
     goal: int
-    imagined: Imagined
+    hypothesis: Hypothesis
     advice: Advice | None
     weight: Fraction
 
@@ -40,12 +40,12 @@ class Prospect:
     @property
     def open(self) -> bool:
         """Whether robots have a part in such a plan that is still to come."""
-        return self.advice is not None and self.pays and not self.advice.by_themselves(self.imagined.task)
+        return self.advice is not None and self.pays and not self.advice.by_themselves(self.hypothesis.task)
 
     @property
     def alone(self) -> Fraction | None:
         """What the person pays without help; None where they have no plan."""
-        return self.imagined.following.alone
+        return self.hypothesis.following.alone
 
 
 def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect | None:
@@ -76,11 +76,13 @@ def _mean(
     chosen: Prospect, prospects: Sequence[Prospect], least: Fraction, deadline: Deadline
 ) -> Fraction | None:
     """The mean cost of a prospect's robots' part, as far as it is below ``least``; None: a goal is missed."""
-    task = chosen.imagined.task
+    task = chosen.hypothesis.task
     steps = steps_named(task, chosen.plan)
     total = Fraction(0)
     for other in prospects:
-        played = other.imagined.companion.played(other.imagined.following.start, steps, deadline)
+        companion = other.hypothesis.companion
+        start = other.hypothesis.following.start_of(companion.human)
+        played = companion.played(start, steps, deadline)
         deadline.check()
         if not played.goals_hold:
             return None

@@ -1,14 +1,13 @@
 """Advice beside a person who replans: kept while it is any good, made better while there is time."""
 
 from collections.abc import Sequence
-from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
-from search.modes.simulation.companion import Companion
-from serendipity.execution.advice import Advice, Question
-from serendipity.execution.guard import Hands
+from search.modes.simulation.companion import Companion, Course
+from serendipity.execution.advice import Advice, DecisionPoint
+from serendipity.execution.guard import Following, RobotActions
 from serendipity.facade.results import named_steps
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import apply
@@ -21,23 +20,19 @@ _RESCUE: Final = 10.0
 
 @dataclass(frozen=True, slots=True)
 class _Kept:
-    """What is left of a plan after its first epoch.
+    """The rest of a plan after its first epoch.
 
     Attributes:
         state: ids of the facts that are true then, if all goes as planned.
         barred: what nobody was to do.
-        steps: its epochs counted from there.
-        cost: what they cost the team.
+        rest: its epochs counted from there.
         pays: whether the plan was worth it.
-        proved: whether nothing was better.
     """
 
     state: frozenset[int]
     barred: frozenset[int]
-    steps: tuple[Step, ...]
-    cost: Fraction
+    rest: Course
     pays: bool
-    proved: bool
 
 
 class ReactiveAdviser:
@@ -50,7 +45,7 @@ class ReactiveAdviser:
         task: the task with that goal.
         discount: of robots' costs.
         companion: who plans.
-        hands: what robots can do.
+        actions: what robots can do.
         pointless: ids of actions that can't pay with this goal.
     """
 
@@ -59,81 +54,68 @@ class ReactiveAdviser:
         task: Task,
         discount: Fraction,
         companion: Companion,
-        hands: Hands,
+        actions: RobotActions,
         pointless: frozenset[int] = frozenset(),
     ) -> None:
         self._pointless = pointless
         self._task = task
         self._discount = discount
         self._companion = companion
-        self._hands = hands
+        self._actions = actions
         self._kept: _Kept | None = None
 
-    def advise(self, question: Question, deadline: Deadline) -> Advice | None:
-        """See :class:`serendipity.execution.advice.Adviser`."""
-        advice = self._as_planned(question, deadline)
-        return advice if advice is not None else self._anew(question, deadline)
-
-    def again(self) -> "ReactiveAdviser":
-        """See :class:`serendipity.execution.advice.Adviser`."""
-        return copy(self)
-
-    def _as_planned(self, question: Question, deadline: Deadline) -> Advice | None:
-        kept = self._kept
-        if kept is None or not kept.proved or (kept.state, kept.barred) != (question.state, question.barred):
-            return None
-        if not question.allows([step.action for step in kept.steps if step.epoch == 1]):
-            return None
-        played = self._companion.played(question.following.start, kept.steps, deadline)
-        skipped = any(epoch.skipped for epoch in played.epochs)
-        if skipped or not played.goals_hold or played.cost > kept.cost:
-            return None
-        alone = question.following.alone
-        if (
-            alone is not None
-            and played.cost >= alone
-            and self._hands.all.intersection(step.action for step in played.steps)
-        ):
-            return None  # the way out of where there was no plan alone, and now there is one as cheap
-        return self._told(question, played.steps, played.cost, pays=kept.pays, proved=True)
-
-    def _anew(self, question: Question, deadline: Deadline) -> Advice | None:
-        known = () if self._kept is None else self._kept.steps
-        if question.following.hopeless:
-            deadline = deadline.within(_RESCUE)
-        course = self._companion.course(
-            question.following.start,
-            self._rounds(question.barred | self._pointless),
-            deadline,
-            begins=question.allows,
-            known=known,
-        )
+    def advise(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Advice | None:
+        """See :class:`.advice.Adviser`."""
+        course = self._as_planned(following, now, deadline)
+        pays = course is not None and self._kept is not None and self._kept.pays
         if course is None:
-            self._kept = None
+            course = self._anew(following, now, deadline)
+            pays = course is not None and course.pays
+        self._kept = None if course is None else self._rest(now, course, pays=pays)
+        if course is None:
             return None
-        return self._told(question, course.steps, course.cost, pays=course.pays, proved=course.proved)
+        plan = named_steps(self._task, self._discount, course.steps)
+        return Advice(plan, None, course.cost, pays, course.proved)
+
+    def _as_planned(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Course | None:
+        """The rest of the plan, where nothing has come between and it is known to be the best."""
+        kept = self._kept
+        if kept is None or not kept.rest.proved or (kept.state, kept.barred) != (now.state, now.barred):
+            return None
+        if not now.allows([step.action for step in kept.rest.steps if step.epoch == 1]):
+            return None
+        played = self._companion.played(following.start_of(self._companion.human), kept.rest.steps, deadline)
+        skipped = any(epoch.skipped for epoch in played.epochs)
+        if skipped or not played.goals_hold or played.cost > kept.rest.cost:
+            return None
+        alone, theirs = following.alone, self._actions.all
+        if alone is not None and played.cost >= alone and theirs.intersection(s.action for s in played.steps):
+            return None  # the way out of where there was no plan alone, and now there is one as cheap
+        return replace(kept.rest, steps=tuple(played.steps), cost=played.cost)
+
+    def _anew(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Course | None:
+        if following.hopeless:
+            deadline = deadline.within(_RESCUE)
+        return self._companion.course(
+            following.start_of(self._companion.human),
+            self._rounds(now.barred | self._pointless),
+            deadline,
+            begins=now.allows,
+            known=() if self._kept is None else self._kept.rest.steps,
+        )
 
     def _rounds(self, barred: frozenset[int]) -> Sequence[frozenset[int]]:
         """Each robot by itself, then all of them."""
-        robots = [robot for robot in self._task.robots if not self._hands.of([robot]) <= barred]
+        robots = [robot for robot in self._task.robots if not self._actions.of([robot]) <= barred]
         if len(robots) < 2:
             return [barred]
-        alone = [barred | self._hands.of([r for r in robots if r != robot]) for robot in robots]
+        alone = [barred | self._actions.of(r for r in robots if r != robot) for robot in robots]
         return [*alone, barred]
 
-    def _told(
-        self, question: Question, steps: Sequence[Step], cost: Fraction, *, pays: bool, proved: bool
-    ) -> Advice:
-        actions = self._task.actions
-        now = [actions[step.action] for step in steps if step.epoch == 1]
-        spent = sum((self._task.team_cost(action, self._discount) for action in now), Fraction(0))
-        self._kept = _Kept(
-            apply(question.state, *now),
-            question.barred,
-            tuple(Step(step.epoch - 1, step.action) for step in steps if step.epoch > 1),
-            cost - spent,
-            pays,
-            proved,
-        )
-        plan = named_steps(self._task, self._discount, steps)
-        return Advice(plan, None, cost, pays, proved)
+    def _rest(self, now: DecisionPoint, course: Course, *, pays: bool) -> _Kept:
+        """The plan as it will be after its first epoch."""
+        first = [self._task.actions[step.action] for step in course.steps if step.epoch == 1]
+        spent = sum((self._task.team_cost(action, self._discount) for action in first), Fraction(0))
+        later = tuple(Step(step.epoch - 1, step.action) for step in course.steps if step.epoch > 1)
+        rest = replace(course, steps=later, cost=course.cost - spent)
+        return _Kept(apply(now.state, *first), now.barred, rest, pays)

@@ -1,29 +1,29 @@
 """Executions with a simulated person, again and again: what is asked for, and what becomes of each run."""
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing, nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from fractions import Fraction
+from functools import cached_property
 from random import Random
 from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, Unpack
 
 from search import PreparedTask
 from search.kernel.library import library
-from search.strategies.first_answer import canonical_human_plan
-from serendipity.execution.again import Again
-from serendipity.execution.crews import Crew, Maker
-from serendipity.execution.decided import Decided
+from serendipity.execution.adapters import AdapterChoice, Maker
 from serendipity.execution.execution import Execution
 from serendipity.execution.faults import Faults
 from serendipity.execution.log import log_lines
+from serendipity.execution.personas import Persona, persona_from, recorded_actions
 from serendipity.execution.persons import Person, moment_of
-from serendipity.execution.policies import Policy, policy_from, recorded_actions
+from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.runs import Run, Runs
-from serendipity.model.arguments import FUNCTION, TASK, WHOLE, Kind, expect, expect_or_none
+from serendipity.facade.planning import plan
+from serendipity.model.arguments import FUNCTION, TASK, WHOLE, expect, expect_or_none
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.keywords import CHOICES, HumanModel, Interference, listing
 from serendipity.model.numbers import Number
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
@@ -40,23 +40,6 @@ SURE: Final = Fraction(9, 10)
 TIES: Final = ("fixed", "drawn")
 """Which of their optimal plans a person follows: the canonical one, or one that the dice draw."""
 
-
-@dataclass(frozen=True, slots=True)
-class _Settings:
-    """What all runs of a call have in common."""
-
-    task: Task
-    again: Again
-    drawn: bool
-    crew: Crew
-    epochs: int
-    alone: Fraction | None
-    goal: str | None
-    notes: Mapping[str, Any]
-
-
-_Assignment = tuple[_Settings, int, int]
-"""What a run is about, its number and the seed of its dice."""
 
 _Finished = tuple[Run, tuple[dict[str, Any], ...]]
 """The row of a run and the lines of its log."""
@@ -124,63 +107,44 @@ def execute(
     expect(WHOLE, runs=runs, seed=seed, jobs=jobs)
     expect_or_none(WHOLE, epochs=epochs)
     expect_or_none(FUNCTION, on_progress=on_progress)
-    for name, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
+    for what, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
         if number < 1:
-            raise UsageError(f"{name}: expected at least 1, got {number}")
+            raise UsageError(f"{what}: expected at least 1, got {number}")
     if ties not in TIES:
         raise UsageError(f"ties: expected one of {', '.join(TIES)}, got '{ties}'")
-    human, policy = _person(task, human)
-    if policy.told and goals is not None:
+    if isinstance(human, str):
+        name, persona = human, persona_from(task, human)
+    else:
+        name, persona = "recorded", Persona("recorded", actions=recorded_actions(task, human))
+    if persona.told and goals is not None:
         raise UsageError("goals: an omniscient person keeps to the robots' plan, so robots know the goal")
-    model = human_model or policy.human_model
+    model = human_model or persona.human_model
     if model not in CHOICES["human_model"]:
         known = ", ".join(CHOICES["human_model"])
         raise UsageError(f"human_model: expected one of {known}, got '{model}'")
-    crew = _crew(adapter, faults, durations, epoch_seconds)
-    plan = canonical_human_plan(PreparedTask(task), Deadline())
-    arguments: dict[str, Any] = {"human_model": model, "goals": goals, "told": policy.told, **options}
-    settings = _Settings(
+    adapters = AdapterChoice(adapter, faults, durations, epoch_seconds)
+    alone = plan(task, mode="individual")
+    series = _Series(
         task=task,
-        again=Again(task, policy, arguments),
+        persona=persona,
+        name=name,
         drawn=ties == "drawn",
-        crew=crew,
-        epochs=epochs or 100 + 10 * len(plan or ()),
-        alone=None if plan is None else task.cost_of(plan),
+        adapters=adapters,
+        epochs=epochs or 100 + 10 * len(alone.human_plan or ()),
+        alone=alone.human_cost,
         goal=None if goals is None else _name_of(task, goals),
-        notes={
-            "policy": human,
-            "ties": ties,
-            "faults": asdict(crew.faults),
-        },
+        arguments={"human_model": model, "goals": goals, "told": persona.told, **options},
     )
-    Execution(task, **{**arguments, "deadline": None})  # what is wrong shows before the first run
-    assignments = [(settings, number, seed + number - 1) for number in range(1, runs + 1)]
+    series.untimed()  # what is wrong shows before the first run
+    assignments = [(series, number, seed + number - 1) for number in range(1, runs + 1)]
     done = _all_run(assignments, jobs, on_progress)
-    return Runs(human, tuple(row for row, _ in done), tuple(lines for _, lines in done))
-
-
-def _person(task: Task, human: str | Sequence[str]) -> tuple[str, Policy]:
-    """What the person is called in the rows, and what they do."""
-    if isinstance(human, str):
-        return human, policy_from(task, human)
-    return "recorded", Policy("recorded", actions=recorded_actions(task, human))
-
-
-def _crew(
-    adapter: str | Maker | None,
-    faults: Faults | str | None,
-    durations: Durations | str | None,
-    epoch_seconds: float | None,
-) -> Crew:
-    wrong = Faults.parse(faults) if isinstance(faults, str) else faults
-    given = Durations.parse(durations) if isinstance(durations, str) else durations
-    expect_or_none(Kind("Faults, or a text", lambda value: isinstance(value, Faults)), faults=wrong)
-    expect_or_none(Kind("Durations, or a text", lambda value: isinstance(value, Durations)), durations=given)
-    return Crew(adapter, wrong or Faults(), given, epoch_seconds)
+    return Runs(series.name, tuple(row for row, _ in done), tuple(lines for _, lines in done))
 
 
 def _all_run(
-    assignments: Sequence[_Assignment], jobs: int, on_progress: Callable[[int, int], None] | None
+    assignments: Sequence[tuple["_Series", int, int]],
+    jobs: int,
+    on_progress: Callable[[int, int], None] | None,
 ) -> list[_Finished]:
     """The rows and logs of all runs, in their order."""
     library()  # says once if there is none, and not once for each process
@@ -202,43 +166,97 @@ def _name_of(task: Task, goals: "GoalsGiven") -> str | None:
     return None
 
 
-def _run(assignment: _Assignment) -> _Finished:
-    settings, number, seed = assignment
-    task = settings.task
-    dice, luck = Random(f"person {seed}"), Random(f"robots {seed}")
-    adapter = settings.crew.adapter(task, luck)
-    run = settings.again.execution(adapter)
-    person = settings.again.person(dice, drawn=settings.drawn)
-    spoilt = 0
-    left = [task.agents[i] for i in task.robots]
-    with nullcontext() if adapter is None else closing(adapter):
-        while not run.done and run.epoch <= settings.epochs:
-            gone = settings.crew.faults.dropped(left, luck)
-            if gone:
-                run.drop(gone)
-                left = [robot for robot in left if robot not in gone]
-            spoilt += _spoils(run, person)
-    row = Run(
-        run=number,
-        seed=seed,
-        reached=run.done,
-        epochs=len(run.passed),
-        alone=None if settings.alone is None else float(settings.alone),
-        human_cost=float(run.human_cost),
-        cost=float(run.cost),
-        helped=sum(any(s.agents != (run.human,) for s in p.steps) for p in run.passed),
-        spoilt=spoilt,
-        stopped=sum(passed.decided.verdict == "stopped" for passed in run.passed),
-        late=sum(passed.decided.verdict == "late" for passed in run.passed),
-        open=sum(_is_open(passed.decided) for passed in run.passed),
-        slowest=max((passed.decided.seconds for passed in run.passed), default=0.0),
-        **_recognised(run, settings.goal),
-    )
-    return row, tuple(log_lines(run, run=number, seed=seed, **settings.notes))
+def _run(assignment: tuple["_Series", int, int]) -> _Finished:
+    series, number, seed = assignment
+    return series.run(number, seed)
 
 
-def _is_open(decided: Decided) -> bool:
-    return decided.verdict != "late" and decided.plan is not None and not decided.proved
+@dataclass(frozen=True)
+class _Series:
+    """The runs of one call, and what is worked out once for all of them; in another process it begins anew.
+
+    Tables are kept: those of the person's, and those of the robots'.  Robots who have had time before the
+    first epoch begin each run with the plan that they had then.
+
+    Attributes:
+        task: where each run begins.
+        persona: who the person is.
+        name: what they are called.
+        drawn: whether dice draw which of their optimal plans they follow.
+        adapters: what carries out what robots do.
+        epochs: the most of a run.
+        alone: what the person pays alone; None where they don't get there.
+        goal: the name of theirs among candidates.
+        arguments: of :class:`Execution`.
+    """
+
+    task: Task
+    persona: Persona
+    name: str
+    drawn: bool
+    adapters: AdapterChoice
+    epochs: int
+    alone: float | None
+    goal: str | None
+    arguments: Mapping[str, Any]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _Series, tuple(getattr(self, field.name) for field in fields(self))
+
+    @cached_property
+    def _prepared(self) -> PreparedTask:
+        return PreparedTask(self.task)
+
+    def untimed(self, **arguments: Any) -> Execution:
+        """An execution without a deadline."""
+        return Execution(self.task, **{**self.arguments, **arguments, "deadline": None})
+
+    @cached_property
+    def _ready(self) -> RobotPolicy:
+        """Robots who have had time before the first epoch."""
+        task, told, surely = self.task, self.arguments["told"], self.adapters.surely
+        robots = RobotPolicy(task, self.untimed().options, None, 1, told=told, surely=surely)
+        Execution(task, **{**self.arguments, "robots": robots})
+        return robots
+
+    def run(self, number: int, seed: int) -> _Finished:
+        """One of the runs."""
+        task, dice, luck = self.task, Random(f"person {seed}"), Random(f"robots {seed}")
+        adapter, faults = self.adapters.adapter(task, luck), self.adapters.faults
+        person = self.persona.person(task, dice, drawn=self.drawn, prepared=self._prepared)
+        given = {**self.arguments, "adapter": adapter}
+        if given.get("deadline") is not None and given.get("goals") is None:
+            given |= {"setup": 0, "robots": self._ready.again()}
+        run, spoilt = Execution(task, **given), 0
+        left = [task.agents[i] for i in task.robots]
+        with nullcontext() if adapter is None else closing(adapter):
+            while not run.done and run.epoch <= self.epochs:
+                gone = faults.dropped(left, luck)
+                if gone:
+                    run.drop(gone)
+                    left = [robot for robot in left if robot not in gone]
+                spoilt += _spoils(run, person)
+        decided = [passed.decided for passed in run.passed]
+        verdicts = Counter(each.verdict for each in decided)
+        row = Run(
+            run=number,
+            seed=seed,
+            reached=run.done,
+            epochs=len(run.passed),
+            alone=self.alone,
+            human_cost=float(run.human_cost),
+            cost=float(run.cost),
+            helped=sum(any(s.agents != (run.human,) for s in p.steps) for p in run.passed),
+            spoilt=spoilt,
+            stopped=verdicts["stopped"],
+            late=verdicts["late"],
+            open=sum(d.verdict != "late" and d.plan is not None and not d.proved for d in decided),
+            slowest=max((each.seconds for each in decided), default=0.0),
+            **_recognised(run, self.goal),
+        )
+        ties = TIES[self.drawn]
+        notes = {"run": number, "seed": seed, "policy": self.name, "ties": ties, "faults": asdict(faults)}
+        return row, tuple(log_lines(run, **notes))
 
 
 def _spoils(run: Execution, person: Person) -> bool:

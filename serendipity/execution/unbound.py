@@ -1,10 +1,9 @@
-"""What help would come to if robots had promised nothing: the reason why they do nothing."""
-
-from dataclasses import dataclass
-from typing import Any
+"""Help if robots had promised nothing: the reason why they do nothing."""
 
 from search.modes.simulation.companion import Companion
-from serendipity.execution.advice import Question, without
+from serendipity.execution.advice import DecisionPoint
+from serendipity.execution.guard import Following
+from serendipity.execution.sessions import RestrictedSessions
 from serendipity.execution.why import Why
 from serendipity.facade.session import Session
 from serendipity.model.errors import LimitReachedError, PlanError
@@ -13,15 +12,6 @@ from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition, apply
 from serendipity.model.task.task import HumanPlan, Task
-
-
-@dataclass(frozen=True, slots=True)
-class _Nothing:
-    """Where no help pays: what is so now is so while the person goes on, and robots do nothing."""
-
-    state: frozenset[int]
-    barred: frozenset[int]
-    promise: HumanPlan
 
 
 class Unbound:
@@ -37,33 +27,35 @@ class Unbound:
     def __init__(self, task: Task, options: Options, companion: Companion | None) -> None:
         self._task = task
         self._companion = companion
-        self._options: dict[str, Any] = {"discount": options.discount, "interference": options.interference}
         self._model = options.human_model
-        self._nothing: _Nothing | None = None
-        self._session: tuple[frozenset[int], Session] | None = None
+        common = {"discount": options.discount, "interference": options.interference}
+        self._sessions = RestrictedSessions(task, **common)
+        free = task.with_goal(task.goal, Condition())
+        self._joint = RestrictedSessions(free, **common, mode="composite", horizon=INFINITE)
+        self._nothing: tuple[frozenset[int], frozenset[int], HumanPlan] | None = None
+        """Where no help pays: state, what is barred, promise; it stays so while all goes as promised."""
 
-    def why(self, question: Question, deadline: Deadline) -> Why:
+    def why(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Why:
         """Why no help is given: none pays; or only such that spoils something, or that has to be announced.
 
         Raises:
-            LimitReachedError: the deadline came first.
+            LimitReachedError: the deadline came first; so do other methods.
         """
-        promise = question.following.promise()
-        here = _Nothing(question.state, question.barred, promise)
-        if here != self._nothing:
-            found = self._reactive(question, deadline) or self._planned(question, promise, deadline)
+        promise = following.promise()
+        if self._nothing != (now.state, now.barred, promise):
+            found = self._reactive(following, now, deadline) or self._planned(promise, now, deadline)
             if found is not None:
                 return found
-        after = apply(question.state, *(self._task.actions[i] for i in promise[:1]))
-        self._nothing = _Nothing(after, question.barred, promise[1:])
+        after = apply(now.state, *(self._task.actions[i] for i in promise[:1]))
+        self._nothing = after, now.barred, promise[1:]
         return Why("no-help")
 
-    def _reactive(self, question: Question, deadline: Deadline) -> Why | None:
+    def _reactive(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Why | None:
         """Help beside the person as robots take them to be."""
         if self._companion is None:
             return None
-        start = question.following.start
-        course = self._companion.course(start, [question.barred], deadline, keeps=False)
+        start = following.start_of(self._companion.human)
+        course = self._companion.course(start, [now.barred], deadline, keeps=False)
         if course is None or course.alone is None:
             return None
         if course.pays:
@@ -72,14 +64,13 @@ class Unbound:
             raise LimitReachedError("time-limit")
         return None
 
-    def _planned(self, question: Question, promise: HumanPlan, deadline: Deadline) -> Why | None:
+    def _planned(self, promise: HumanPlan, now: DecisionPoint, deadline: Deadline) -> Why | None:
         """Help as the semantics have it."""
-        session = self._at(question)
         models: tuple[HumanModel, ...] = (
             ("omniscient",) if self._companion is not None else (self._model, "omniscient")
         )
         for model in dict.fromkeys(models):
-            session.follow([self._task.actions[i].name for i in promise])
+            session = self._promised(promise, now)
             try:
                 found = session.plan(human_model=model, deadline=deadline)
             except PlanError:  # what somebody believes who does not see everything
@@ -91,33 +82,23 @@ class Unbound:
                 raise LimitReachedError("time-limit")
         return None
 
-    def why_not_even_alone(self, question: Question, deadline: Deadline) -> Why:
-        """Why there is no plan, though the person has one: robots' own goals are out of reach.
-
-        Raises:
-            LimitReachedError: the deadline came first; so does the other.
-        """
-        session = self._at(question)
-        session.follow([self._task.actions[i].name for i in question.following.promise()])
+    def why_not_even_alone(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Why:
+        """Why there is no plan, though the person has one: robots' own goals are out of reach."""
+        session = self._promised(following.promise(), now)
         found = session.plan(human_model=self._model, deadline=deadline)
         if found.status == "unknown":
             raise LimitReachedError("time-limit")
         return Why("own-goals-lost" if found.plan is None else "own-goals-spoil")
 
-    def why_out_of_reach(self, question: Question, deadline: Deadline) -> Why:
+    def why_out_of_reach(self, now: DecisionPoint, deadline: Deadline) -> Why:
         """Why somebody who has no plan alone, and knows of none, does not get there."""
-        free = without(self._task, question.out).with_goal(self._task.goal, Condition())
-        options = {**self._options, "mode": "composite", "horizon": INFINITE}
-        found = Session(free.at(question.state), **options).plan(deadline=deadline)
+        found = self._joint.at(now.state, now.out).plan(deadline=deadline)
         if found.status == "unknown":
             raise LimitReachedError("time-limit")
         return Why("out-of-reach") if found.cost is None else Why("only-told", found.cost)
 
-    def _at(self, question: Question) -> Session:
-        """A session where things stand, with those who are at hand."""
-        if self._session is None or self._session[0] != question.barred:
-            self._session = question.barred, Session(without(self._task, question.barred), **self._options)
-        session = self._session[1]
-        moved = session.task.init ^ question.state
-        session.change({self._task.facts[fact]: fact in question.state for fact in sorted(moved)})
+    def _promised(self, promise: HumanPlan, now: DecisionPoint) -> Session:
+        """A session where things stand, with those who are at hand, and a person who keeps a promise."""
+        session = self._sessions.at(now.state, now.barred)
+        session.follow([self._task.actions[i].name for i in promise])
         return session

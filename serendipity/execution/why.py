@@ -104,12 +104,7 @@ class Why:
         return {**asdict(self), "robots": list(self.robots), "goals": [list(pair) for pair in self.goals]}
 
     def text(self, human: str, verdict: str) -> str:
-        """The reason in words.
-
-        Args:
-            human: the person's name.
-            verdict: of the decision.
-        """
+        """The reason in words, for a decision of some verdict about a person of that name."""
         likely = ", ".join(f"{name} {share:.0%}" for name, share in self.goals)
         words = WHYS[self.kind].format(
             human=human,

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import Final
 
 from serendipity.model.errors import UsageError
@@ -115,18 +114,13 @@ class World:
         """The state that some actions would lead to from here."""
         return apply(self.state, *(self.task.actions[i] for i in actions))
 
-    def conflict(self, action: int, other: int) -> bool:
-        """Whether two actions can't share an epoch."""
-        first, second = self.task.actions[action], self.task.actions[other]
-        return conflicting(first, second, strict=self._strict)
-
     def change(self, facts: Iterable[tuple[str, bool]]) -> None:
         """Set facts to true or false, as somebody has seen them.
 
         Raises:
             UsageError: there is no such fact.
         """
-        self.state = fitted(self._facts.seen(self.state, facts), self.task.disjunctions)
+        self.state = fitted(Facts(self.task.facts).seen(self.state, facts), self.task.disjunctions)
 
     def cost(self, actions: Iterable[int]) -> tuple[Fraction, Fraction]:
         """What actions cost the human, undiscounted, and the team."""
@@ -142,8 +136,5 @@ class World:
     def _obstacle(self, action: int, executed: Sequence[int]) -> str | None:
         if not self.applicable(action):
             return "inapplicable"
-        return "conflict" if any(self.conflict(action, other) for other in executed) else None
-
-    @cached_property
-    def _facts(self) -> Facts:
-        return Facts(self.task.facts)
+        first, others = self.task.actions[action], (self.task.actions[i] for i in executed)
+        return "conflict" if any(conflicting(first, o, strict=self._strict) for o in others) else None

@@ -8,7 +8,8 @@ plan is left there (as Dinkelbach does for fractions).  The number of plans is f
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Final
+from math import inf
+from typing import Any, Final, NamedTuple
 
 from serendipity.explanation.ask import Ask, cost_of, parts_of
 from serendipity.facade.interruptibility import InterruptionReport
@@ -17,17 +18,12 @@ STEP: Final = Fraction(1, 1000)
 """How far below and above a threshold the confirming calls are."""
 
 
-@dataclass(frozen=True, slots=True)
-class Confirmation:
+class Confirmation(NamedTuple):
     """A planning call beside or at a threshold."""
 
     value: Fraction
     opportunity: bool
     cost: float | None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object."""
-        return {"value": float(self.value), "opportunity": self.opportunity, "cost": self.cost}
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +49,7 @@ class Threshold:
             "value": None if self.value is None else float(self.value),
             "exact": None if self.value is None else str(self.value),
             "included": self.included,
-            "confirmed": [confirmation.to_dict() for confirmation in self.confirmed],
+            "confirmed": [{**c._asdict(), "value": float(c.value)} for c in self.confirmed],
         }
 
 
@@ -61,10 +57,13 @@ def discount_threshold(ask: Ask) -> Threshold:
     """The least discount from which on (or above which) a robot helps."""
     value, answer = Fraction(1), ask(discount=1)
     if not answer.opportunity:
-        return Threshold("discount", None, included=False, confirmed=(_confirm(ask, "discount", value),))
+        return Threshold("discount", None, False, (_confirm(ask, "discount", value),))
+    alone = sum((cost_of(ask.task, name) for name in ask().human_plan or ()), Fraction(0))
+    nothing = alone + (
+        ask.options.window_weight if ask.options.windowed else 0
+    )  # ``pi_H`` in its best window
     while answer.opportunity:
         parts = parts_of(ask.task, answer)
-        nothing = _doing_nothing(ask)
         if parts.objective(answer.options) == nothing and value < 1:
             break  # a tie that the lower cost decides: it pays at this very discount, not below
         even = nothing - parts.objective(answer.options.but(discount=1))
@@ -73,10 +72,7 @@ def discount_threshold(ask: Ask) -> Threshold:
             break
         value = lower
         answer = ask(discount=value)
-    confirmed = tuple(
-        _confirm(ask, "discount", d) for d in (value - STEP, value, value + STEP) if 0 <= d <= 1
-    )
-    return Threshold("discount", value, included=answer.opportunity, confirmed=confirmed)
+    return Threshold("discount", value, answer.opportunity, _confirmed(ask, "discount", value, most=1))
 
 
 def window_weight_threshold(ask: Ask, report: InterruptionReport | None) -> Threshold:
@@ -90,18 +86,14 @@ def window_weight_threshold(ask: Ask, report: InterruptionReport | None) -> Thre
     if not values:
         return Threshold("window_weight", None, False, (_confirm(ask, "window_weight", Fraction(0)),))
     value = max(values)
-    confirmed = tuple(
-        _confirm(ask, "window_weight", k) for k in (value - STEP, value, value + STEP) if k >= 0
-    )
+    confirmed = _confirmed(ask, "window_weight", value)
     included = next(c.opportunity for c in confirmed if c.value == value)
     return Threshold("window_weight", value, included, confirmed)
 
 
-def _doing_nothing(ask: Ask) -> Fraction:
-    """The objective of ``pi_H`` with idle robots, in its best window."""
-    answer = ask()
-    alone = sum((cost_of(ask.task, name) for name in answer.human_plan or ()), Fraction(0))
-    return alone + (ask.options.window_weight if ask.options.windowed else 0)
+def _confirmed(ask: Ask, option: str, value: Fraction, most: float = inf) -> tuple[Confirmation, ...]:
+    beside = (value - STEP, value, value + STEP)
+    return tuple(_confirm(ask, option, each) for each in beside if 0 <= each <= most)
 
 
 def _confirm(ask: Ask, option: str, value: Fraction) -> Confirmation:

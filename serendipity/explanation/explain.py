@@ -71,18 +71,14 @@ def explain(
             f"explain: expected mode {', '.join(_MODES)} and human model 'omniscient', "
             f"got '{chosen.mode}' and '{chosen.human_model}'"
         )
-    given = _given(task, result, human_plan)
+    names = result.human_plan if result is not None else human_plan
+    given = None if names is None else tuple(task.actions[i].name for i in task.plan_from_names(names))
     ask = Ask(task, chosen, given, limits)
     proved = result is not None and result.plan is not None and result.status == "optimal"
     answer = result if result is not None and proved else ask.attempt()
     if answer.status == "unknown":
         raise LimitReachedError(ask.limit_of(answer), "planning")
     return _explained(ask, answer, on_progress)
-
-
-def _given(task: Task, result: Result | None, human_plan: Iterable[str] | None) -> tuple[str, ...] | None:
-    names = result.human_plan if result is not None else human_plan
-    return None if names is None else tuple(task.actions[i].name for i in task.plan_from_names(names))
 
 
 class _Findings:

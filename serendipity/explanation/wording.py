@@ -30,10 +30,13 @@ def sentences(found: Explanation) -> Iterator[Sentence]:
     """Topic by topic: the help, its moment, its price, the announcement, what misses."""
     answer = found.answer
     if answer.human_plan is None:
-        yield from _without_a_plan(answer)
+        yield "help", f"{answer.human} can't reach the goal alone, so there is no plan to make cheaper."
+        if answer.cost is not None:
+            yield "help", f"Together they can: for {plain(answer.cost)}."
         return
-    yield from _help(found) if answer.opportunity else _no_help(found)
-    yield from _alone(answer)
+    yield from (("help", text) for text in (_help(found) if answer.opportunity else _no_help(answer)))
+    if answer.saving_alone:
+        yield "help", f"{answer.human} could save {plain(answer.saving_alone)} without any robot."
     for topic, part in (
         ("moment", _moments(found)),
         ("discount", _discount(found)),
@@ -42,10 +45,6 @@ def sentences(found: Explanation) -> Iterator[Sentence]:
     ):
         for text in part:
             yield topic, text
-    yield from _left_out(found)
-
-
-def _left_out(found: Explanation) -> Iterator[Sentence]:
     if found.limit is None:
         return
     missing = "; ".join(_MISSING[topic] for topic in found.left_out)
@@ -53,65 +52,44 @@ def _left_out(found: Explanation) -> Iterator[Sentence]:
     yield "limit", f"This is not all: {limit_words(found.limit)}.{rest}"
 
 
-def _without_a_plan(answer: Result) -> Iterator[Sentence]:
-    yield "help", f"{answer.human} can't reach the goal alone, so there is no plan to make cheaper."
-    if answer.cost is not None:
-        yield "help", f"Together they can: for {plain(answer.cost)}."
-
-
-def _help(found: Explanation) -> Iterator[Sentence]:
+def _help(found: Explanation) -> Iterator[str]:
     answer, gone, parts = found.answer, found.removal, found.parts
     assert gone is not None
     assert parts is not None
     if gone.removed:
-        yield (
-            "help",
-            f"Of the plan of {answer.human}, {_steps(gone.first, gone.last)} disappear: "
-            f"{_listed(gone.removed)}.",
-        )
+        steps = f"step {gone.first}" if gone.first == gone.last else f"steps {gone.first} to {gone.last}"
+        yield f"Of the plan of {answer.human}, {steps} disappear: {'; '.join(gone.removed)}."
     if gone.replacement:
-        yield "help", f"Instead: {_listed(gone.replacement)}."
+        yield f"Instead: {'; '.join(gone.replacement)}."
     elif gone.removed:
-        yield "help", "Nothing has to take their place."
+        yield "Nothing has to take their place."
     theirs = [step for step in answer.plan or () if answer.human not in step.agents]
     if theirs:
-        done = _listed(tuple(f"{step.action} (epoch {step.epoch})" for step in theirs))
-        yield "help", f"Robots do: {done}."
+        yield f"Robots do: {'; '.join(f'{step.action} (epoch {step.epoch})' for step in theirs)}."
     yield (
-        "help",
         f"{answer.human} pays {plain(parts.human)} instead of {plain(answer.human_cost or 0)}; "
         f"the robots' work costs {plain(parts.discounted(answer.options))}; "
-        f"together {plain(answer.cost or 0)}, "
-        f"{plain(answer.saving or 0)} less.",
+        f"together {plain(answer.cost or 0)}, {plain(answer.saving or 0)} less."
     )
     if answer.status == "feasible":
-        yield "help", "It is the best plan found so far, and not proved to be the best there is."
+        yield "It is the best plan found so far, and not proved to be the best there is."
     if answer.mode == "serendipity" and answer.realised.get("observant") is False:
         yield (
-            "help",
             f"But {answer.human} is not told, and would not do all of this going by what is to be seen "
-            "(`simulate` plays what happens).",
+            "(`simulate` plays what happens)."
         )
 
 
-def _no_help(found: Explanation) -> Iterator[Sentence]:
-    answer = found.answer
+def _no_help(answer: Result) -> Iterator[str]:
     if answer.status == "feasible":
-        yield "help", "No help was found so far; that there is none is not proved."
-        return
-    if answer.human_plan == ():
-        yield "help", f"The goal of {answer.human} holds already, so there is nothing to help with."
-        return
-    yield (
-        "help",
-        f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "
-        f"{plain(answer.human_cost or 0)} that {answer.human} pays alone.",
-    )
-
-
-def _alone(answer: Result) -> Iterator[Sentence]:
-    if answer.saving_alone:
-        yield "help", f"{answer.human} could save {plain(answer.saving_alone)} without any robot."
+        yield "No help was found so far; that there is none is not proved."
+    elif answer.human_plan == ():
+        yield f"The goal of {answer.human} holds already, so there is nothing to help with."
+    else:
+        yield (
+            f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "
+            f"{plain(answer.human_cost or 0)} that {answer.human} pays alone."
+        )
 
 
 def _moments(found: Explanation) -> Iterator[str]:
@@ -172,10 +150,12 @@ def _announcement(found: Explanation) -> Iterator[str]:
 
 
 def _misses(found: Explanation) -> Iterator[str]:
-    for i, miss in enumerate(found.misses):
-        if i == 0:
-            yield from _cheapest_miss(found, miss)
-        yield f"It is found by {RULES[miss.rule]}." if i == 0 else _other_miss(found.misses[0], miss)
+    if found.misses:
+        first, *others = found.misses
+        yield from _cheapest_miss(found, first)
+        for miss in others:
+            same = "The same cost is" if miss.cost == first.cost else f"A cost of {plain(miss.cost)} is"
+            yield f"{same} found by {RULES[miss.rule]}."
     weight = found.window_weight
     if weight is not None and weight.value is not None:
         yield (
@@ -191,8 +171,7 @@ def _cheapest_miss(found: Explanation, miss: Miss) -> Iterator[str]:
     yield f"The cheapest plan that misses costs {plain(miss.cost)}, {plain(miss.saving)} less."
     gone = miss.removal
     if gone.removed or gone.replacement:
-        instead = _listed(gone.replacement) if gone.replacement else "nothing"
-        removed = _listed(gone.removed) if gone.removed else "nothing"
+        removed, instead = ("; ".join(names) or "nothing" for names in (gone.removed, gone.replacement))
         yield f"In it, {found.answer.human} leaves out {removed}, and does instead: {instead}."
     if miss.window is not None and len(miss.window) > 1:
         start = miss.window.start
@@ -201,19 +180,7 @@ def _cheapest_miss(found: Explanation, miss: Miss) -> Iterator[str]:
             f"{found.answer.human} would have to leave the plan in epoch {start}, and robots are busy until "
             f"epoch {miss.window.end - 1} (window {_window(miss.window)})."
         )
-
-
-def _other_miss(first: Miss, miss: Miss) -> str:
-    same = "The same cost is" if miss.cost == first.cost else f"A cost of {plain(miss.cost)} is"
-    return f"{same} found by {RULES[miss.rule]}."
-
-
-def _steps(first: int, last: int) -> str:
-    return f"step {first}" if first == last else f"steps {first} to {last}"
-
-
-def _listed(names: tuple[str, ...]) -> str:
-    return "; ".join(names)
+    yield f"It is found by {RULES[miss.rule]}."
 
 
 def _window(window: Window) -> str:

@@ -196,9 +196,26 @@ class InterruptionReport(Tabular, Output):
         return f"{self._repr_svg_()}{Output._repr_html_(self)}"
 
     def _repr_svg_(self) -> str:
-        from serendipity.pictures import draw_windows
+        return str(drawn(self, ".svg"))
 
-        return str(draw_windows(self, ".svg"))
+
+def drawn(report: InterruptionReport, suffix: str) -> str | bytes:
+    """A report as heat maps beside each other: what the human saves by window, and what the team does.
+
+    Args:
+        report: the report.
+        suffix: ``.svg`` or ``.png``.
+
+    Raises:
+        UsageError: there is no such form, or PNG lacks the extra ``plot``.
+    """
+    from serendipity.pictures import draw_windows
+
+    maps = {
+        f"{report.human} saves at most": {entry.window: entry.human_saving for entry in report.windows},
+        "the team saves at most": {entry.window: entry.team_saving for entry in report.windows},
+    }
+    return draw_windows(maps, len(report.human_plan or ()), report.horizon or 0, suffix)
 
 
 @listing

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from serendipity.facade.interruptibility import InterruptionReport
+from serendipity.facade.interruptibility import InterruptionReport, drawn
 from serendipity.model import InputError, Options, Result, Task, UsageError
 from serendipity.model.arguments import PATH, RESULT, TASK, expect
-from serendipity.pictures import Scene, build_scene, check_epoch, draw, draw_windows
+from serendipity.pictures import Scene, build_scene, check_epoch, draw
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -55,7 +55,7 @@ class Drawing:
     def _content(self, suffix: str) -> str | bytes:
         if isinstance(self.drawn, Scene):
             return draw(self.drawn, suffix, None if suffix == ".html" else self.epoch)
-        return draw_windows(self.drawn, suffix)
+        return drawn(self.drawn, suffix)
 
     def __repr__(self) -> str:
         if isinstance(self.drawn, InterruptionReport):

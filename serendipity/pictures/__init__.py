@@ -11,8 +11,10 @@ from serendipity.pictures.scene.building import build_scene
 from serendipity.pictures.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from serendipity.facade.interruptibility import InterruptionReport
+    from collections.abc import Mapping
+
     from serendipity.pictures.picture.drawing import Picture
+    from serendipity.pictures.picture.heat_map import Savings
 
 __all__ = ["Scene", "build_scene", "check_epoch", "draw", "draw_windows"]
 
@@ -49,15 +51,15 @@ def check_epoch(scene: Scene, epoch: int | None) -> None:
         raise UsageError(f"epoch: expected one from 0 to {last}, got {epoch}")
 
 
-def draw_windows(report: "InterruptionReport", suffix: str) -> str | bytes:
-    """A report on windows as a heat map, ``.svg`` or ``.png``.
+def draw_windows(maps: "Mapping[str, Savings]", starts: int, horizon: int, suffix: str) -> str | bytes:
+    """Heat maps over windows, ``.svg`` or ``.png``; see :func:`.picture.heat_map.heat_map`.
 
     Raises:
         UsageError: there is no such form, or PNG lacks the extra ``plot``.
     """
     from serendipity.pictures.picture.heat_map import heat_map
 
-    return _written(heat_map(report), suffix, ".svg or .png")
+    return _written(heat_map(maps, starts, horizon), suffix, ".svg or .png")
 
 
 def _written(picture: "Picture", suffix: str, known: str) -> str | bytes:

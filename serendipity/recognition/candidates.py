@@ -1,7 +1,12 @@
-"""Candidate goals and observations in the forms that callers give them in."""
+"""Candidate goals and observed actions, in the forms that callers give them in.
+
+Files of goals: a JSON list of ``{"name": ..., "goal": [literals], "prior": ...}``, or a goal a line,
+``prior: literal, literal`` (without ``prior:`` it is 1).  Files of actions are those of ``--human-plan``
+(see :mod:`serendipity.pddl.parsing.lists`).
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from os import PathLike
 from typing import Any
@@ -10,8 +15,8 @@ from serendipity.model import Condition, InputError, Task, UsageError, exact
 from serendipity.model.arguments import LIST, Kind, expect
 from serendipity.model.task.names import no_fact
 from serendipity.model.task.task import canonical_name, several
-from serendipity.pddl.parsing.lists import FileItem
-from serendipity.recognition.files import read_goals, read_observed
+from serendipity.pddl.parsing.files import read_text
+from serendipity.pddl.parsing.lists import FileItem, actions_in, json_items, lines_of, starts_json
 
 GoalsGiven = str | PathLike[str] | Iterable[Mapping[str, Any]]
 """A file of goals, or its JSON form: ``[{"name": ..., "goal": [literals], "prior": ...}]``."""
@@ -44,13 +49,8 @@ def candidate_goals(task: Task, given: GoalsGiven) -> tuple[CandidateGoal, ...]:
         InputError: no goal at all, an unknown fact, a prior that is negative or no number, a name
             twice, or priors that add up to 0; with file and line where there is a file.
     """
-    if isinstance(given, str | PathLike):
-        file: object = given
-        entries: Sequence[FileItem] = read_goals(given)
-    else:
-        file = None
-        expect(Kind("a file, or a list of goals", LIST.fits), goals=given)
-        entries = [FileItem(item, None) for item in given]
+    file = given if isinstance(given, str | PathLike) else None
+    entries = _entries(given)
     if not entries:
         raise InputError("goals: expected at least one goal, got none", file)
     ids = {fact: i for i, fact in enumerate(task.facts)}
@@ -63,7 +63,7 @@ def candidate_goals(task: Task, given: GoalsGiven) -> tuple[CandidateGoal, ...]:
     total = sum((candidate.prior for candidate in found), Fraction(0))
     if not total:
         raise InputError("goals: expected priors with a sum above 0, got only zeros", file)
-    return tuple(CandidateGoal(c.name, c.literals, c.goal, c.prior / total) for c in found)
+    return tuple(replace(candidate, prior=candidate.prior / total) for candidate in found)
 
 
 def observed_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
@@ -73,14 +73,9 @@ def observed_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
         InputError: one that the human does not have, or can't do alone; with file and line where
             there is a file.
     """
-    if isinstance(given, str | PathLike):
-        file: object = given
-        lines = read_observed(given)
-    else:
-        file = None
-        lines = [(canonical_name(name), None) for name in several(given, "observed")]
+    file = given if isinstance(given, str | PathLike) else None
     names = []
-    for step, (name, line) in enumerate(lines, start=1):
+    for step, (name, line) in enumerate(named_actions(given, "observed"), start=1):
         if not name or (name not in task.named and task.waits(name)):
             continue
         where = f"observed action '{name}'" if file is not None else f"observed action {step}, '{name}'"
@@ -91,6 +86,37 @@ def observed_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
             raise InputError(f"{where}: expected an action that {human} can do alone", file, line)
         names.append(name)
     return tuple(names)
+
+
+def named_actions(given: ObservedGiven, what: str) -> list[tuple[str, int | None]]:
+    """The names of the actions that a caller lists, each with its line where they are a file's.
+
+    Raises:
+        InputError: a file can't be read, or a line of it is not one action.
+        UsageError: it is no list of names; the error begins with ``what``.
+    """
+    if isinstance(given, str | PathLike):
+        return [(canonical_name(name), line) for name, line in actions_in(read_text(given), given)]
+    return [(canonical_name(name), None) for name in several(given, what)]
+
+
+def _entries(given: GoalsGiven) -> Sequence[FileItem]:
+    """The goals that a caller lists, in the form of JSON objects."""
+    if not isinstance(given, str | PathLike):
+        expect(Kind("a file, or a list of goals", LIST.fits), goals=given)
+        return [FileItem(item, None) for item in given]
+    text = read_text(given)
+    if starts_json(text):
+        return json_items(text, given)
+    return [FileItem(_goal_line(bare, given, number), number) for number, bare in lines_of(text)]
+
+
+def _goal_line(bare: str, file: object, number: int) -> dict[str, Any]:
+    prior, colon, literals = bare.rpartition(":")
+    facts = [text.strip() for text in literals.split(",")]
+    if not all(facts):
+        raise InputError(f"expected a goal as 'prior: fact, fact', got '{bare}'", file, number)
+    return {"goal": facts, "prior": prior.strip() if colon else "1"}
 
 
 def _candidate(entry: FileItem, number: int, ids: Mapping[str, int], file: object) -> CandidateGoal:

@@ -1,6 +1,7 @@
 """Robots that need time and fail by dice, and have no bodies."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from random import Random
 from typing import Final
 
@@ -46,12 +47,10 @@ class Simulated:
 
     def execute(self, epoch: Epoch) -> Sequence[Report]:
         """See :class:`serendipity.robot.Adapter`."""
-        self._begun = {order: self._begun.get(order) or self._begin(order) for order in epoch.orders}
-        reports = [deed.go_on(self._epoch) for deed in self._begun.values()]
-        over = [o for o, report in zip(self._begun, reports, strict=True) if report.outcome != "running"]
-        for order in over:
-            del self._begun[order]
-        return reports
+        begun = {order: self._begun.get(order) or self._begin(order) for order in epoch.orders}
+        reports = {order: deed.go_on(self._epoch) for order, deed in begun.items()}
+        self._begun = {o: deed for o, deed in begun.items() if reports[o].outcome == "running"}
+        return list(reports.values())
 
     def close(self) -> None:
         """See :class:`serendipity.robot.Adapter`."""
@@ -63,22 +62,17 @@ class Simulated:
         return _Deed(seconds, fails=self._dice.random() < self._fail)
 
 
+@dataclass(slots=True)
 class _Deed:
-    """An action that was begun.
+    """An action that was begun: how long it takes, whether it fails in the end, and what was spent on it."""
 
-    Args:
-        seconds: that it takes.
-        fails: whether it fails in the end.
-    """
-
-    def __init__(self, seconds: float, *, fails: bool) -> None:
-        self._seconds = seconds
-        self._fails = fails
-        self._spent = 0.0
+    seconds: float
+    fails: bool
+    spent: float = 0.0
 
     def go_on(self, seconds: float) -> Report:
         """Spend some more time on it."""
-        self._spent = min(self._seconds, self._spent + seconds)
-        if self._spent < self._seconds:
-            return Report("running", self._spent)
-        return Report("failed" if self._fails else "done", self._spent)
+        self.spent = min(self.seconds, self.spent + seconds)
+        if self.spent < self.seconds:
+            return Report("running", self.spent)
+        return Report("failed" if self.fails else "done", self.spent)

@@ -11,7 +11,7 @@ from unified_planning.model import AbstractProblem
 from serendipity.facade.planning import plan_anytime
 from serendipity.model import Deadline, InputError, LimitReachedError, PlanError, Result, SerendipityError
 from serendipity.model.resources.limits import limits_from
-from serendipity.up.calls import Asked
+from serendipity.up.calls import EngineCall
 from serendipity.up.kinds import with_metric
 from serendipity.up.plans import human_plan_of, plan_of
 from serendipity.up.predicting import predict
@@ -37,12 +37,12 @@ class Answers:
     """
 
     def __init__(
-        self, problem: AbstractProblem, call: Asked, timeout: float | None, ignored: Sequence[str] = ()
+        self, problem: AbstractProblem, call: EngineCall, timeout: float | None, ignored: Sequence[str] = ()
     ) -> None:
         self._problem = problem
         self._call = call
         self._limits = limits_from(timeout, None)
-        self._messages = [_message(LogLevel.WARNING, f"{name}: not used") for name in ignored]
+        self._messages = [LogMessage(LogLevel.WARNING, f"{name}: not used") for name in ignored]
 
     def all(self, *, any_plan: bool = False) -> Iterator[PlanGenerationResult]:
         """The answers; the last is final, and says so if the problem is not supported.
@@ -71,9 +71,11 @@ class Answers:
             yield self._result(Status.UNSUPPORTED_PROBLEM, None, str(error))
             return
         names = self._human_plan(reading, limits)
+        asked: dict[str, Any] = {name: getattr(options, name) for name in options.to_dict()}
+        asked |= {"time_limit": None, "memory_limit": None}
         known: float | None = None
         last: Result | None = None
-        for result in plan_anytime(reading.task, human_plan=names, deadline=limits, **_keywords(self._call)):
+        for result in plan_anytime(reading.task, human_plan=names, deadline=limits, **asked):
             if first and result.cost is not None:
                 yield self._answer(result, reading, self._status(result, reading))
                 return
@@ -124,20 +126,10 @@ class Answers:
         *notes: str,
         metrics: dict[str, str] | None = None,
     ) -> PlanGenerationResult:
-        messages = [*self._messages, *(_message(LogLevel.INFO, note) for note in notes)]
+        messages = [*self._messages, *(LogMessage(LogLevel.INFO, note) for note in notes)]
         return PlanGenerationResult(status, plan, ENGINE, metrics, messages)
-
-
-def _message(level: LogLevel, text: str) -> LogMessage:
-    return LogMessage(level, text)
 
 
 def _text(figure: object) -> str:
     """A figure as text; one of several parts as JSON."""
     return json.dumps(figure) if isinstance(figure, dict) else str(figure)
-
-
-def _keywords(call: Asked) -> dict[str, Any]:
-    options = call.options
-    values = {name: getattr(options, name) for name in options.to_dict()}
-    return {**values, "time_limit": None, "memory_limit": None}

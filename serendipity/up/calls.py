@@ -17,7 +17,7 @@ _OWN: Final = ("human", "robots", "human_plan", "predict_with")
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class EngineCall:
     """Parameters of the engine.
 
     Attributes:
@@ -36,9 +36,9 @@ class Asked:
     predict_with: str | None = None
     given: tuple[tuple[str, Any], ...] = ()
 
-    def but(self, changes: dict[str, Any]) -> "Asked":
+    def but(self, changes: dict[str, Any]) -> "EngineCall":
         """The same with other parameters."""
-        return asked({**dict(self.given), **changes})
+        return call_of({**dict(self.given), **changes})
 
     @property
     def inexact(self) -> str | None:
@@ -76,7 +76,7 @@ class Asked:
         return self.human, self.robots
 
 
-def asked(parameters: dict[str, Any]) -> Asked:
+def call_of(parameters: dict[str, Any]) -> EngineCall:
     """Parameters of the engine, checked.
 
     Raises:
@@ -96,4 +96,4 @@ def asked(parameters: dict[str, Any]) -> Asked:
         if message.startswith("unknown option"):
             message = f"{message}, {', '.join(_OWN)}"
         raise UsageError(message) from None
-    return replace(Asked(options, **own), given=tuple(parameters.items()))
+    return replace(EngineCall(options, **own), given=tuple(parameters.items()))

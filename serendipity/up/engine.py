@@ -14,7 +14,7 @@ from unified_planning.plans import Plan, PlanKind
 
 from serendipity.model import SerendipityError, UsageError
 from serendipity.up.answers import Answers
-from serendipity.up.calls import Asked, asked
+from serendipity.up.calls import call_of
 from serendipity.up.kinds import PLANS, supported_kind, with_metric
 from serendipity.up.reading import read
 from serendipity.up.registration import ENGINE
@@ -48,7 +48,7 @@ class SerendipityEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanVa
         OneshotPlannerMixin.__init__(self)
         AnytimePlannerMixin.__init__(self)
         try:
-            self._asked: Asked = asked(parameters)
+            self._call = call_of(parameters)
         except UsageError as error:
             raise UPUsageError(f"{ENGINE}: {error}") from None
 
@@ -91,18 +91,14 @@ class SerendipityEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanVa
         *_, last = self._answers(problem, *given, **more).all(any_plan=not self.optimality_metric_required)
         return last
 
-    def _solve_with_params(self, problem: AbstractProblem, **more: Any) -> PlanGenerationResult:
-        return self._solve(problem, **more)
+    _solve_with_params = _solve
 
     def _get_solutions(
         self, problem: AbstractProblem, timeout: float | None = None, *given: Any, **more: Any
     ) -> Iterator[PlanGenerationResult]:
         yield from self._answers(problem, None, timeout, **more).all()
 
-    def _get_solutions_with_params(
-        self, problem: AbstractProblem, **more: Any
-    ) -> Iterator[PlanGenerationResult]:
-        yield from self._get_solutions(problem, **more)
+    _get_solutions_with_params = _get_solutions
 
     def _answers(
         self,
@@ -113,34 +109,28 @@ class SerendipityEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanVa
         warm_start_plan: Plan | None = None,
         **more: Any,
     ) -> Answers:
-        call = self._asked if not more else self._asked.but(more)
+        call = self._call if not more else self._call.but(more)
         if self.optimality_metric_required and not call.exact:
             raise UPUsageError(f"{ENGINE}: {call.inexact}: then plans are not optimal for the problem")
-        unused = {
-            "heuristic": heuristic,
-            "output_stream": output_stream,
-            "warm_start_plan": warm_start_plan,
-        }
-        ignored = [name for name, value in unused.items() if value is not None]
-        return Answers(problem, call, timeout, ignored)
+        given = {"heuristic": heuristic, "output_stream": output_stream, "warm_start_plan": warm_start_plan}
+        return Answers(problem, call, timeout, [name for name in given if given[name] is not None])
 
     def _validate(self, problem: AbstractProblem, plan: Plan) -> ValidationResult:
         try:
-            reading = read(problem, *self._asked.who(problem))
-            verdict = judged(plan, reading)
+            verdict = judged(plan, read(problem, *self._call.who(problem)))
         except SerendipityError as error:
             raise UPUsageError(f"{ENGINE}: {error}") from None
         if verdict.valid is None:
             return ValidationResult(ValidationResultStatus.UNKNOWN, ENGINE)
         if verdict.valid:
-            costs = None
-            if with_metric(problem):
-                cost = verdict.cost
-                costs = {problem.quality_metrics[0]: cost}
+            costs = {problem.quality_metrics[0]: verdict.cost} if with_metric(problem) else None
             return ValidationResult(ValidationResultStatus.VALID, ENGINE, metric_evaluations=costs)
-        reason = FailedValidationReason.INAPPLICABLE_ACTION
-        if verdict.at_fault is None:
-            reason = FailedValidationReason.UNSATISFIED_GOALS
+        missed = verdict.at_fault is None
         return ValidationResult(
-            ValidationResultStatus.INVALID, ENGINE, reason=reason, inapplicable_action=verdict.at_fault
+            ValidationResultStatus.INVALID,
+            ENGINE,
+            reason=FailedValidationReason.UNSATISFIED_GOALS
+            if missed
+            else FailedValidationReason.INAPPLICABLE_ACTION,
+            inapplicable_action=verdict.at_fault,
         )

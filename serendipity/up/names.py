@@ -7,7 +7,7 @@ from typing import Final
 _ILLEGAL: Final = re.compile(r"[^\w-]")
 
 
-class Words:
+class UniqueWords:
     """A word for each name: lower case, without blanks, different where names are.
 
     Args:

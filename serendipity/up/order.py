@@ -5,9 +5,9 @@ does, may come in any order.  So every order that the partial one allows is a pl
 end in the same state.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, permutations
 
 import networkx
 
@@ -75,24 +75,17 @@ def _variant(task: Task, step: PlanStep, state: frozenset[int]) -> GroundAction:
 
 def _in_turn(
     epoch: int, together: Sequence[tuple[PlanStep, GroundAction]]
-) -> list[tuple[PlanStep, GroundAction]]:
+) -> Iterator[tuple[PlanStep, GroundAction]]:
     """Actions of an epoch, each before those that disable it."""
-    left, found = list(together), list[tuple[PlanStep, GroundAction]]()
-    while left:
-        free = next(
-            (
-                one
-                for one in left
-                if not any(disables(one[1], other[1]) for other in left if other is not one)
-            ),
-            None,
+    graph = networkx.DiGraph()
+    graph.add_nodes_from(range(len(together)))
+    pairs = permutations(range(len(together)), 2)
+    graph.add_edges_from((i, j) for i, j in pairs if disables(together[j][1], together[i][1]))
+    circle = next((some for some in networkx.strongly_connected_components(graph) if len(some) > 1), None)
+    if circle is not None:
+        names = ", ".join(f"'{together[i][0].action}'" for i in sorted(circle))
+        raise PlanError(
+            f"epoch {epoch}: {names} can be done at once only, and no plan of unified-planning says so: "
+            "plan with interference='strict'"
         )
-        if free is None:
-            names = ", ".join(f"'{step.action}'" for step, _ in left)
-            raise PlanError(
-                f"epoch {epoch}: {names} can be done at once only, and no plan of unified-planning says so: "
-                "plan with interference='strict'"
-            )
-        left.remove(free)
-        found.append(free)
-    return found
+    return (together[i] for i in networkx.lexicographical_topological_sort(graph))

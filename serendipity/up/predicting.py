@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Final
 
-from unified_planning.engines import CompilationKind, PlanGenerationResultStatus
+from unified_planning.engines import CompilationKind
+from unified_planning.engines import PlanGenerationResultStatus as Status
 from unified_planning.engines.factory import DEFAULT_ENGINES
 from unified_planning.environment import get_environment
 from unified_planning.exceptions import UPException
@@ -16,14 +16,9 @@ from unified_planning.plans import SequentialPlan
 from serendipity.model import Task, UsageError
 from serendipity.up.writing import own_problem
 
-_NO_PLAN: Final = (
-    PlanGenerationResultStatus.UNSOLVABLE_PROVEN,
-    PlanGenerationResultStatus.UNSOLVABLE_INCOMPLETELY,
-)
-
 
 @dataclass(frozen=True, slots=True)
-class Solved:
+class EngineAnswer:
     """What an engine answered.
 
     Attributes:
@@ -31,23 +26,18 @@ class Solved:
         actions: indices of the problem's actions; None without a plan.
     """
 
-    status: PlanGenerationResultStatus
+    status: Status
     actions: tuple[int, ...] | None
 
     @property
     def optimal(self) -> bool:
         """Whether it says that there is no better plan."""
-        return bool(self.status == PlanGenerationResultStatus.SOLVED_OPTIMALLY)
+        return bool(self.status == Status.SOLVED_OPTIMALLY)
 
     @property
     def impossible(self) -> bool:
         """Whether it says that it has proved that there is no plan."""
-        return bool(self.status == PlanGenerationResultStatus.UNSOLVABLE_PROVEN)
-
-    @property
-    def unsolvable(self) -> bool:
-        """Whether it says that there is no plan, proved or not."""
-        return self.status in _NO_PLAN
+        return bool(self.status == Status.UNSOLVABLE_PROVEN)
 
 
 def predict(task: Task, engine: str, *, time_limit: float | None = None) -> tuple[str, ...] | None:
@@ -67,12 +57,12 @@ def predict(task: Task, engine: str, *, time_limit: float | None = None) -> tupl
     solved = solve_with(engine, own_problem(task), time_limit)
     if solved.actions is not None:
         return tuple(task.actions[task.human_actions[i]].name for i in solved.actions)
-    if solved.unsolvable:
+    if solved.impossible or solved.status == Status.UNSOLVABLE_INCOMPLETELY:
         return None
     raise UsageError(f"predict_with: engine '{engine}' found no plan of the human: {solved.status.name}")
 
 
-def solve_with(engine: str, problem: Problem, time_limit: float | None = None) -> Solved:
+def solve_with(engine: str, problem: Problem, time_limit: float | None = None) -> EngineAnswer:
     """What an engine makes of a ground problem.
 
     Raises:
@@ -116,11 +106,11 @@ def _known(engine: str) -> str:
     return engine
 
 
-def _solved(problem: Problem, status: PlanGenerationResultStatus, plan: SequentialPlan | None) -> Solved:
+def _solved(problem: Problem, status: Status, plan: SequentialPlan | None) -> EngineAnswer:
     if plan is None:
-        return Solved(status, None)
+        return EngineAnswer(status, None)
     numbers = {action.name: i for i, action in enumerate(problem.actions)}
-    return Solved(status, tuple(numbers[instance.action.name] for instance in plan.actions))
+    return EngineAnswer(status, tuple(numbers[instance.action.name] for instance in plan.actions))
 
 
 @contextmanager

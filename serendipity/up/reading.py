@@ -100,7 +100,7 @@ def read(
 
 def _read(vocabulary: Vocabulary, cast: Cast, left_out: list[str], work: Work) -> Task:
     problem = vocabulary.problem
-    writer = _Writer(vocabulary, work)
+    writer = _Translator(vocabulary, work)
     schemas = {owner: tuple(writer.schemas(owner)) for owner in vocabulary.owners}
     domain = writer.domain(tuple(schema for some in schemas.values() for schema in some))
     goals = writer.unit(domain, cast.goals)
@@ -128,7 +128,7 @@ def _participants(cast: Cast, owner: Owner) -> Participants:
     return by_arguments(cast.names) if cast.objects else by_owner(0)
 
 
-class _Writer:
+class _Translator:
     """Puts a problem into the grounder's words."""
 
     def __init__(self, vocabulary: Vocabulary, work: Work) -> None:

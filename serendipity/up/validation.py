@@ -18,7 +18,7 @@ _MOST: Final = 100_000
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class PlanVerdict:
     """What is known of a plan.
 
     Attributes:
@@ -32,21 +32,21 @@ class Verdict:
     at_fault: ActionInstance | None = None
 
 
-def judged(plan: Plan, reading: Reading) -> Verdict:
+def judged(plan: Plan, reading: Reading) -> PlanVerdict:
     """Whether a plan is one of a problem.
 
     Raises:
         UsageError: it is of another kind, or has an action of another problem.
     """
     instances = in_order(plan)
-    run = _Run(reading, instances)
+    run = _PlanRun(reading, instances)
     verdict = run.in_turn()
     if verdict.valid and plan.kind == PlanKind.PARTIAL_ORDER_PLAN:
         return run.in_any_order(networkx.DiGraph(plan.get_adjacency_list), verdict)
     return verdict
 
 
-class _Run:
+class _PlanRun:
     """Executes the actions of a plan."""
 
     def __init__(self, reading: Reading, instances: list[ActionInstance]) -> None:
@@ -56,18 +56,18 @@ class _Run:
         self._waiting = {name for name, _ in reading.task.waiting}
         self._chosen: dict[ActionInstance, GroundAction] = {}
 
-    def in_turn(self) -> Verdict:
+    def in_turn(self) -> PlanVerdict:
         """One order."""
         state, cost = self._task.init, Fraction(0)
         for instance in self._instances:
             after = self._after(state, instance)
             if after is None:
-                return Verdict(False, at_fault=instance)
+                return PlanVerdict(False, at_fault=instance)
             state = after
             cost += self._chosen[instance].cost if instance in self._chosen else 0
-        return Verdict(True, cost) if self._reached(state) else Verdict(False)
+        return PlanVerdict(True, cost) if self._reached(state) else PlanVerdict(False)
 
-    def in_any_order(self, graph: "networkx.DiGraph[ActionInstance]", first: Verdict) -> Verdict:
+    def in_any_order(self, graph: "networkx.DiGraph[ActionInstance]", first: PlanVerdict) -> PlanVerdict:
         """All orders: those that differ by neighbours that may change places end alike."""
         follow = {node: networkx.descendants(graph, node) for node in graph}
         if not any(
@@ -84,7 +84,7 @@ class _Run:
         variants = [self._variants(instance) for instance in (a, b)]
         return any(depend(x, y) for x in variants[0] for y in variants[1])
 
-    def _walked(self, graph: "networkx.DiGraph[ActionInstance]", first: Verdict) -> Verdict:
+    def _walked(self, graph: "networkx.DiGraph[ActionInstance]", first: PlanVerdict) -> PlanVerdict:
         level: set[tuple[frozenset[ActionInstance], frozenset[int]]] = {(frozenset(), self._task.init)}
         seen = 0
         for _ in self._instances:
@@ -95,13 +95,13 @@ class _Run:
                         continue
                     after = self._after(state, instance)
                     if after is None:
-                        return Verdict(False, at_fault=instance)
+                        return PlanVerdict(False, at_fault=instance)
                     following.add((done | {instance}, after))
             seen += len(following)
             if seen > _MOST:
-                return Verdict(None)
+                return PlanVerdict(None)
             level = following
-        return first if all(self._reached(state) for _, state in level) else Verdict(False)
+        return first if all(self._reached(state) for _, state in level) else PlanVerdict(False)
 
     def _after(self, state: frozenset[int], instance: ActionInstance) -> frozenset[int] | None:
         """The state after an action; None if it is not applicable."""

@@ -16,7 +16,7 @@ from serendipity.model import UsageError
 from serendipity.model.task.actions import NOOP
 from serendipity.pddl.parsing.types import OBJECT, Type, Types
 from serendipity.up.kinds import refusal
-from serendipity.up.names import Words
+from serendipity.up.names import UniqueWords
 
 UPProblem: TypeAlias = Problem | MultiAgentProblem
 
@@ -43,11 +43,11 @@ class Vocabulary:
         self.problem = problem
         self.agents: Sequence[Agent] = tuple(problem.agents) if isinstance(problem, MultiAgentProblem) else ()
         self.owners: Sequence[Owner] = self.agents or (None,)
-        self.agent_words = Words(agent.name for agent in self.agents)
-        self._objects = Words((o.name for o in problem.all_objects), self.agent_words.names)
-        self._types = Words((kind.name for kind in problem.user_types), (OBJECT,))
-        self._fluents = Words(fluent.name for _, fluent in self.fluents())
-        self._actions = Words((action.name for _, action in self.actions()), (NOOP,))
+        self.agent_words = UniqueWords(agent.name for agent in self.agents)
+        self._objects = UniqueWords((o.name for o in problem.all_objects), self.agent_words.names)
+        self._types = UniqueWords((kind.name for kind in problem.user_types), (OBJECT,))
+        self._fluents = UniqueWords(fluent.name for _, fluent in self.fluents())
+        self._actions = UniqueWords((action.name for _, action in self.actions()), (NOOP,))
         self._action_names = self._actions.names
         self._object_names = self._objects.names
         self._owners_by_word = {self.agent_words[agent.name]: agent for agent in self.agents}

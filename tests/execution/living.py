@@ -1,14 +1,47 @@
 """Epochs lived through by a simulated person, with an oracle beside them that knows nothing of the search."""
 
-from itertools import count
+import json
 from random import Random
+from typing import Any
 
-from serendipity.execution import Execution, Person, moment_of
+import pytest
+
+import serendipity
+from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of
 from serendipity.model import Task
 from verify.base.optimal_plans import OptimalPlans
 from verify.simulator.person import Person as Oracle
 
 MOST_EPOCHS = 60
+
+
+@pytest.fixture(name="room2")
+def room2_fixture() -> Task:
+    """The paper's example III-C."""
+    return serendipity.example("room2")
+
+
+def lived(run: Execution, person: Person, most: int = MOST_EPOCHS) -> Execution:
+    """An execution that has gone on to the goal, or for so many epochs."""
+    while not run.done and run.epoch < most:
+        run.step(person.choose(moment_of(run)))
+    return run
+
+
+def told(task: Task, **settings: Any) -> Execution:
+    """The same with somebody who keeps to the robots' plan."""
+    return lived(Execution(task, told=True, **{"discount": "0.9", **settings}), Omniscient(task))
+
+
+def verdicts(run: Execution) -> list[str]:
+    """Of all epochs that are over."""
+    return [passed.decided.verdict for passed in run.passed]
+
+
+def as_lines(run: Execution) -> list[LogLine]:
+    """The lines of an execution's log, by way of JSON."""
+    lines = json.loads(json.dumps(list(log_lines(run, seed=1))))
+    return [LogLine(number, line) for number, line in enumerate(lines, start=1)]
 
 
 def live(
@@ -27,10 +60,8 @@ def live(
     alone = oracle.cost(task.init)
     if alone is None:
         return
-    for epoch in count(1):
-        if run.done:
-            break
-        assert epoch < MOST_EPOCHS, "the person never gets there"
+    while not run.done:
+        assert run.epoch < MOST_EPOCHS, "the person never gets there"
         run.step(person.choose(moment_of(run)))
         rest = oracle.cost(run.state)
         assert rest is not None, "robots took the person's last plan away"

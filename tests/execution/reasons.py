@@ -51,6 +51,9 @@ class _Seen:
     epochs: dict[int, dict[str, Any]] = field(default_factory=dict)
     changed: bool = False
     untouched: frozenset[int] = frozenset()
+    epoch: int = 0
+    decision: dict[str, Any] = field(default_factory=dict)
+    why: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.state = self.untouched = self.task.init
@@ -80,161 +83,170 @@ class _Seen:
 
     def complaints(self, event: dict[str, Any]) -> Iterator[str]:
         """What is wrong with the decision of an epoch."""
-        decision = event["decision"]
+        decision = self.decision = event["decision"]
         why, verdict = decision["because"], decision["verdict"]
         if why is None:
             yield "has no reason"
             return
+        self.epoch, self.why = event["epoch"], why
         acts = bool(decision["actions"] or decision["offers"])
         if acts != (verdict in ("helps", "works")):
             yield f"robots {'act' if acts else 'do nothing'}, the verdict is {verdict}"
         begun = why["kind"] != "done" and verdict in ("stopped", "aside") and self._begun()
         if (verdict == "stopped") != begun:
             yield f"help had {'' if begun else 'not '}begun, the verdict is {verdict}"
-        yield from self._owes(decision, why)
+        yield from self._owes()
         check = getattr(self, f"_{why['kind'].replace('-', '_')}")
-        yield from check(event["epoch"], decision, why)
+        yield from check()
         if why["cause"] is not None:
-            yield from self._cause(why["cause"])
+            yield from self._cause()
 
     # -- help
 
-    def _pays(self, _epoch: int, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        yield from self._plan(decision, why)
+    def _pays(self) -> Iterator[str]:
+        yield from self._plan()
         if self.task.robot_goal:  # then it has to beat what robots need for their own, too
             found = self._asked(self.task, mode="communication")
             if found is not None and not found.opportunity:
                 yield "nothing pays"
-        elif why["cost"] >= why["alone"] and not why["owed"]:
+        elif self.why["cost"] >= self.why["alone"] and not self.why["owed"]:
             yield "does not pay"
         exact = self.header["human_model"] != "local"  # what they believe may be dearer than what is so
         alone = self.alone(self.state)
-        if exact and not decision["goals"] and (alone is None or not isclose(alone, why["alone"])):
+        if exact and not self.decision["goals"] and (alone is None or not isclose(alone, self.why["alone"])):
             yield f"alone it costs {alone}"
 
-    def _later(self, epoch: int, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        theirs = [s["epoch"] for s in decision["plan"] if s["agents"] != [self.human]]
-        if why["epoch"] != epoch + min(theirs) - 1:
-            yield f"their part comes in epoch {epoch + min(theirs) - 1}"
-        if why["alone"] is None:
-            yield from self._only_way(epoch, decision, why)
+    def _later(self) -> Iterator[str]:
+        theirs = [s["epoch"] for s in self.decision["plan"] if s["agents"] != [self.human]]
+        if self.why["epoch"] != self.epoch + min(theirs) - 1:
+            yield f"their part comes in epoch {self.epoch + min(theirs) - 1}"
+        if self.why["alone"] is None:
+            yield from self._only_way()
         else:
-            yield from self._pays(epoch, decision, why)
+            yield from self._pays()
 
-    def _owed(self, epoch: int, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        yield from self._pays(epoch, decision, why)
-        his = [step["cost"] for step in decision["plan"] if self.human in step["agents"]]
-        if sum(his) >= why["alone"]:
+    def _owed(self) -> Iterator[str]:
+        yield from self._pays()
+        his = [step["cost"] for step in self.decision["plan"] if self.human in step["agents"]]
+        if sum(his) >= self.why["alone"]:
             yield "nothing is made up for"
 
-    def _owes(self, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
+    def _owes(self) -> Iterator[str]:
         """What the person pays more is said wherever nothing is done about it."""
         exact = self.header["human_model"] != "local"
-        if not exact or decision["goals"] or not (why["owed"] or decision["verdict"] in ("aside", "stopped")):
+        if (
+            not exact
+            or self.decision["goals"]
+            or not (self.why["owed"] or self.decision["verdict"] in ("aside", "stopped"))
+        ):
             return
         now, before = self.alone(self.state), self.alone(self.untouched)
         owed = 0 if now is None or before is None else max(now - before, 0)
-        if not isclose(owed, why["owed"], abs_tol=1e-9):
+        if not isclose(owed, self.why["owed"], abs_tol=1e-9):
             yield f"they pay {owed} more"
 
-    def _done(self, _epoch: int, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        yield from self._plan(decision, why)
-        if any(s["agents"] != [self.human] for s in decision["plan"]):
+    def _done(self) -> Iterator[str]:
+        yield from self._plan()
+        if any(s["agents"] != [self.human] for s in self.decision["plan"]):
             yield "there is something left to do"
         if not self._helped():
             yield "nothing was done"
 
-    def _only_way(self, _epoch: int, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        yield from self._plan(decision, why)
+    def _only_way(self) -> Iterator[str]:
+        yield from self._plan()
         if self.alone(self.state) is not None:
             yield "there is a plan alone"
 
-    def _goes_on(self, _epoch: int, _decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        if why["action"] not in [step["action"] for step in self.running]:
+    def _goes_on(self) -> Iterator[str]:
+        if self.why["action"] not in [step["action"] for step in self.running]:
             yield "that was not begun"
 
-    def _own_goals(self, _epoch: int, decision: dict[str, Any], _why: dict[str, Any]) -> Iterator[str]:
+    def _own_goals(self) -> Iterator[str]:
         if not self.task.robot_goal:
             yield "they have none"
 
-    def _own_goals_lost(self, _epoch: int, _decision: dict[str, Any], _why: dict[str, Any]) -> Iterator[str]:
+    def _own_goals_lost(self, lost: bool = True) -> Iterator[str]:
         found = self._asked(self.task, human_model=self.header["human_model"])
-        if found is not None and found.plan is not None:
-            yield "they are within reach"
+        if found is not None and (found.plan is None) is not lost:
+            yield f"they are {'within' if lost else 'out of'} reach"
 
-    def _own_goals_spoil(self, _epoch: int, _decision: dict[str, Any], _why: dict[str, Any]) -> Iterator[str]:
-        found = self._asked(self.task, human_model=self.header["human_model"])
-        if found is not None and found.plan is None:
-            yield "they are out of reach"
+    def _own_goals_spoil(self) -> Iterator[str]:
+        yield from self._own_goals_lost(lost=False)
 
-    def _unsure(self, _epoch: int, decision: dict[str, Any], _why: dict[str, Any]) -> Iterator[str]:
-        if sum(share > 0 for share in decision["goals"].values()) < 2:
+    def _unsure(self) -> Iterator[str]:
+        if sum(share > 0 for share in self.decision["goals"].values()) < 2:
             yield "there is one goal"
 
     # -- no help
 
-    def _no_help(self, _epoch: int, decision: dict[str, Any], _why: dict[str, Any]) -> Iterator[str]:
+    def _no_help(self) -> Iterator[str]:
         for model in dict.fromkeys((self.header["human_model"], "omniscient")):
-            if model != "local" and not decision["goals"]:
-                found = self._asked(self.task, decision, human_model=model)
+            if model != "local" and not self.decision["goals"]:
+                found = self._asked(self.task, alone=True, human_model=model)
                 if found is not None and found.opportunity:
                     yield f"{found.cost} instead of {found.cost + (found.saving or 0)} for somebody {model}"
 
-    def _spoils(self, _epoch: int, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        yield from self._would(decision, why, self.header["human_model"])
+    def _spoils(self) -> Iterator[str]:
+        yield from self._would(self.header["human_model"])
 
-    def _untold(self, _epoch: int, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        yield from self._would(decision, why, "omniscient")
+    def _untold(self) -> Iterator[str]:
+        yield from self._would("omniscient")
 
-    def _would(self, decision: dict[str, Any], why: dict[str, Any], model: str) -> Iterator[str]:
-        if model == "local" or decision["goals"]:
+    def _would(self, model: str) -> Iterator[str]:
+        if model == "local" or self.decision["goals"]:
             return
-        found = self._asked(self.task, decision, human_model=model)
+        found = self._asked(self.task, alone=True, human_model=model)
         if found is None:
             return
         cost, saving = found.cost or 0, found.saving or 0
-        possible = cost <= why["cost"] + 1e-9 and why["cost"] < why["alone"]  # the plan found in the time
-        if not (possible and isclose(cost + saving, why["alone"])):
+        said = self.why["cost"]  # of the plan that was found in the time
+        if not (
+            cost <= said + 1e-9 and said < self.why["alone"] and isclose(cost + saving, self.why["alone"])
+        ):
             yield f"it would cost {found.cost} and save {found.saving}"
 
-    def _no_safe_help(self, *_: Any) -> Iterator[str]:
+    def _no_safe_help(self) -> Iterator[str]:
         return iter(())
 
-    def _unfound(self, _epoch: int, decision: dict[str, Any], _why: dict[str, Any]) -> Iterator[str]:
-        if decision["proved"]:
+    def _unfound(self) -> Iterator[str]:
+        if self.decision["proved"]:
             yield "it is proved that there is nothing"
 
-    def _late(self, _epoch: int, decision: dict[str, Any], _why: dict[str, Any]) -> Iterator[str]:
-        if decision["plan"] is not None:
+    def _late(self) -> Iterator[str]:
+        if self.decision["plan"] is not None:
             yield "there is a plan"
 
-    def _out_of_order(self, _epoch: int, _decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
+    def _out_of_order(self) -> Iterator[str]:
         robots = {self.task.agents[i] for i in self.task.robots}
-        if not set(why["robots"]) == robots == self.gone:
+        if not set(self.why["robots"]) == robots == self.gone:
             yield f"out of order are {', '.join(sorted(self.gone))}"
 
-    def _all_failed(self, *_: Any) -> Iterator[str]:
+    def _all_failed(self) -> Iterator[str]:
         left = [i for i in self._theirs() if not self.gone.intersection(self._names(i))]
         if not left or any(i not in self._failing() for i in left):
             yield "something has not"
 
-    def _out_of_reach(self, *_: Any) -> Iterator[str]:
-        free = self.task.with_goal(self.task.goal, Condition())
-        found = self._asked(free, mode="composite", horizon="inf", failing=False)
+    def _out_of_reach(self) -> Iterator[str]:
+        found = self._together()
         if found is not None and found.plan is not None:
             yield "there is a plan"
 
-    def _only_told(self, _epoch: int, _decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
-        free = self.task.with_goal(self.task.goal, Condition())
-        found = self._asked(free, mode="composite", horizon="inf", failing=False)
-        if found is not None and (found.cost is None or found.cost > why["cost"] + 1e-9):
+    def _only_told(self) -> Iterator[str]:
+        found = self._together()
+        if found is not None and (found.cost is None or found.cost > self.why["cost"] + 1e-9):
             yield f"it would cost {found.cost}"
         if self.alone(self.state) is not None:
             yield "there is a plan alone"
 
+    def _together(self) -> serendipity.Result | None:
+        """What everybody could do, robots' own goals apart."""
+        free = self.task.with_goal(self.task.goal, Condition())
+        return self._asked(free, mode="composite", horizon="inf", failing=False)
+
     # -- what has come between
 
-    def _cause(self, cause: dict[str, Any]) -> Iterator[str]:
+    def _cause(self) -> Iterator[str]:
+        cause = self.why["cause"]
         event, kind = self.epochs.get(cause["epoch"]), cause["kind"]
         if event is None:
             yield f"epoch {cause['epoch']} is not over"
@@ -275,18 +287,18 @@ class _Seen:
     def _helped(self) -> bool:
         return any(s["agents"] != [self.human] for event in self.epochs.values() for s in event["steps"])
 
-    def _plan(self, decision: dict[str, Any], why: dict[str, Any]) -> Iterator[str]:
+    def _plan(self) -> Iterator[str]:
         """The plan leads to the goal from here, and costs what is said."""
-        plan, state = decision["plan"], self.state
+        plan, state = self.decision["plan"], self.state
         for epoch in sorted({step["epoch"] for step in plan}):
             after = self._after(state, [step for step in plan if step["epoch"] == epoch])
             if after is None:
                 yield f"its epoch {epoch} is not possible"
                 return
             state = after
-        if not decision["goals"] and not self.task.goal.holds(state):
+        if not self.decision["goals"] and not self.task.goal.holds(state):
             yield "the plan misses the goal"
-        if not isclose(sum(step["cost"] for step in plan), why["cost"], abs_tol=1e-9):
+        if not isclose(sum(step["cost"] for step in plan), self.why["cost"], abs_tol=1e-9):
             yield "the plan costs something else"
 
     def _after(self, state: frozenset[int], steps: Sequence[dict[str, Any]]) -> frozenset[int] | None:
@@ -301,7 +313,7 @@ class _Seen:
         return apply(state, *chosen)
 
     def _asked(
-        self, task: Task, decision: dict[str, Any] | None = None, *, failing: bool = True, **options: Any
+        self, task: Task, *, alone: bool = False, failing: bool = True, **options: Any
     ) -> serendipity.Result | None:
         """What planning says from here, with those who are at hand; None where it comes to no end."""
         out = self.gone | {agent for step in self.running for agent in step["agents"]}
@@ -309,7 +321,7 @@ class _Seen:
         barred |= self._failing() if failing else set()
         kept = tuple(a for i, a in enumerate(self.task.actions) if i not in barred)
         smaller = replace(task, actions=kept).at(self.state)
-        plan = None if decision is None else decision["plan"]
+        plan = self.decision["plan"] if alone else None
         his = None if plan is None else [s["action"] for s in plan if s["agents"] == [self.human]]
         found = serendipity.plan(
             smaller,

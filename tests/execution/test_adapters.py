@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import pytest
 
 import serendipity
-from serendipity.execution import Execution, Moment, Omniscient, Replanner, moment_of, replay
+from serendipity.execution import Execution, Moment, Replanner, replay
 from serendipity.model import InputError, Task, UsageError
 from serendipity.robot import Adapter, Epoch, Report
-from tests.execution.reading import as_lines
+from tests.execution.living import as_lines, lived, told, verdicts
 
 
 class Scripted:
@@ -26,23 +26,13 @@ class Scripted:
         pass
 
 
-@pytest.fixture(name="room2")
-def _room2() -> Task:
-    return serendipity.example("room2")
-
-
 def live(task: Task, adapter: Adapter) -> Execution:
-    run = Execution(task, discount="0.6", adapter=adapter)
-    person = Replanner(task)
-    while not run.done:
-        run.step(person.choose(moment_of(run)))
-    return run
+    return lived(Execution(task, discount="0.6", adapter=adapter), Replanner(task))
 
 
 def test_an_adapter_sees_the_person_and_what_is_true(room2: Task) -> None:
     robot = Scripted()
-    run = live(room2, robot)
-    assert float(run.cost) == 12.6
+    assert float(live(room2, robot).cost) == 12.6
     assert [epoch.number for epoch in robot.asked] == list(range(1, 12))
     assert robot.asked[0].state == room2.init and robot.asked[0].human == "move commx room13 hall8"
     (hand_over,) = robot.asked[5].orders
@@ -59,33 +49,21 @@ def test_a_late_robot_is_noticed_and_the_person_gets_there(room2: Task) -> None:
 
 
 def test_what_took_longer_is_the_reason_once_it_is_over(room2: Task) -> None:
-    late = Scripted(*[Report("running")] * 3)
-    run = live(room2, late)
-    assert [passed.decided.verdict for passed in run.passed[1:6]] == ["helps"] * 4 + ["stopped"]
-    assert all(
-        passed.decided.reason
-        == "stopped because move_reverse robot room4 room3 took longer than epoch 4: no help pays"
-        for passed in run.passed[5:]
-    )
-    assert "helps" not in {passed.decided.verdict for passed in run.passed[7:]}
+    run = live(room2, Scripted(*[Report("running")] * 3))
+    assert verdicts(run)[1:6] == ["helps"] * 4 + ["stopped"] and "helps" not in verdicts(run)[7:]
+    said = "stopped because move_reverse robot room4 room3 took longer than epoch 4: no help pays"
+    assert {passed.decided.reason for passed in run.passed[5:]} == {said}
 
 
 def test_a_failed_action_is_tried_again_while_it_pays(room2: Task) -> None:
-    robot = Scripted(Report("failed"))
-    run = Execution(room2, discount="0.6", human_model="omniscient", told=True, adapter=robot)
-    person = Omniscient(room2)
-    while not run.done:
-        run.step(person.choose(moment_of(run)))
-    assert run.passed[0].unfinished[0].why == "failed"
-    assert run.passed[0].decided.actions[0].action == run.passed[1].decided.actions[0].action
+    first, second, *_ = told(room2, discount="0.6", adapter=Scripted(Report("failed"))).passed
+    assert first.unfinished[0].why == "failed"
+    assert first.decided.actions[0].action == second.decided.actions[0].action
 
 
 def test_what_always_fails_is_given_up(room2: Task) -> None:
     robot = Scripted(*[Report("done")] * 4, *[Report("failed")] * 30)  # all but the hand-over
-    run = Execution(room2, discount="0.6", human_model="omniscient", told=True, adapter=robot)
-    person = Omniscient(room2)
-    while not run.done and run.epoch < 40:
-        run.step(person.choose(moment_of(run)))
+    run = told(room2, discount="0.6", adapter=robot)
     tried = [passed.epoch for passed in run.passed if "hand_over" in (passed.human or "")]
     assert run.done and tried == [6, 7, 8], "a person who is told waits for no hand-over for ever"
 
@@ -98,16 +76,16 @@ def test_logs_replay_without_the_robot(room2: Task) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "complaint"),
+    ("new", "complaint"),
     [
-        ("running", "gone", "adapter: expected one of done, failed, running, got 'gone'"),
-        ("running", "done", "steps: comes out as"),
+        ("gone", "adapter: expected one of done, failed, running, got 'gone'"),
+        ("done", "steps: comes out as"),
     ],
 )
-def test_doctored_reports_are_noticed(room2: Task, old: str, new: str, complaint: str) -> None:
+def test_doctored_reports_are_noticed(room2: Task, new: str, complaint: str) -> None:
     lines = as_lines(live(room2, Scripted(Report("running"))))
     report = next(line.value for line in lines if line.value.get("reports"))["reports"][0]
-    assert report["outcome"] == old
+    assert report["outcome"] == "running"
     report["outcome"] = new
     with pytest.raises(InputError, match=complaint):
         replay(room2, lines)
@@ -118,9 +96,8 @@ def test_a_report_for_each_order(room2: Task) -> None:
         def execute(self, epoch: Epoch) -> Sequence[Report]:
             return []
 
-    run = Execution(room2, discount="0.6", human_model="omniscient", told=True, adapter=Mute())
     with pytest.raises(UsageError, match="adapter: expected 1 reports, got 0"):
-        run.step(None)
+        told(room2, discount="0.6", adapter=Mute())
 
 
 def test_runs_have_an_adapter_each(room2: Task) -> None:
@@ -135,11 +112,9 @@ def test_runs_have_an_adapter_each(room2: Task) -> None:
 
 
 def test_slow_robots_help_less(room2: Task) -> None:
-    paid = [
-        serendipity.execute(room2, discount="0.6", durations=f"move=0.5..{most}").rows[0].human_cost
-        for most in ("0.9", "9")
-    ]
-    assert paid == [11, 13]
+    durations = ("move=0.5..0.9", "move=0.5..9")
+    runs = [serendipity.execute(room2, discount="0.6", durations=each) for each in durations]
+    assert [each.rows[0].human_cost for each in runs] == [11, 13]
 
 
 @pytest.mark.parametrize(
@@ -167,7 +142,6 @@ def test_with_a_word_the_person_leaves_their_own_plan() -> None:
 
 
 def test_somebody_in_two_places_at_once_goes_on_from_one_of_them(room2: Task) -> None:
-    here = next(i for i, fact in enumerate(room2.facts) if fact == "at commx hall4")
-    state = room2.init | {here}
+    state = room2.init | {room2.facts.index("at commx hall4")}
     chosen = Replanner(room2).choose(Moment(state, (), planned=False, wish=None))
     assert any(action.name == chosen and action.applicable(state) for action in room2.actions)

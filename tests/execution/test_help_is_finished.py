@@ -14,7 +14,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar
 from serendipity.testing.generator import random_call
 from serendipity.testing.strategies import tasks
-from tests.execution.living import MOST_EPOCHS
+from tests.execution.living import MOST_EPOCHS, lived, told
 from tests.execution.test_adapters import Scripted
 
 
@@ -23,16 +23,8 @@ def _only_kit() -> Task:
     return usar("g-a-b-c-d", human="a", robots={"r": "d"}, kits={"k": "d"}, triage="g")
 
 
-def _told(task: Task, **settings: object) -> Execution:
-    run = Execution(task, discount="0.9", told=True, **settings)  # type: ignore[arg-type]
-    person = Omniscient(task)
-    while not run.done and run.epoch < MOST_EPOCHS:
-        run.step(person.choose(moment_of(run)))
-    return run
-
-
 def test_who_counts_on_the_only_kit_gets_it() -> None:
-    run = _told(_only_kit())
+    run = told(_only_kit())
     assert run.done and float(run.human_cost) < serendipity.plan(_only_kit(), mode="individual").cost
     assert "only-way" in {passed.decided.because.kind for passed in run.passed if passed.decided.because}
 
@@ -40,21 +32,25 @@ def test_who_counts_on_the_only_kit_gets_it() -> None:
 @pytest.mark.parametrize("outcome", ["failed", "running"])
 def test_what_goes_wrong_on_the_way_is_done_again(outcome: str) -> None:
     wrong = [Report(outcome)] * 5  # type: ignore[arg-type]
-    run = _told(_only_kit(), adapter=Scripted(Report("done"), *wrong))
+    run = told(_only_kit(), adapter=Scripted(Report("done"), *wrong))
     assert run.done, "what has failed too often is tried again where there is no other way"
 
 
-def test_what_nobody_can_finish_is_said() -> None:
-    run = Execution(_only_kit(), discount="0.9", told=True)
-    person = Omniscient(run.task)
-    run.step(person.choose(moment_of(run)))
+def _robot_drops_out(task: Task) -> Execution:
+    """The robot has taken the kit."""
+    run = Execution(task, discount="0.9", told=True)
+    run.step(Omniscient(task).choose(moment_of(run)))
     assert "has r k" in run.facts
     run.drop(["r"])
+    return run
+
+
+def test_what_nobody_can_finish_is_said() -> None:
+    run = _robot_drops_out(_only_kit())
     assert run.decided.verdict == "stopped" and run.decided.because is not None
     assert run.decided.because.cause is not None and run.decided.because.cause.kind == "out-of-order"
-    assert (
-        run.decided.reason == "stopped because r is out of order: nothing that anybody could do gets h there"
-    )
+    said = "stopped because r is out of order: nothing that anybody could do gets h there"
+    assert run.decided.reason == said
 
 
 @given(tasks(), st.sampled_from(["0.5", "0.9", "1"]))
@@ -66,7 +62,7 @@ def test_who_is_told_arrives_and_never_pays_more(task: Task, discount: str) -> N
 
 @given(tasks(), st.integers(0, 2**32))
 def test_who_is_told_arrives_beside_robots_that_fail(task: Task, seed: int) -> None:
-    run = _told(task, adapter=Simulated(Random(seed), fail=0.3, slow=0.3))
+    run = told(task, adapter=Simulated(Random(seed), fail=0.3, slow=0.3))
     assert run.done or serendipity.plan(task, mode="composite", horizon="inf").cost is None
 
 
@@ -125,9 +121,7 @@ def test_what_was_taken_is_given_back_to_who_strays(pays: bool) -> None:
     if not pays:
         assert (why.owed, why.alone) == (4, 6)
         assert run.decided.reason == "makes up for the 4 more that h would pay by what it has done"
-    person = Replanner(run.task.at(run.state))
-    while not run.done:
-        run.step(person.choose(moment_of(run)))
+    assert lived(run, Replanner(run.task.at(run.state))).done
 
 
 def test_what_cannot_be_given_back_is_said() -> None:
@@ -143,11 +137,7 @@ def test_what_cannot_be_given_back_is_said() -> None:
 
 def test_who_has_gone_out_of_their_way_is_told_what_that_costs() -> None:
     task = usar("g-a-b-c-d a-e-f-i-j-l", human="a", robots={"r": "d"}, kits={"k": "d", "m": "l"}, triage="g")
-    run = Execution(task, discount="0.9", told=True)
-    person = Omniscient(task)
-    run.step(person.choose(moment_of(run)))
-    assert "has r k" in run.facts
-    run.drop(["r"])
+    run = _robot_drops_out(task)
     untouched = task.at(run.state - {task.facts.index("has r k")} | {task.facts.index("at k d")})
     now, before = (serendipity.plan(t, mode="individual").cost for t in (task.at(run.state), untouched))
     why = run.decided.because
@@ -170,8 +160,5 @@ def test_two_robots_do_at_once_only_what_one_of_them_may_fail_in() -> None:
         },
     )
     assert len(Execution(task).decided.actions) == 2, "where nothing fails"
-    run = Execution(task, adapter=Scripted(Report("done"), Report("failed")))
-    person = Replanner(task)
-    while not run.done:
-        run.step(person.choose(moment_of(run)))
-    assert run.human_cost <= 4
+    run = lived(Execution(task, adapter=Scripted(Report("done"), Report("failed"))), Replanner(task))
+    assert run.done and run.human_cost <= 4

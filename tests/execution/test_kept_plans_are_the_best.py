@@ -3,9 +3,9 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from serendipity.execution.advice import Question
-from serendipity.execution.guard import Hands
-from serendipity.execution.imagined import Imagined
+from serendipity.execution.advice import DecisionPoint
+from serendipity.execution.guard import RobotActions
+from serendipity.execution.hypotheses import Hypothesis
 from serendipity.execution.world import World
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.strategies import corridor_tasks, usar_tasks
@@ -19,22 +19,20 @@ from serendipity.testing.strategies import corridor_tasks, usar_tasks
 )
 def test_epoch_by_epoch(task: Task, discount: str, human_model: str) -> None:
     options = Options(discount=discount, human_model=human_model)  # type: ignore[arg-type]
-    hands, world = Hands(task), World(task, options.discount, strict=False)
-    keeping = Imagined(task, options, hands, task.init, Deadline(), told=True)
+    actions, world = RobotActions(task), World(task, options.discount, strict=False)
+    keeping = Hypothesis(task, options, actions, task.init, Deadline(), told=True)
     for _ in range(10):
         keeping.following.look(world.state)
         if keeping.following.hopeless or not keeping.following.promise():
             break
-        question = Question(
-            world.state, keeping.following, frozenset(), frozenset(), frozenset(), lambda _: True
-        )
-        kept = keeping.adviser.advise(question, Deadline())
-        other = Imagined(task, options, hands, task.init, Deadline(), told=True)
-        fresh = other.adviser.advise(question, Deadline())
+        now = DecisionPoint(world.state, frozenset(), frozenset(), frozenset(), lambda _: True)
+        kept = keeping.adviser.advise(keeping.following, now, Deadline())
+        other = Hypothesis(task, options, actions, task.init, Deadline(), told=True)
+        fresh = other.adviser.advise(keeping.following, now, Deadline())
         assert kept is not None and fresh is not None
         assert (kept.cost, kept.proved) == (fresh.cost, fresh.proved)
-        now = [world.of(step) for step in kept.plan if step.epoch == 1]
-        world.state = world.after(now)
-        his = [i for i in now if task.human in task.actions[i].participants]
+        done = [world.of(step) for step in kept.plan if step.epoch == 1]
+        world.state = world.after(done)
+        his = [i for i in done if task.human in task.actions[i].participants]
         own = his[0] if his and not task.actions[his[0]].joint else None
-        keeping.following.acted(own, now)
+        keeping.following.acted(own, done)

@@ -20,8 +20,7 @@ from serendipity.execution import (
 from serendipity.model import InputError, Task
 from serendipity.robot import Simulated
 from serendipity.testing.strategies import tasks
-from tests.execution.living import other_goals
-from tests.execution.reading import as_lines
+from tests.execution.living import as_lines, other_goals
 
 
 @given(tasks(), st.integers(0, 2**32))

@@ -3,21 +3,15 @@
 import pytest
 
 import serendipity
-from serendipity.execution import Execution, Omniscient, Replanner, moment_of
+from serendipity.execution import Execution, Omniscient, Replanner
 from serendipity.model import Condition, InputError, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar
+from tests.execution.living import lived, verdicts
 
 
 def _live(run: Execution, person: Replanner | Omniscient) -> list[str]:
-    while not run.done:
-        run.step(person.choose(moment_of(run)))
-    return [passed.decided.verdict for passed in run.passed]
-
-
-@pytest.fixture(name="room2")
-def _room2() -> Task:
-    return serendipity.example("room2")
+    return verdicts(lived(run, person))
 
 
 @pytest.mark.parametrize("human_model", ["observant", "local"])

@@ -12,8 +12,9 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.live.play.opening import open_table
 from serendipity.live.play.records import Records, read
+from serendipity.live.play.rounds import SharedRounds
+from serendipity.live.play.setting import RoundSetting
 from serendipity.live.study.design import open_design
 from serendipity.live.study.participant import Participant
 from serendipity.model import UsageError
@@ -69,12 +70,15 @@ def test_a_participant_goes_on(folder: Path, request: pytest.FixtureRequest, mon
 
 def test_a_player_goes_on(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     task, file = serendipity.example("room2"), tmp_path / "a.jsonl"
-    table = open_table("room2", task, file, discount=Fraction(3, 5))
+    setting = RoundSetting("room2", task, Fraction(3, 5))
+    table = SharedRounds(setting, file)
     request.getfixturevalue("often_full")
     for action in serendipity.plan(task, mode="individual").human_plan[:3]:
         until_written(table.do, {"do": "act", "moment": table.view()["moment"], "action": action})
-    again = open_table("room2", task, file, discount=Fraction(3, 5))
-    assert again.view() == table.view()
+    shown = [rounds.view() for rounds in (table, SharedRounds(setting, file))]
+    for view in shown:
+        del view["thinking"]["milliseconds"]
+    assert shown[0] == shown[1]
     until_written(table.do, {"do": "again"})
     assert table.view()["round"] == 2
 

@@ -11,10 +11,10 @@ from websockets.sync.client import connect
 import serendipity
 from serendipity.cli.app import main
 from serendipity.live.play.application import Room
-from serendipity.live.play.labels import Labels, labels_for
+from serendipity.live.play.labels import DomainLabels, labels_for
 from serendipity.live.play.records import as_csv, read
-from serendipity.live.play.setting import Setting
-from serendipity.live.play.table import Table
+from serendipity.live.play.rounds import SharedRounds
+from serendipity.live.play.setting import RoundSetting
 from serendipity.model import InputError, UsageError
 from serendipity.scenarios.examples import EXAMPLES
 from serendipity.testing.builders import task as build
@@ -26,10 +26,12 @@ TO_ROOM1 = ["go to hall3", "go to hall2", "go to hall1", "go to room1", "give tr
 TAKE = "take medkit mk2 from the robot"
 
 
-def setting(**changes: Any) -> Setting:
+def setting(**changes: Any) -> RoundSetting:
     task = changes.pop("task", None) or serendipity.example("room2")
     labels = labels_for(task)
-    return Setting(**{"name": "room2", "task": task, "discount": Fraction(3, 5), "labels": labels, **changes})
+    return RoundSetting(
+        **{"name": "room2", "task": task, "discount": Fraction(3, 5), "labels": labels, **changes}
+    )
 
 
 def go(host: Room, *texts: str) -> dict[str, Any]:
@@ -42,7 +44,7 @@ def go(host: Room, *texts: str) -> dict[str, Any]:
 
 
 def test_the_papers_example() -> None:
-    table = Table(setting())
+    table = SharedRounds(setting())
     view = go(table, *TO_HALL4)
     assert view["can"][0] == {
         "action": "hand_over robot commx mk2 hall4",
@@ -70,7 +72,7 @@ def test_the_papers_example() -> None:
     [("none", 13.0, False), ("silent", 12.6, False), ("announced", 12.6, True)],
 )
 def test_what_robots_do_in_each_condition(name: str, team: float, said: bool) -> None:
-    table = Table(setting(condition=name))
+    table = SharedRounds(setting(condition=name))
     view = go(table, *TO_HALL4)
     assert (view["said"] is not None) is said
     helped = name != "none"
@@ -85,7 +87,9 @@ def test_what_robots_do_in_each_condition(name: str, team: float, said: bool) ->
 
 
 def test_several_robots_speak_one_after_the_other() -> None:
-    table = Table(setting(name="taxis", task=serendipity.example("taxis"), discount=1, condition="announced"))
+    table = SharedRounds(
+        setting(name="taxis", task=serendipity.example("taxis"), discount=1, condition="announced")
+    )
     said = table.view()["said"]
     assert said is not None
     assert "I will" not in said
@@ -93,7 +97,7 @@ def test_several_robots_speak_one_after_the_other() -> None:
 
 
 def test_somebody_with_a_local_view_knows_what_they_saw_last() -> None:
-    table = Table(setting(view="local"))
+    table = SharedRounds(setting(view="local"))
     view = go(table, *TO_HALL4[:4])
     assert len(view["map"]["remembered"]) == 3, "the robot and both medkits"
     assert not any(entry["others"] for entry in view["log"])
@@ -106,7 +110,7 @@ def test_somebody_with_a_local_view_knows_what_they_saw_last() -> None:
 
 def test_turning_off_towards_another_kit(tmp_path: Path) -> None:
     task = serendipity.load_pddl(DOMAIN, with_third_kit(tmp_path, "room6"), "commx", ["robot"])
-    table = Table(setting(task=task))
+    table = SharedRounds(setting(task=task))
     view = go(table, "go to hall8", "go to hall7", "go to room7", "go to room6", "pick up medkit mk3")
     assert view["thinking"]["verdict"] == "stopped"
     view = go(table, "go to room7", "go to hall7", "go to hall6", "go to hall5", "go to hall4", *TO_ROOM1)
@@ -116,7 +120,7 @@ def test_turning_off_towards_another_kit(tmp_path: Path) -> None:
 def test_two_goals(tmp_path: Path) -> None:
     problem = with_third_kit(tmp_path, "room8", robot="room3")
     task = serendipity.load_pddl(DOMAIN, problem, "commx", ["robot"])
-    table = Table(setting(task=task, goals=two_goals(tmp_path), deadline=0.5))
+    table = SharedRounds(setting(task=task, goals=two_goals(tmp_path), deadline=0.5))
     assert [goal["share"] for goal in table.view()["thinking"]["goals"]] == [0.5, 0.5]
     view = go(table, *TO_HALL4, TAKE, *TO_ROOM1)
     assert view["end"]["team"] == 12.2
@@ -137,14 +141,14 @@ def test_two_goals(tmp_path: Path) -> None:
     ids=str,
 )
 def test_what_a_page_can_not_ask_for(message: dict[str, Any]) -> None:
-    table = Table(setting())
+    table = SharedRounds(setting())
     with pytest.raises(UsageError):
         table.do(message)
     assert table.view()["epoch"] == 1
 
 
 def test_what_is_chosen_twice_or_for_another_epoch_does_nothing() -> None:
-    table = Table(setting())
+    table = SharedRounds(setting())
     sent = {"do": "act", "moment": "1.1", "action": "move commx room13 hall8"}
     assert table.do(sent) is None
     assert table.do(sent) == {}
@@ -156,7 +160,7 @@ def test_robots_that_announce_their_plan_count_on_somebody_who_knows_it() -> Non
     told = setting(task=serendipity.example("room7"), condition="announced").execution()
     silent = setting(task=serendipity.example("room7")).execution()
     assert (told.options.human_model, silent.options.human_model) == ("omniscient", "observant")
-    table = Table(setting(name="announced", condition="announced"))
+    table = SharedRounds(setting(name="announced", condition="announced"))
     said = table.view()["said"]
     assert said.startswith("I will ")
     assert "hand medkit mk2 to you (epoch 6)" in said
@@ -165,7 +169,7 @@ def test_robots_that_announce_their_plan_count_on_somebody_who_knows_it() -> Non
 
 def test_robots_that_announce_what_they_do_say_that_they_have_stopped(tmp_path: Path) -> None:
     task = serendipity.load_pddl(DOMAIN, with_third_kit(tmp_path, "room6"), "commx", ["robot"])
-    table = Table(setting(task=task, condition="announced"))
+    table = SharedRounds(setting(task=task, condition="announced"))
     view = go(table, *TO_HALL4[:2], "go to room7", "go to room6", "pick up medkit mk3")
     while view["thinking"]["verdict"] != "stopped":
         view = go(table, "wait")
@@ -174,25 +178,25 @@ def test_robots_that_announce_what_they_do_say_that_they_have_stopped(tmp_path: 
 
 def test_a_round_goes_on_from_its_record(tmp_path: Path) -> None:
     file = tmp_path / "record.jsonl"
-    before = go(Table(setting(), file), *TO_HALL4)
-    again = Table(setting(), file)
+    before = go(SharedRounds(setting(), file), *TO_HALL4)
+    again = SharedRounds(setting(), file)
     view = again.view()
     assert {**view, "thinking": None} == {**before, "thinking": None}
     assert go(again, TAKE, *TO_ROOM1)["end"]["team"] == 12.6
-    assert Table(setting(), file).view()["moment"] == "2.1", "that round is over"
+    assert SharedRounds(setting(), file).view()["moment"] == "2.1", "that round is over"
     with pytest.raises(InputError, match="of another task, or was played otherwise"):
-        Table(setting(discount=Fraction(1, 2)), file)
+        SharedRounds(setting(discount=Fraction(1, 2)), file)
     file.write_text(file.read_text().replace("move_reverse commx hall8 hall7", "move commx hall8 room8"))
     events, _ = read(file)
     file.write_text(
         "".join(json.dumps(e) + "\n" for e in events if e.get("round") == 1 and e["event"] != "again")
     )
     with pytest.raises(InputError, match="epoch 2: comes out otherwise than it is recorded"):
-        Table(setting(), file)
+        SharedRounds(setting(), file)
 
 
 def test_what_was_shown_and_said_is_recorded() -> None:
-    table = Table(setting(condition="announced"))
+    table = SharedRounds(setting(condition="announced"))
     go(table, *TO_HALL4)
     last = table.events()[-1]
     assert last["choices"] == ["go to hall6", "go to hall4", "go to room12", "go to room5", "wait"]
@@ -230,7 +234,7 @@ def test_shipped_domains_have_sentences_for_everything(name: str) -> None:
     labels = labels_for(task)
     assert labels.complete(task)
     assert labels.about
-    view = Table(setting(name=name, task=task)).view()
+    view = SharedRounds(setting(name=name, task=task)).view()
     texts = [part["text"] for part in (*view["goal"], *view["can"])]
     assert not any(mark in text for text in texts for mark in "_{}")
 
@@ -238,11 +242,11 @@ def test_shipped_domains_have_sentences_for_everything(name: str) -> None:
 def test_sentences_of_a_file(tmp_path: Path) -> None:
     task, file = serendipity.example("room2"), tmp_path / "labels.toml"
     file.write_text('[things]\nmk = "the kit {}"\n[actions]\npick_up_medkit = "take {1}"\n')
-    view = Table(setting(labels=labels_for(task, file))).view()
+    view = SharedRounds(setting(labels=labels_for(task, file))).view()
     assert view["goal"][0]["text"] == "conducted triage room1", "what has no label is said by its name"
-    assert Labels(things={"mk": "the kit {}"}).thing("mk12") == "the kit mk12"
+    assert DomainLabels(things={"mk": "the kit {}"}).thing("mk12") == "the kit mk12"
     (tmp_path / "ground").mkdir()
-    assert Labels(actions={"pick_up": ("get {1}",)}).action("pick_up_commx_mk1") == (
+    assert DomainLabels(actions={"pick_up": ("get {1}",)}).action("pick_up_commx_mk1") == (
         ("get {1}",),
         ("commx", "mk1"),
     )
@@ -324,7 +328,7 @@ def test_what_was_played_outlives_a_server_that_is_killed() -> None:
 
 
 def test_a_map_has_room_for_all_that_comes_together_and_never_shrinks() -> None:
-    table = Table(setting(name="taxis", task=serendipity.example("taxis"), discount=1))
+    table = SharedRounds(setting(name="taxis", task=serendipity.example("taxis"), discount=1))
     widths = [table.view()["map"]["width"]]
     while (view := table.view())["end"] is None:
         able = [choice for choice in view["can"] if choice["kind"] in ("offer", "go")] or view["can"]
@@ -350,5 +354,5 @@ def test_a_port_in_use_is_one_line(capsys, tmp_path: Path, monkeypatch: pytest.M
 def test_what_changes_nothing_is_no_choice() -> None:
     there = {f"go h {a} {b}": f"at_h_{a} -> at_h_{b}" + f" !at_h_{a}" * (a != b) for a in "ab" for b in "ab"}
     task = build(init="at_h_a", goal="at_h_b", actions={**there, "wave r": "-> waved"})
-    view = Table(Setting("here", task, Fraction(1, 2))).view()
+    view = SharedRounds(RoundSetting("here", task, Fraction(1, 2))).view()
     assert [choice["text"] for choice in view["can"]] == ["go to b", "wait"]

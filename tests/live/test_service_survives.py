@@ -12,7 +12,7 @@ import pytest
 from starlette.exceptions import HTTPException
 
 from serendipity.cli.app import main
-from serendipity.live.service.sessions import Sessions
+from serendipity.live.service.sessions import SessionStore
 from tests.live.server import Server, serving, workers_of
 
 ROOM2 = {"example": "room2"}
@@ -163,7 +163,7 @@ def test_what_workers_have_in_temporary_files_goes_with_them(tmp_path: Path) -> 
 
 
 def test_sessions_have_a_share_of_memory() -> None:
-    sessions = Sessions(1000, 3 * 2**20, 3600)
+    sessions = SessionStore(1000, 3 * 2**20, 3600)
     begun = {"task": {"domain": "\N{ROBOT FACE}" * 2**18}}  # four bytes each
     for _ in range(2):
         sessions.add(sessions.begin(begun))
@@ -181,7 +181,7 @@ def test_each_request_has_a_line_of_log(tmp_path: Path) -> None:
         answer = server.client.get("/health")
         server.client.get("/nowhere%0a")
         _, said = server.stop()
-    lines = [line for line in said.splitlines() if "access_log" in line]
+    lines = [line for line in said.splitlines() if "guards.responses" in line]
     assert len(lines) == 2
     assert "127.0.0.1 'GET /health' 200" in lines[0]
     assert lines[0].endswith(answer.headers["x-request-id"])

@@ -9,7 +9,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.app import main
-from serendipity.live.play.setting import CONDITIONS, Setting
+from serendipity.live.play.setting import CONDITIONS, RoundSetting
 from serendipity.live.study.balance import order, places
 from serendipity.live.study.design import open_design
 from serendipity.live.study.drawing import draw
@@ -60,12 +60,12 @@ def test_a_scenario_in_which_conditions_do_not_differ_is_refused(folder: Path, c
 
 
 def test_what_is_no_scenario_of_a_condition() -> None:
-    played = rehearse(Setting("taxis", serendipity.example("taxis"), Fraction(1, 2)), NAMES)
+    played = rehearse(RoundSetting("taxis", serendipity.example("taxis"), Fraction(1, 2)), NAMES)
     assert fault(played, NAMES) is None
     assert fault({**played, "silent": played["none"]}, ("none", "silent")) == "silent robots save nothing"
     lost = {
         **played,
-        "silent": rehearse(Setting("x", serendipity.example("room2"), Fraction(0), most_epochs=3), ())[
+        "silent": rehearse(RoundSetting("x", serendipity.example("room2"), Fraction(0), most_epochs=3), ())[
             "none"
         ],
     }

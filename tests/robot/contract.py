@@ -1,9 +1,10 @@
 """What every adapter keeps to."""
 
-from serendipity.execution import Execution, Omniscient, moment_of, replay
+from serendipity.execution import Execution, replay
 from serendipity.model import Task
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Report
-from tests.execution.reading import as_lines
+from tests.execution import living
+from tests.execution.living import as_lines
 
 WALK = Order(("robot",), "move_reverse robot room4 room3")
 LIFT = Order(("robot",), "pick_up_medkit robot mk2 room3")
@@ -17,10 +18,7 @@ def told(task: Task, adapter: Adapter, number: int, *orders: Order) -> list[Repo
 def keeps_its_contract(task: Task, adapter: Adapter) -> Execution:
     """Live through the paper's III-C with robots that an adapter moves, and play the log again."""
     assert told(task, adapter, 1) == [], "a report for each order"
-    run = Execution(task, discount="0.6", human_model="omniscient", told=True, adapter=adapter)
-    person = Omniscient(task)
-    while not run.done and run.epoch < 40:
-        run.step(person.choose(moment_of(run)))
+    run = living.told(task, discount="0.6", adapter=adapter)
     adapter.close()
     assert run.done
     for passed in run.passed:

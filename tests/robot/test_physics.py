@@ -18,11 +18,6 @@ from tests.robot.contract import LIFT, WALK, keeps_its_contract, told
 __all__ = ["run"]  # a fixture
 
 
-@pytest.fixture(name="room2")
-def _room2() -> Task:
-    return serendipity.example("room2")
-
-
 @pytest.fixture(name="needs_bullet", scope="module")
 def _needs_bullet() -> None:
     pytest.importorskip("pybullet", reason="needs the extra 'robot'")

@@ -4,15 +4,9 @@ from random import Random
 
 import pytest
 
-import serendipity
 from serendipity.model import Task, UsageError
 from serendipity.robot import Durations, Report, Simulated
 from tests.robot.contract import LIFT, WALK, keeps_its_contract, told
-
-
-@pytest.fixture(name="room2")
-def _room2() -> Task:
-    return serendipity.example("room2")
 
 
 def test_contract(room2: Task) -> None:

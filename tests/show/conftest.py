@@ -1,6 +1,7 @@
 """Scenes that several tests look at."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
@@ -15,6 +16,17 @@ def ground(task: Task) -> Task:
     actions = (replace(action, name=action.name.replace(" ", "_")) for action in task.actions)
     ordered = tuple(sorted(actions, key=lambda action: action.key))
     return replace(task, facts=tuple(f.replace(" ", "_") for f in task.facts), actions=ordered)
+
+
+def walk(who: str, *ways: str) -> dict[str, str]:
+    """Moves for :func:`build`, between places joined by ``-``, and back."""
+    pairs = [pair for way in ways for a, b in pairwise(way.split("-")) for pair in ((a, b), (b, a))]
+    return {f"walk {who} {a} {b}": f"at_{who}_{a} -> at_{who}_{b} !at_{who}_{a}" for a, b in pairs}
+
+
+def spaced(built: Task) -> Task:
+    """A task of :func:`build` as lifted files write it: blanks in the names of facts."""
+    return replace(built, facts=tuple(fact.replace("_", " ") for fact in built.facts))
 
 
 @pytest.fixture(scope="session")

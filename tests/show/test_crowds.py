@@ -2,7 +2,7 @@
 
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, permutations
 from pathlib import Path
 
 import pytest
@@ -16,7 +16,8 @@ from serendipity.pictures.map.names import elided
 from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture
 from serendipity.pictures.scene.scene import Meeting
-from serendipity.testing.builders import _atom_task
+from serendipity.testing.builders import task as build
+from tests.show.conftest import spaced, walk
 from tests.show.drawn import SVG, Drawn, drawn_tokens
 
 H = 0
@@ -24,27 +25,18 @@ H = 0
 
 def lorry(loads: int) -> Task:
     """A driver, a lorry and things to load, all in one place; the first is wanted in the other."""
-    actions: dict[str, tuple[tuple[str, ...], str, str]] = {}
     things = [f"consignment{i}" for i in range(1, loads + 1)]
-    for a, b in (("west", "east"), ("east", "west")):
-        actions[f"walk h {a} {b}"] = (("h",), f"at h {a}", f"at h {b}, !at h {a}")
-        actions[f"drive h {a} {b}"] = (("h",), f"in h lorry, at lorry {a}", f"at lorry {b}, !at lorry {a}")
-        actions[f"enter h {a}"] = (("h",), f"at h {a}, at lorry {a}", f"in h lorry, !at h {a}")
-        actions[f"leave h {a}"] = (("h",), f"in h lorry, at lorry {a}", f"at h {a}, !in h lorry")
+    actions = walk("h", "west-east")
+    for a, b in permutations(("west", "east")):
+        actions[f"drive h {a} {b}"] = f"in_h_lorry at_lorry_{a} -> at_lorry_{b} !at_lorry_{a}"
+        actions[f"enter h {a}"] = f"at_h_{a} at_lorry_{a} -> in_h_lorry !at_h_{a}"
+        actions[f"leave h {a}"] = f"in_h_lorry at_lorry_{a} -> at_h_{a} !in_h_lorry"
         for thing in things:
-            near = f"in h lorry, at lorry {a}"
-            actions[f"load h {thing} {a}"] = (
-                ("h",),
-                f"{near}, at {thing} {a}",
-                f"in {thing} lorry, !at {thing} {a}",
-            )
-            actions[f"unload h {thing} {a}"] = (
-                ("h",),
-                f"{near}, in {thing} lorry",
-                f"at {thing} {a}, !in {thing} lorry",
-            )
-    init = ["at h west", "at lorry west", *(f"at {thing} west" for thing in things)]
-    return _atom_task(("h", "r"), init, "at consignment1 east", actions)
+            near, there, loaded = f"in_h_lorry at_lorry_{a}", f"at_{thing}_{a}", f"in_{thing}_lorry"
+            actions[f"load h {thing} {a}"] = f"{near} {there} -> {loaded} !{there}"
+            actions[f"unload h {thing} {a}"] = f"{near} {loaded} -> {there} !{loaded}"
+    init = " ".join(["at_h_west at_lorry_west", *(f"at_{thing}_west" for thing in things)])
+    return spaced(build(init=init, goal="at_consignment1_east", actions=actions))
 
 
 def played(task: Task) -> Scene:
@@ -65,14 +57,9 @@ def kept_apart(scene: Scene, epoch: int) -> dict[str, Drawn]:
     assert scene.layout is not None
     for key, token in tokens.items():
         assert sheet.encloses(token), (epoch, key)
-        assert any(
-            abs((token.left + token.right) / 2 - MARGIN - box.x) <= box.width / 2
-            and token.left >= MARGIN + box.x - box.width / 2
-            and token.right <= MARGIN + box.x + box.width / 2
-            and token.top >= MARGIN + box.y - box.height / 2 + 25
-            and token.bottom <= MARGIN + box.y + box.height / 2
-            for box in scene.layout.boxes.values()
-        ), (epoch, key)
+        boxes = (box.moved(MARGIN, MARGIN) for box in scene.layout.boxes.values())
+        within = (Drawn(box.left, box.top + 25, box.right, box.bottom, "", "") for box in boxes)
+        assert any(room.encloses(token) for room in within), (epoch, key)
     return tokens
 
 
@@ -169,14 +156,15 @@ def test_several_meetings_in_one_place_have_one_tag(room2: Scene) -> None:
 
 
 def test_hoists_are_places_and_who_only_drives_is_where_the_lorry_is() -> None:
-    actions: dict[str, tuple[tuple[str, ...], str, str]] = {}
-    for a, b in (("yard", "shop"), ("shop", "yard")):
-        actions[f"drive dan {a} {b}"] = (("dan",), f"at lorry {a}", f"at lorry {b}, !at lorry {a}")
-        actions[f"lift {a} c"] = ((a,), f"at c {a}", f"lifting {a} c, !at c {a}")
-        actions[f"load {a} c"] = ((a,), f"lifting {a} c, at lorry {a}", f"in c lorry, !lifting {a} c")
-        actions[f"unload {a} c"] = ((a,), f"in c lorry, at lorry {a}", f"lifting {a} c, !in c lorry")
-        actions[f"lower {a} c"] = ((a,), f"lifting {a} c", f"at c {a}, !lifting {a} c")
-    task = _atom_task(("dan", "yard", "shop"), ["at lorry yard", "at c yard"], "at c shop", actions)
+    actions = {}
+    for a, b in permutations(("yard", "shop")):
+        actions[f"drive dan {a}_{b}"] = f"at_lorry_{a} -> at_lorry_{b} !at_lorry_{a}"
+        actions[f"lift {a} c"] = f"at_c_{a} -> lifting_{a}_c !at_c_{a}"
+        actions[f"load {a} c"] = f"lifting_{a}_c at_lorry_{a} -> in_c_lorry !lifting_{a}_c"
+        actions[f"unload {a} c"] = f"in_c_lorry at_lorry_{a} -> lifting_{a}_c !in_c_lorry"
+        actions[f"lower {a} c"] = f"lifting_{a}_c -> at_c_{a} !lifting_{a}_c"
+    built = {"agents": "dan yard shop", "human": "dan", "init": "at_lorry_yard at_c_yard"}
+    task = spaced(build(**built, goal="at_c_shop", actions=actions))
     assert find_places(task).names == ("shop", "yard")
     scene = build_scene(task, serendipity.plan(task, mode="composite", discount="0.5", horizon=6))
     start, end = scene.frames[0], scene.frames[-1]

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.model import Task
 from serendipity.pictures.map.floor_plan import corridor, floor_plan
-from serendipity.pictures.map.layout import Box, Layout, lay_out
+from serendipity.pictures.map.layout import Box, MapLayout, lay_out
 from serendipity.pictures.map.places import Places, find_places
 from serendipity.testing.builders import task as build
 
@@ -36,10 +36,8 @@ def graphs(draw: st.DrawFn) -> list[tuple[str, str]]:
 
 def overlap(a: Box, b: Box) -> bool:
     inside = 1e-6
-    return (
-        abs(a.x - b.x) < (a.width + b.width) / 2 - inside
-        and abs(a.y - b.y) < (a.height + b.height) / 2 - inside
-    )
+    across = min(a.right, b.right) - max(a.left, b.left)
+    return across > inside and min(a.bottom, b.bottom) - max(a.top, b.top) > inside
 
 
 def touch(a: Box, b: Box) -> bool:
@@ -49,14 +47,10 @@ def touch(a: Box, b: Box) -> bool:
     return beside or (above and abs(a.x - b.x) < (a.width + b.width) / 2 - 1e-6)
 
 
-def inside(layout: Layout) -> bool:
-    return all(
-        box.x - box.width / 2 >= -1e-6
-        and box.y - box.height / 2 >= -1e-6
-        and box.x + box.width / 2 <= layout.width + 1e-6
-        and box.y + box.height / 2 <= layout.height + 1e-6
-        for box in layout.boxes.values()
-    )
+def inside(layout: MapLayout) -> bool:
+    boxes, slack = layout.boxes.values(), 1e-6
+    inner = min(min(box.left, box.top) for box in boxes) >= -slack
+    return inner and all(b.right <= layout.width + slack and b.bottom <= layout.height + slack for b in boxes)
 
 
 @given(trees())
@@ -91,8 +85,8 @@ def test_figure_2_has_the_hall_as_corridor_and_the_rooms_beside_it() -> None:
 
 def test_parts_that_no_way_connects_stand_side_by_side() -> None:
     layout = lay_out(places_of([("a", "b"), ("c", "d")]))
-    right = max(layout.boxes[place].x + layout.boxes[place].width / 2 for place in "ab")
-    assert right < min(layout.boxes[place].x - layout.boxes[place].width / 2 for place in "cd")
+    boxes = layout.boxes
+    assert max(boxes[place].right for place in "ab") < min(boxes[place].left for place in "cd")
 
 
 def test_coordinates_in_names_make_a_grid() -> None:

@@ -7,8 +7,9 @@ from serendipity.model import Task
 from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.scenarios.building import figure2
 from serendipity.testing import cases
-from serendipity.testing.builders import _atom_task, usar
-from tests.show.conftest import ground
+from serendipity.testing.builders import task as build
+from serendipity.testing.builders import usar
+from tests.show.conftest import ground, spaced, walk
 
 
 def test_figure_2_is_found_as_it_was_written() -> None:
@@ -58,14 +59,13 @@ def test_tasks_without_moves_have_no_map() -> None:
 def _pushing() -> Task:
     """A human pushes a crate along a row of cells; free cells are facts of their own."""
     cells = ["c1", "c2", "c3", "c4"]
-    actions: dict[str, tuple[tuple[str, ...], str, str]] = {}
+    actions = {}
     for a, b in [*pairwise(cells), *pairwise(cells[::-1])]:
-        effects = f"at h {b}, free {a}, !at h {a}, !free {b}"
-        actions[f"walk h {a} {b}"] = (("h",), f"at h {a}, free {b}", effects)
+        actions[f"walk h {a} {b}"] = f"at_h_{a} free_{b} -> at_h_{b} free_{a} !at_h_{a} !free_{b}"
     for a, b, c in zip(cells, cells[1:], cells[2:], strict=False):
-        effects = f"at h {b}, at crate {c}, free {a}, !at h {a}, !at crate {b}, !free {c}"
-        actions[f"push h {a} {b} {c}"] = (("h",), f"at h {a}, at crate {b}, free {c}", effects)
-    return _atom_task(("h", "r"), ["at h c1", "at crate c2", "free c3", "free c4"], "at crate c4", actions)
+        effects = f"at_h_{b} at_crate_{c} free_{a} !at_h_{a} !at_crate_{b} !free_{c}"
+        actions[f"push h {a} {b} {c}"] = f"at_h_{a} at_crate_{b} free_{c} -> {effects}"
+    return spaced(build(init="at_h_c1 at_crate_c2 free_c3 free_c4", goal="at_crate_c4", actions=actions))
 
 
 def test_a_crate_that_is_pushed_is_no_agent() -> None:
@@ -77,26 +77,23 @@ def test_a_crate_that_is_pushed_is_no_agent() -> None:
 
 
 def test_who_rides_is_where_the_vehicle_is() -> None:
-    actions: dict[str, tuple[tuple[str, ...], str, str]] = {}
-    for a, b in (("p", "q"), ("q", "p")):
-        actions[f"walk h {a} {b}"] = (("h",), f"at h {a}", f"at h {b}, !at h {a}")
-        actions[f"drive h {a} {b}"] = (("h",), f"in h car, at car {a}", f"at car {b}, !at car {a}")
-        actions[f"enter h {a}"] = (("h",), f"at h {a}, at car {a}", f"in h car, !at h {a}")
-        actions[f"leave h {a}"] = (("h",), f"in h car, at car {a}", f"at h {a}, !in h car")
-    task = _atom_task(("h", "r"), ["at h p", "at car p"], "at h q", actions)
+    actions = walk("h", "p-q")
+    for a, b in ("pq", "qp"):
+        actions[f"drive h {a} {b}"] = f"in_h_car at_car_{a} -> at_car_{b} !at_car_{a}"
+        actions[f"enter h {a}"] = f"at_h_{a} at_car_{a} -> in_h_car !at_h_{a}"
+        actions[f"leave h {a}"] = f"in_h_car at_car_{a} -> at_h_{a} !in_h_car"
+    task = spaced(build(init="at_h_p at_car_p", goal="at_h_q", actions=actions))
     places = find_places(task)
     assert {task.facts[f]: name for f, name in places.riding[0].items()} == {"in h car": "car"}
 
 
 def test_the_place_may_stand_before_the_agent() -> None:
-    actions: dict[str, tuple[tuple[str, ...], str, str]] = {}
-    for who in ("h", "r"):
-        for a, b in (("p", "q"), ("q", "p")):
-            actions[f"walk {who} {a} {b}"] = (
-                (who,),
-                f"holds {a} {who}",
-                f"holds {b} {who}, !holds {a} {who}",
-            )
-    places = find_places(_atom_task(("h", "r"), ["holds p h", "holds q r"], "holds q h", actions))
+    actions = {
+        f"walk {who} {a} {b}": f"holds_{a}_{who} -> holds_{b}_{who} !holds_{a}_{who}"
+        for who in "hr"
+        for a, b in ("pq", "qp")
+    }
+    task = build(init="holds_p_h holds_q_r", goal="holds_q_h", actions=actions)
+    places = find_places(spaced(task))
     assert places.names == ("p", "q")
     assert sorted(places.positions) == [0, 1]

@@ -66,9 +66,9 @@ def interruptions(
         report = serendipity.interruptions(task, on_progress=on_progress, deadline=early, **options)
     answers = [output.Answer(_shown(report, form, every=every), output_file)]
     if heat_map is not None:
-        from serendipity.pictures import draw_windows
+        from serendipity.facade.interruptibility import drawn
 
-        answers.append(output.Answer(draw_windows(report, heat_map.suffix), heat_map, "--heat-map"))
+        answers.append(output.Answer(drawn(report, heat_map.suffix), heat_map, "--heat-map"))
     output.write_answers(answers)
     return _code(report)
 

@@ -124,8 +124,8 @@ def play(
         raise UsageError(f"--rounds: expected a number from 1 to 50, got {rounds}")
     try:
         from serendipity.live.guards import addresses
+        from serendipity.live.guards.connections import serve as run
         from serendipity.live.play.application import application
-        from serendipity.live.server import serve as run
     except ImportError as missing:
         raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
     opened: Host
@@ -151,17 +151,18 @@ def play(
                 tell(f"Warning: {fault}")
             run(application(opened, addresses.hosts(host, allow_host or ())), listener)
         return ExitCode.ANSWERED
-    from serendipity.live.play.opening import open_table, record_in
+    from serendipity.live.play.labels import labels_for
+    from serendipity.live.play.records import record_in
+    from serendipity.live.play.rounds import SharedRounds
+    from serendipity.live.play.setting import RoundSetting
 
     shown = example if named else _EXAMPLE
     task = naming.load(files, human, robot, agent, team, shown, quiet=quiet)
     with addresses.listening(host, port) as listener:  # first, or a port in use leaves an empty record
         with progress.working("getting ready", quiet=quiet):
             where = record_in(records or _RECORDS)
-            condition = robots or "silent"
-            opened = open_table(
-                shown or task.name, task, where, labels, condition=condition, goals=goals, **how
-            )
+            how |= {"condition": robots or "silent", "goals": goals, "labels": labels_for(task, labels)}
+            opened = SharedRounds(RoundSetting(shown or task.name, task, **how), where)
         _say(
             f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n"
             f"To go on with this round another time: --records {where}\n",

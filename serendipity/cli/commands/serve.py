@@ -51,7 +51,7 @@ def serve(
             raise UsageError(f"{option}: expected at least {least}, got {number}")
     try:
         from serendipity.live.guards import addresses
-        from serendipity.live.server import serve as run
+        from serendipity.live.guards.connections import serve as run
         from serendipity.live.service.application import ServiceLimits, service
         from serendipity.live.workers.pool import PoolLimits
     except ImportError as missing:

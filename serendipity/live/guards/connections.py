@@ -1,12 +1,20 @@
-"""Connections on which no request comes about: they are closed, or slow clients could hold them all."""
+"""Connections: an application on a socket, which slow clients can't hold."""
 
 import asyncio
+import socket
 from typing import Any, Final
 
+import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 _SECONDS: Final = 20.0
 """Until the head of a request has to be there."""
+
+_CONNECTIONS: Final = 1000
+"""At once; those beyond are told to come again."""
+
+_GOODBYE: Final = 1
+"""Seconds that requests have to end in when the server is stopped."""
 
 
 class ImpatientProtocol(H11Protocol):
@@ -49,3 +57,19 @@ class ImpatientProtocol(H11Protocol):
         self._patience = None
         if not self._answering() and self.transport.get_protocol() is self:  # else it is a websocket by now
             self.transport.close()
+
+
+def serve(app: Any, listener: socket.socket) -> None:
+    """Answer requests to an ASGI application, on a socket that listens, until a signal ends it."""
+    config = uvicorn.Config(
+        app,
+        http=ImpatientProtocol,
+        ws="websockets-sansio",
+        log_config=None,
+        log_level="critical",
+        access_log=False,
+        server_header=False,
+        limit_concurrency=_CONNECTIONS,
+        timeout_graceful_shutdown=_GOODBYE,
+    )
+    uvicorn.Server(config).run(sockets=[listener])

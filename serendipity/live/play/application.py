@@ -11,10 +11,9 @@ from fastapi.responses import HTMLResponse, PlainTextResponse
 from starlette.middleware import Middleware
 
 from serendipity.live.guards.access import Access
-from serendipity.live.guards.access_log import Logged
 from serendipity.live.guards.bodies import BodyLimits
-from serendipity.live.guards.headers import Headed
-from serendipity.live.play.table import Download
+from serendipity.live.guards.responses import Responses
+from serendipity.live.play.records import Download
 from serendipity.model import SerendipityError
 
 _TYPES: Final = {"js": "text/javascript", "css": "text/css"}
@@ -36,7 +35,7 @@ class Room(Protocol):
 
 
 class Host(Protocol):
-    """What is behind the pages: :class:`.table.Table`, or a study."""
+    """What is behind the pages: :class:`.rounds.SharedRounds`, or a study."""
 
     def room(self, token: str) -> Room | None:
         """The room of a token; that of the first page where it is empty."""
@@ -55,8 +54,7 @@ def application(host: Host, hosts: Sequence[str]) -> FastAPI:
     app = FastAPI(
         openapi_url=None,
         middleware=[
-            Middleware(Logged),
-            Middleware(Headed, inline=False),
+            Middleware(Responses, inline=False),
             Middleware(Access, hosts=hosts),
             Middleware(BodyLimits, most=64 * _KIB, seconds=10.0),
         ],

@@ -31,7 +31,7 @@ class _File(BaseModel):
 
 
 @dataclass(frozen=True, slots=True)
-class Labels:
+class DomainLabels:
     """Words for a domain.
 
     Attributes:
@@ -80,7 +80,7 @@ class Labels:
         return None
 
 
-def labels_for(task: Task, file: Path | None = None) -> Labels:
+def labels_for(task: Task, file: Path | None = None) -> DomainLabels:
     """The labels of a file, or else those that are shipped for the task's domain, if any are.
 
     Raises:
@@ -92,10 +92,10 @@ def labels_for(task: Task, file: Path | None = None) -> Labels:
             raise InputError(fault, file)
         return labels
     shipped = (read_labels(file) for file in sorted(DATA.glob(f"*/{_FILE}")))
-    return next((labels for labels in shipped if labels.complete(task)), Labels())
+    return next((labels for labels in shipped if labels.complete(task)), DomainLabels())
 
 
-def read_labels(file: Path) -> Labels:
+def read_labels(file: Path) -> DomainLabels:
     """The labels of a file.
 
     Raises:
@@ -113,7 +113,7 @@ def read_labels(file: Path) -> Labels:
                 list(_numbers(sentence))
             except ValueError:
                 raise InputError(f"{where}: expected {{0}}, {{1}} ... only, got '{sentence}'", file) from None
-    return Labels(tuple(held.about), held.things, actions, held.goals)
+    return DomainLabels(tuple(held.about), held.things, actions, held.goals)
 
 
 def _numbers(sentence: str) -> Iterator[int]:

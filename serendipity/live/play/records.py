@@ -3,8 +3,9 @@
 import json
 from collections.abc import Iterable
 from datetime import UTC, datetime
+from itertools import count
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from serendipity.model import UsageError
 from serendipity.writing.csv_text import as_csv as csv_of
@@ -16,6 +17,14 @@ _FIRST: Final = ("participant", "time", "event", "condition", "round", "scenario
 """Columns of the CSV that come first; all others follow in the order in which they come up."""
 
 
+class Download(NamedTuple):
+    """A file that is answered: its text, its media type, and its name where it is to be saved."""
+
+    text: str
+    kind: str
+    name: str | None = None
+
+
 class Records:
     """The events of one person.
 
@@ -25,12 +34,13 @@ class Records:
         events: that it holds already.
 
     Attributes:
+        file: as given.
         events: so far.
     """
 
     def __init__(self, participant: str, file: Path | None = None, events: Iterable[Event] = ()) -> None:
         self._participant = participant
-        self._file = file
+        self.file = file
         self.events = list(events)
 
     def add(self, event: str, **about: Any) -> Event:
@@ -41,11 +51,11 @@ class Records:
         """
         now = datetime.now(UTC).isoformat(timespec="milliseconds")
         told = {"participant": self._participant, "time": now, "event": event, **about}
-        if self._file is not None:
+        if self.file is not None:
             try:
-                append(self._file, json.dumps(told, ensure_ascii=False))
+                append(self.file, json.dumps(told, ensure_ascii=False))
             except OSError as error:
-                raise UsageError(f"{self._file} can't be written: {error.strerror}") from None
+                raise UsageError(f"{self.file} can't be written: {error.strerror}") from None
         self.events.append(told)
         return told
 
@@ -73,6 +83,11 @@ def read(file: Path) -> tuple[list[Event], list[str]]:
     return events, faults
 
 
+def as_json(value: object, name: str) -> Download:
+    """A value, to be saved as JSON."""
+    return Download(json.dumps(value, ensure_ascii=False, indent=1), "application/json", name)
+
+
 def as_csv(events: Iterable[Event]) -> str:
     """Events as a table, a row each, with everything that is in them; lists and objects as JSON."""
     rows = list(events)
@@ -85,3 +100,33 @@ def cell(value: Any) -> str:
     if value is None:
         return ""
     return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+
+
+def record_in(place: Path) -> Path:
+    """Where what is played from now on is recorded.
+
+    Args:
+        place: a file that is there, to go on with; or a folder, which is made, for a new file named after
+            the time.
+
+    Raises:
+        UsageError: the folder can't be made.
+    """
+    if place.is_file():
+        return place
+    made(place, "--records")
+    begun = datetime.now().astimezone().strftime("%Y-%m-%d-%H%M%S")
+    numbered = (f"{begun}{f'-{number}' if number > 1 else ''}.jsonl" for number in count(1))
+    return next(file for name in numbered if not (file := place / name).exists())
+
+
+def made(folder: Path, option: str) -> None:
+    """Make a folder where it is missing.
+
+    Raises:
+        UsageError: it can't be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"{option}: {folder} can't be made: {(error.strerror or '').lower()}") from None

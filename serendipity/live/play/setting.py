@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
 import serendipity
-from serendipity.live.play.labels import Labels
+from serendipity.live.play.labels import DomainLabels
 from serendipity.model import Task
 from serendipity.model.keywords import HumanModel
 
@@ -24,7 +24,7 @@ CONDITIONS: Final = {
 
 
 @dataclass(frozen=True, slots=True)
-class Setting:
+class RoundSetting:
     """One round.
 
     Attributes:
@@ -47,7 +47,7 @@ class Setting:
     condition: str = "silent"
     goals: "GoalsGiven | None" = None
     deadline: float | None = None
-    labels: Labels = field(default_factory=Labels)
+    labels: DomainLabels = field(default_factory=DomainLabels)
     most_epochs: int | None = None
 
     def execution(self) -> serendipity.Execution:

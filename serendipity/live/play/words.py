@@ -1,17 +1,17 @@
-"""Actions and facts as people read them: "go to hall4", "take medkit mk2 from the robot"."""
+"""Phrases for actions and facts, as people read them: "go to hall4", "take medkit mk2 from the robot"."""
 
 from collections.abc import Sequence
 
-from serendipity.live.play.labels import Labels
+from serendipity.live.play.labels import DomainLabels
 from serendipity.model import GroundAction, Task
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.plans import PlanStep
-from serendipity.pictures.map.names import parts, verb_and_rest, without
+from serendipity.pictures.map.names import parts, without
 from serendipity.pictures.map.places import Places
 from serendipity.pictures.scene.finder import Finder
 
 
-class Words:
+class Phrases:
     """Words for a task, said to its human.
 
     Args:
@@ -20,33 +20,21 @@ class Words:
         labels: of its domain; what has none is said by its name.
     """
 
-    def __init__(self, task: Task, places: Places, labels: Labels) -> None:
+    def __init__(self, task: Task, places: Places, labels: DomainLabels) -> None:
         self._task = task
         self._finder = Finder(places)
         self._labels = labels
 
-    def target(self, action: GroundAction, agent: int) -> str | None:
-        """The place that an agent's own action leads to; None where it leads nowhere."""
-        if action.joint:
-            return None
-        told = self._finder.places_of(action, agent)
-        return next((told[fact] for fact in action.add if fact in told), None)
+    def target(self, action: GroundAction) -> str | None:
+        """The place that an action of the human's own leads to; None where it leads nowhere."""
+        return self._finder.target(action, self._task.human)
 
     def action(self, action: GroundAction, who: int | None = None) -> str:
         """What somebody does who takes part in an action; by default the human, or else who comes first."""
         labelled = self._labels.action(action.name)
         if labelled is not None:
             return self._labelled(action, *labelled, who)
-        agents = [self._task.agents[i] for i in action.participants]
-        place = self.target(action, action.participants[0])
-        if place is not None:
-            return f"go to {place}"
-        verb, rest = verb_and_rest(action.name, agents)
-        here = []
-        for agent in action.participants:
-            told = self._finder.places_of(action, agent)
-            here += [parts(told[fact]) for fact in action.pre if fact in told]
-        return f"{verb} {' '.join(without(here, tuple(rest.split()))) or rest}".rstrip()
+        return " ".join(self._finder.phrase(action, self._task.agents)).rstrip()
 
     def _labelled(
         self, action: GroundAction, sentences: Sequence[str], arguments: Sequence[str], who: int | None

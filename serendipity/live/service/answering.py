@@ -1,4 +1,4 @@
-"""From workers' frames to responses of HTTP, as long as the client is there to hear them."""
+"""From workers' messages to responses of HTTP, as long as the client is there to hear them."""
 
 import asyncio
 import json
@@ -11,7 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
-from serendipity.live.workers.frames import Frame
+from serendipity.live.service.sessions import Remembered
 from serendipity.live.workers.pool import BusyError, LostError, Pool
 
 T = TypeVar("T")
@@ -21,19 +21,87 @@ _SEND: Final = 30.0
 
 _AGAIN: Final = {"Retry-After": "1"}
 
-Frames = AsyncGenerator[Frame, None]
+Answers = AsyncGenerator[bytes, None]
+"""What is answered to a call, as JSON text, one answer after the other."""
 
 
 class GoneError(Exception):
     """Nobody waits for the answer any more."""
 
 
-async def unless_gone(request: Request, work: Coroutine[Any, Any, T]) -> T:
-    """What ``work`` returns, which is cancelled when the client goes away.
+async def answers(pool: Pool, job: str, body: bytes, session: Remembered | None = None) -> Answers:
+    """The answers to a job; a session is moved to where a call has left it.
 
     Raises:
-        GoneError: it has.
+        HTTPException: it has none, or its worker can't say it.
     """
+    try:
+        async with aclosing(pool.run(job, body)) as messages:
+            async for message in messages:
+                if message.head["kind"] == "error":
+                    raise HTTPException(message.head["status"], message.head["error"])
+                if message.head.get("state") and session is not None:
+                    session.move(message.body)
+                elif message.head["kind"] == "answer":
+                    yield message.body
+    except BusyError:
+        line = f"all workers are busy, and {pool.limits.queue} requests wait for them: try again"
+        raise HTTPException(429, line, _AGAIN) from None
+    except LostError as lost:
+        raise HTTPException(503, str(lost), _AGAIN) from None
+
+
+async def all_of(request: Request, given: Answers) -> list[bytes]:
+    """All answers.
+
+    Raises:
+        HTTPException: there are none.
+        GoneError: the client went away before.
+    """
+
+    async def collected() -> list[bytes]:
+        async with aclosing(given):
+            return [body async for body in given]
+
+    return await _unless_gone(request, collected())
+
+
+async def as_json(request: Request, given: Answers) -> Response:
+    """A response with the only answer; see :func:`all_of`."""
+    (body,) = await all_of(request, given)
+    return Response(body, media_type="application/json")
+
+
+async def as_events(request: Request, given: Answers) -> Response:
+    """A response that says each answer as it comes: events ``answer``, and then ``end`` or ``error``.
+
+    Raises:
+        HTTPException: there is not even a first answer.
+        GoneError: the client went away before it.
+    """
+    try:
+        first = await _unless_gone(request, anext(given))
+    except BaseException:
+        with suppress(RuntimeError):
+            await given.aclose()
+        raise
+    return EventSourceResponse(_events(first, given), send_timeout=_SEND)
+
+
+async def _events(first: bytes, given: Answers) -> AsyncIterator[ServerSentEvent]:
+    async with aclosing(given):
+        try:
+            yield ServerSentEvent(first.decode(), event="answer")
+            async for body in given:
+                yield ServerSentEvent(body.decode(), event="answer")
+            yield ServerSentEvent("{}", event="end")
+        except HTTPException as error:
+            told = json.dumps({"error": error.detail, "status": error.status_code})
+            yield ServerSentEvent(told, event="error")
+
+
+async def _unless_gone(request: Request, work: Coroutine[Any, Any, T]) -> T:
+    """What ``work`` returns, which is cancelled when the client goes away."""
     working = asyncio.create_task(work)
     leaving = asyncio.create_task(_left(request))
     try:
@@ -50,65 +118,3 @@ async def unless_gone(request: Request, work: Coroutine[Any, Any, T]) -> T:
 async def _left(request: Request) -> None:
     while (await request.receive())["type"] != "http.disconnect":
         pass
-
-
-async def frames_of(pool: Pool, job: str, body: bytes) -> Frames:
-    """The answers to a job.
-
-    Raises:
-        HTTPException: it has none, or its worker can't say it.
-    """
-    try:
-        async with aclosing(pool.run(job, body)) as frames:
-            async for frame in frames:
-                if frame.head["kind"] == "error":
-                    raise HTTPException(frame.head["status"], frame.head["error"])
-                if frame.head["kind"] == "answer":
-                    yield frame
-    except BusyError:
-        line = f"all workers are busy, and {pool.limits.queue} requests wait for them: try again"
-        raise HTTPException(429, line, _AGAIN) from None
-    except LostError as lost:
-        raise HTTPException(503, str(lost), _AGAIN) from None
-
-
-async def bodies(frames: Frames) -> list[bytes]:
-    """All answers of a job."""
-    async with aclosing(frames):
-        return [frame.body async for frame in frames]
-
-
-def as_json(body: bytes) -> Response:
-    """A response that says what a worker said."""
-    return Response(body, media_type="application/json")
-
-
-async def as_events(request: Request, answers: AsyncGenerator[bytes, None]) -> Response:
-    """A response that says each answer as it comes: events ``answer``, and then ``end`` or ``error``.
-
-    Raises:
-        HTTPException: there is not even a first answer.
-        GoneError: the client went away before it.
-    """
-    try:
-        first = await unless_gone(request, anext(answers))
-    except BaseException:
-        with suppress(RuntimeError):
-            await answers.aclose()
-        raise
-    return EventSourceResponse(_events(first, answers), send_timeout=_SEND)
-
-
-async def _events(first: bytes, answers: AsyncGenerator[bytes, None]) -> AsyncIterator[ServerSentEvent]:
-    async with aclosing(answers):
-        try:
-            yield _event("answer", first)
-            async for body in answers:
-                yield _event("answer", body)
-            yield _event("end", b"{}")
-        except HTTPException as error:
-            yield _event("error", json.dumps({"error": error.detail, "status": error.status_code}).encode())
-
-
-def _event(kind: str, body: bytes) -> ServerSentEvent:
-    return ServerSentEvent(body.decode(), event=kind)

@@ -11,14 +11,12 @@ from starlette.middleware import Middleware
 
 from serendipity import __version__
 from serendipity.live.guards.access import Access
-from serendipity.live.guards.access_log import Logged
 from serendipity.live.guards.bodies import BodyLimits
-from serendipity.live.guards.headers import Headed
-from serendipity.live.service.calls import call_router
-from serendipity.live.service.metrics import Counted, Metrics
+from serendipity.live.guards.responses import Responses
+from serendipity.live.service.calls import call_router, session_router
+from serendipity.live.service.metrics import Metrics
 from serendipity.live.service.refusals import HANDLERS, REFUSALS
-from serendipity.live.service.session_calls import session_router
-from serendipity.live.service.sessions import Sessions
+from serendipity.live.service.sessions import SessionStore
 from serendipity.live.workers.pool import Pool, PoolLimits
 
 
@@ -52,7 +50,7 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         token: what requests have to bring, or None.
     """
     pool = Pool(limits.pool)
-    sessions = Sessions(limits.sessions, limits.session_bytes, limits.session_seconds)
+    sessions = SessionStore(limits.sessions, limits.session_bytes, limits.session_seconds)
     metrics = Metrics(pool, sessions)
 
     @asynccontextmanager
@@ -71,9 +69,7 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         redoc_url=None,
         responses=REFUSALS,
         middleware=[
-            Middleware(Logged),
-            Middleware(Counted, metrics=metrics),
-            Middleware(Headed, inline=True),
+            Middleware(Responses, inline=True, count=metrics.count),
             Middleware(Access, hosts=hosts, token=token),
             Middleware(BodyLimits, most=limits.body, seconds=limits.body_seconds),
         ],

@@ -1,13 +1,13 @@
-"""Calls that stand for themselves: plan, plan with answers on the way, verify."""
+"""The paths of calls: those that stand for themselves, and those of sessions, which move on by epochs."""
 
-from collections.abc import AsyncGenerator
 from contextlib import aclosing
-from typing import Any, Final
+from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
 from serendipity.live.service import requests as asked
-from serendipity.live.service.answering import as_events, as_json, bodies, frames_of, unless_gone
+from serendipity.live.service.answering import Answers, all_of, answers, as_events, as_json
+from serendipity.live.service.sessions import Remembered, SessionStore
 from serendipity.live.workers.pool import Pool
 
 Described = dict[int | str, dict[str, Any]]
@@ -18,41 +18,96 @@ def _says(description: str, kind: str = "application/json") -> Described:
     return {200: {"description": description, "content": {kind: {"schema": schema}}}}
 
 
-RESULT: Final = _says("schema `serendipity.result/1`")
-CERTIFICATE: Final = _says("schema `serendipity.certificate/1`")
-STREAM: Final = _says(
-    "events `answer` with results that get better; then `end`, or `error`", "text/event-stream"
-)
+_RESULT = _says("schema `serendipity.result/1`")
+_CERTIFICATE = _says("schema `serendipity.certificate/1`")
+_STREAM = _says("events `answer` with results that get better; then `end`, or `error`", "text/event-stream")
 
 
 def call_router(pool: Pool) -> APIRouter:
-    """The paths of these calls."""
+    """The paths of calls that stand for themselves."""
     router = APIRouter(tags=["calls"])
 
-    @router.post("/plan", responses=RESULT, response_class=Response)
+    def said(job: str, call: asked.RequestPart) -> Answers:
+        return answers(pool, job, call.model_dump_json().encode())
+
+    @router.post("/plan", responses=_RESULT, response_class=Response)
     async def plan(call: asked.PlanRequest, request: Request) -> Response:
         """The best plan in which robots help the human, with a proof that none is better."""
-        return as_json(await unless_gone(request, _only(pool, "plan", call)))
+        return await as_json(request, said("plan", call))
 
-    @router.post("/plan/anytime", responses=STREAM, response_class=Response)
+    @router.post("/plan/anytime", responses=_STREAM, response_class=Response)
     async def plan_anytime(call: asked.AnytimeRequest, request: Request) -> Response:
         """The same with answers on the way, as server-sent events; the last one stands."""
-        return await as_events(request, _each(pool, "plan_anytime", call))
+        return await as_events(request, said("plan_anytime", call))
 
-    @router.post("/verify", responses=CERTIFICATE, response_class=Response)
+    @router.post("/verify", responses=_CERTIFICATE, response_class=Response)
     async def verify(call: asked.VerifyRequest, request: Request) -> Response:
         """Check a result claim by claim, independently of the search."""
-        return as_json(await unless_gone(request, _only(pool, "verify", call)))
+        return await as_json(request, said("verify", call))
 
     return router
 
 
-async def _only(pool: Pool, job: str, call: asked.Asked) -> bytes:
-    (body,) = await bodies(frames_of(pool, job, call.model_dump_json().encode()))
-    return body
+def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
+    """The paths of sessions' calls."""
+    router = APIRouter(prefix="/sessions", tags=["sessions"])
+
+    async def said(name: str, call: str, given: asked.RequestPart) -> Answers:
+        with sessions.calling(name) as session:
+            async with aclosing(_said(pool, session, call, given.model_dump())) as bodies:
+                async for body in bodies:
+                    yield body
+
+    async def moved(request: Request, name: str, call: str, given: asked.RequestPart) -> dict[str, Any]:
+        with sessions.calling(name) as session:
+            await all_of(request, _said(pool, session, call, given.model_dump()))
+            return session.stands
+
+    @router.post("", status_code=201, response_model=asked.SessionState)
+    async def begin(call: asked.SessionRequest, request: Request) -> dict[str, Any]:
+        """Begin a session."""
+        session = sessions.begin(call.model_dump())
+        await all_of(request, _said(pool, session, "begin", {}))
+        sessions.add(session)
+        return session.stands
+
+    @router.get("/{name}", response_model=asked.SessionState)
+    async def state(name: str) -> dict[str, Any]:
+        """Where a session stands."""
+        return sessions.named(name).stands
+
+    @router.delete("/{name}", status_code=204)
+    async def end(name: str) -> None:
+        """End a session."""
+        sessions.end(name)
+
+    @router.post("/{name}/plan", responses=_RESULT, response_class=Response)
+    async def plan(name: str, call: asked.SessionPlanRequest, request: Request) -> Response:
+        """The best answer from where the session stands."""
+        return await as_json(request, said(name, "plan", call))
+
+    @router.post("/{name}/plan/anytime", responses=_STREAM, response_class=Response)
+    async def plan_anytime(name: str, call: asked.SessionPlanRequest, request: Request) -> Response:
+        """The same with answers on the way, as server-sent events; the last one stands."""
+        return await as_events(request, said(name, "plan_anytime", call))
+
+    @router.post("/{name}/execute", response_model=asked.SessionState)
+    async def execute(name: str, call: asked.ExecuteRequest, request: Request) -> dict[str, Any]:
+        """Move on by one epoch in which these actions were executed (none: everybody waited)."""
+        return await moved(request, name, "execute", call)
+
+    @router.post("/{name}/change", response_model=asked.SessionState)
+    async def change(name: str, call: asked.ChangeRequest, request: Request) -> dict[str, Any]:
+        """Set facts to true or false, as they were seen."""
+        return await moved(request, name, "change", call)
+
+    @router.post("/{name}/goal", response_model=asked.SessionState)
+    async def set_goal(name: str, call: asked.GoalRequest, request: Request) -> dict[str, Any]:
+        """Give the human another goal: facts, with ``!`` in front of those to be false."""
+        return await moved(request, name, "set_goal", call)
+
+    return router
 
 
-async def _each(pool: Pool, job: str, call: asked.Asked) -> AsyncGenerator[bytes, None]:
-    async with aclosing(frames_of(pool, job, call.model_dump_json().encode())) as frames:
-        async for frame in frames:
-            yield frame.body
+def _said(pool: Pool, session: Remembered, call: str, given: dict[str, Any]) -> Answers:
+    return answers(pool, "session", session.asked(call, given), session)

@@ -1,7 +1,5 @@
 """What a server has done so far, for Prometheus."""
 
-from time import perf_counter
-
 from prometheus_client import (
     CONTENT_TYPE_LATEST,
     CollectorRegistry,
@@ -14,9 +12,9 @@ from prometheus_client.core import CounterMetricFamily
 from prometheus_client.process_collector import ProcessCollector
 from prometheus_client.registry import Collector
 from starlette.responses import Response
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import Scope
 
-from serendipity.live.service.sessions import Sessions
+from serendipity.live.service.sessions import SessionStore
 from serendipity.live.workers.pool import Pool
 
 _METHODS = ("GET", "POST", "DELETE", "HEAD", "OPTIONS")
@@ -26,20 +24,15 @@ _BUCKETS = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60)
 
 
 class Metrics:
-    """Figures of one server; several in a process do not mix.
+    """Figures of one server, of its workers and sessions; several servers in a process do not mix."""
 
-    Args:
-        pool: its workers.
-        sessions: its sessions.
-    """
-
-    def __init__(self, pool: Pool, sessions: Sessions) -> None:
+    def __init__(self, pool: Pool, sessions: SessionStore) -> None:
         self._registry = registry = CollectorRegistry()
         ProcessCollector(registry=registry)
-        self.requests = Counter(
+        self._requests = Counter(
             "serendipity_requests", "Requests answered.", ["path", "method", "status"], registry=registry
         )
-        self.seconds = Histogram(
+        self._seconds = Histogram(
             "serendipity_request_seconds",
             "Until the answer was said.",
             ["path"],
@@ -55,6 +48,13 @@ class Metrics:
         ):
             Gauge(f"serendipity_{name}", about, registry=registry).set_function(value)
         registry.register(_PoolCounters(pool))
+
+    def count(self, scope: Scope, status: int, seconds: float) -> None:
+        """Take in a request that was answered."""
+        path = getattr(scope.get("route"), "path", "other")
+        method = scope["method"] if scope["method"] in _METHODS else "other"
+        self._requests.labels(path, method, status).inc()
+        self._seconds.labels(path).observe(seconds)
 
     def page(self) -> Response:
         """The figures as Prometheus reads them."""
@@ -75,37 +75,3 @@ class _PoolCounters(Collector):
         for reason, count in self._figures.replaced.items():
             replaced.add_metric([reason], count)
         return [refused, replaced]
-
-
-class Counted:
-    """Middleware that counts requests.
-
-    Args:
-        app: who answers them.
-        metrics: where they are counted.
-    """
-
-    def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
-        self._app = app
-        self._metrics = metrics
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on and count."""
-        if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
-        begun, status = perf_counter(), 499  # the client went away before there was an answer
-
-        async def noted(message: Message) -> None:
-            nonlocal status
-            if message["type"] == "http.response.start":
-                status = message["status"]
-            await send(message)
-
-        try:
-            await self._app(scope, receive, noted)
-        finally:
-            path = getattr(scope.get("route"), "path", "other")
-            method = scope["method"] if scope["method"] in _METHODS else "other"
-            self._metrics.requests.labels(path, method, status).inc()
-            self._metrics.seconds.labels(path).observe(perf_counter() - begun)

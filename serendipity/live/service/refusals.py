@@ -10,6 +10,7 @@ from pydantic_core import PydanticSerializationError
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
+from serendipity.live.guards.responses import GONE
 from serendipity.live.service.answering import GoneError
 from serendipity.live.service.requests import Refusal
 
@@ -27,9 +28,6 @@ REFUSALS: Final[dict[int | str, dict[str, Any]]] = {
     )
 }
 
-_CLOSED: Final = 499
-"""Nobody hears it: the client closed the connection."""
-
 
 async def _refused(_request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
@@ -45,8 +43,8 @@ async def _malformed(request: Request, error: Exception) -> Response:
     if first["loc"] == ("body",) and "json" not in request.headers.get("content-type", ""):
         return JSONResponse({"error": "body: expected JSON, and 'Content-Type: application/json'"}, 422)
     where = ".".join(str(part) for part in first["loc"][1:]) or "body"
-    found = _lower(first["msg"].removeprefix("Value error, "))
-    return JSONResponse({"error": f"{where}: {found}"}, 422)
+    found = first["msg"].removeprefix("Value error, ")
+    return JSONResponse({"error": f"{where}: {found[:1].lower()}{found[1:]}"}, 422)
 
 
 async def _too_deep(_request: Request, _error: Exception) -> Response:
@@ -59,11 +57,7 @@ async def _broken(request: Request, error: Exception) -> Response:
 
 
 async def _gone(_request: Request, _error: Exception) -> Response:
-    return Response(status_code=_CLOSED)
-
-
-def _lower(text: str) -> str:
-    return text[:1].lower() + text[1:]
+    return Response(status_code=GONE)
 
 
 HANDLERS: Final[dict[Any, Callable[[Request, Exception], Coroutine[Any, Any, Response]]]] = {

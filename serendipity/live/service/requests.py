@@ -23,7 +23,7 @@ def _options_schema() -> dict[str, Any]:
     return {"type": "object", "properties": described, "additionalProperties": False}
 
 
-class Asked(BaseModel):
+class RequestPart(BaseModel):
     """A part of a request; what it does not know is an error, and so is what is no text."""
 
     model_config = ConfigDict(extra="forbid")
@@ -41,14 +41,14 @@ class Asked(BaseModel):
         return given
 
 
-class FilePair(Asked):
+class FilePair(RequestPart):
     """The files of an agent."""
 
     domain: str = Field(description=_DOMAIN)
     problem: str = Field(description=_PROBLEM)
 
 
-class GivenTask(Asked):
+class GivenTask(RequestPart):
     """A task, named in exactly one way: ``example``, ``domain`` and ``problem``, or ``agents``."""
 
     example: str | None = Field(None, description="name of a shipped task", examples=["room2"])
@@ -68,12 +68,17 @@ _OPTIONS: Final[Any] = Field(
 )
 
 
-class PlanRequest(Asked):
-    """A planning call."""
+class AnytimeRequest(RequestPart):
+    """A planning call whose answers get better."""
 
     task: GivenTask
     options: dict[str, Any] = _OPTIONS
     human_plan: list[str] | None = Field(None, description="what the human will do; None predicts it")
+
+
+class PlanRequest(AnytimeRequest):
+    """A planning call."""
+
     goals: list[dict[str, Any]] | None = Field(
         None, description="goals that the human may have", examples=[[{"name": "a", "goal": ["at h x"]}]]
     )
@@ -81,15 +86,11 @@ class PlanRequest(Asked):
     beta: float | str | None = Field(None, description="of the posterior, for `goals`")
 
 
-class AnytimeRequest(Asked):
-    """A planning call whose answers get better."""
-
-    task: GivenTask
-    options: dict[str, Any] = _OPTIONS
-    human_plan: list[str] | None = None
+class SessionRequest(AnytimeRequest):
+    """A session to be begun; its options are defaults of its calls."""
 
 
-class VerifyRequest(Asked):
+class VerifyRequest(RequestPart):
     """A result to be checked."""
 
     task: GivenTask
@@ -99,33 +100,25 @@ class VerifyRequest(Asked):
     method: str | None = Field(None, examples=["auto"])
 
 
-class SessionRequest(Asked):
-    """A session to be begun; its options are defaults of its calls."""
-
-    task: GivenTask
-    options: dict[str, Any] = _OPTIONS
-    human_plan: list[str] | None = None
-
-
-class SessionPlanRequest(Asked):
+class SessionPlanRequest(RequestPart):
     """A planning call from where a session stands."""
 
     options: dict[str, Any] = _OPTIONS
 
 
-class ExecuteRequest(Asked):
+class ExecuteRequest(RequestPart):
     """What was done in an epoch."""
 
     actions: list[str]
 
 
-class ChangeRequest(Asked):
+class ChangeRequest(RequestPart):
     """Facts as they were seen."""
 
     facts: dict[str, bool]
 
 
-class GoalRequest(Asked):
+class GoalRequest(RequestPart):
     """Another goal of the human's."""
 
     goal: list[str]

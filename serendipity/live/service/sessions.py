@@ -59,7 +59,7 @@ class Remembered:
         return len(self.begun) + len(self.state) + _AROUND
 
 
-class Sessions:
+class SessionStore:
     """The sessions of a server: those that nobody uses are forgotten after a while, and free their room.
 
     Args:

@@ -11,8 +11,8 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.live.play.labels import labels_for
-from serendipity.live.play.opening import made
-from serendipity.live.play.setting import Setting
+from serendipity.live.play.records import made
+from serendipity.live.play.setting import RoundSetting
 from serendipity.live.play.settings_file import read_settings
 from serendipity.live.study.drawing import draw, numbered, practice
 from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse, report, to_dict
@@ -24,7 +24,6 @@ from serendipity.writing.together import write_together
 _SCHEMA: Final = "serendipity.study/1"
 _TEXTS: Final = "study.toml"
 _KEPT: Final = "study.json"
-_FORMER: Final = ("consent.txt", "questions.txt")
 _USUAL: Final = {"rounds": 4, "discount": "3/5", "view": "observant", "deadline": 2.0}
 
 
@@ -44,15 +43,15 @@ class Design:
     """
 
     texts: StudyFile
-    scenarios: Mapping[str, Setting]
-    practice: Setting | None
+    scenarios: Mapping[str, RoundSetting]
+    practice: RoundSetting | None
     seed: int
     secret: str
     code: str
     mark: str
     report: str
 
-    def setting(self, scenario: str, condition: str) -> Setting:
+    def setting(self, scenario: str, condition: str) -> RoundSetting:
         """A round of somebody's."""
         return replace(self.scenarios[scenario], condition=condition)
 
@@ -77,9 +76,6 @@ def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Desig
         InputError: a file of the folder is wrong.
     """
     made(folder, "--study")
-    former = next((name for name in _FORMER if (folder / name).exists()), None)
-    if former is not None:
-        raise InputError(f"is not read any more: its text stands in {_TEXTS} now", folder / former)
     file = folder / _TEXTS
     texts = read_settings(file, StudyFile) if file.exists() else StudyFile.model_validate({})
     if texts.scenarios and given.get("rounds") not in (None, len(texts.scenarios)):
@@ -122,7 +118,7 @@ def _begin(folder: Path, texts: StudyFile, labels: Path | None, given: Mapping[s
     }
 
 
-def _shown(setting: Setting, conditions: list[str]) -> Rehearsal:
+def _shown(setting: RoundSetting, conditions: list[str]) -> Rehearsal:
     played = rehearse(setting, conditions)
     wrong = fault(played, conditions)
     if wrong is not None:
@@ -139,7 +135,7 @@ def _how(texts: StudyFile, settings: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _own(own: OwnScenario, folder: Path, labels: Path | None, how: Mapping[str, Any]) -> Setting:
+def _own(own: OwnScenario, folder: Path, labels: Path | None, how: Mapping[str, Any]) -> RoundSetting:
     where = f"scenario {own.name}"
     try:
         if (own.example is None) == (not own.files):
@@ -148,7 +144,7 @@ def _own(own: OwnScenario, folder: Path, labels: Path | None, how: Mapping[str, 
             task = serendipity.example(own.example)
         else:
             task = _loaded([folder / file for file in own.files], own)
-        return Setting(own.name, task, labels=labels_for(task, labels), **how)
+        return RoundSetting(own.name, task, labels=labels_for(task, labels), **how)
     except SerendipityError as error:
         raise InputError(f"{where}: {error}", folder / _TEXTS) from None
 
@@ -165,7 +161,9 @@ def _design(folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[s
     how = _how(texts, kept["settings"])
     own = {scenario.name: scenario for scenario in texts.scenarios}
     scenarios = {
-        name: _own(own[name], folder, labels, how) if name in own else numbered(_number(name), **how)
+        name: _own(own[name], folder, labels, how)
+        if name in own
+        else numbered(int(name.rpartition("-")[2]), **how)
         for name in kept["scenarios"]
     }
     trial = None if kept["practice"] is None else numbered(kept["practice"], **how)
@@ -181,10 +179,6 @@ def _design(folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[s
         mark,
         kept["report"],
     )
-
-
-def _number(name: str) -> int:
-    return int(name.rpartition("-")[2])
 
 
 def _read(file: Path) -> dict[str, Any] | None:

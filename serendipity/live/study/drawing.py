@@ -12,7 +12,7 @@ import networkx as nx
 
 import serendipity
 from serendipity.live.play.labels import labels_for
-from serendipity.live.play.setting import Setting
+from serendipity.live.play.setting import RoundSetting
 from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse
 from serendipity.model import UsageError
 from serendipity.scenarios.building import figure2
@@ -27,14 +27,16 @@ _LENGTHS: Final = {"scenario": range(9, 17), "practice": range(5, 8)}
 """What the best way alone costs: of a scenario, and of the practice round."""
 
 
-def draw(count: int, seed: int, conditions: Sequence[str], **how: Any) -> Iterator[tuple[Setting, Rehearsal]]:
+def draw(
+    count: int, seed: int, conditions: Sequence[str], **how: Any
+) -> Iterator[tuple[RoundSetting, Rehearsal]]:
     """Scenarios in which conditions show what they promise, with what they come to.
 
     Args:
         count: how many.
         seed: of the draws.
         conditions: of the study.
-        **how: fields of :class:`.setting.Setting`.
+        **how: fields of :class:`.setting.RoundSetting`.
 
     Raises:
         UsageError: there are too few.
@@ -63,12 +65,12 @@ def practice(seed: int) -> int:
     return next(number for number in numbers if _alone(_usar(number))[0] in _LENGTHS["practice"])
 
 
-def numbered(number: int, **how: Any) -> Setting:
+def numbered(number: int, **how: Any) -> RoundSetting:
     """The scenario of a number."""
     with TemporaryDirectory(prefix="serendipity-") as folder:
         serendipity.generate_usar(Path(folder), preset="figure2", medkits=_MEDKITS, seed=number)
         task = serendipity.load(folder, human="commx")
-    return Setting(f"figure2-{number}", task, labels=labels_for(task), **how)
+    return RoundSetting(f"figure2-{number}", task, labels=labels_for(task), **how)
 
 
 def _usar(number: int) -> Usar:

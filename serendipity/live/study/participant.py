@@ -5,12 +5,12 @@ from time import perf_counter
 from typing import Any, Final
 
 import serendipity
-from serendipity.live.play.game import Game
 from serendipity.live.play.records import Event, Records
-from serendipity.live.play.setting import Setting
-from serendipity.live.play.table import about, begun
+from serendipity.live.play.round import Round
+from serendipity.live.play.rounds import RecordedRounds
+from serendipity.live.play.setting import RoundSetting
 from serendipity.live.study.design import Design
-from serendipity.live.study.texts import Question
+from serendipity.live.study.texts import Item
 from serendipity.model import InputError, UsageError
 
 _SHOWN: Final = (
@@ -32,7 +32,7 @@ _SHOWN: Final = (
 _OVER: Final = ("end", "withdrawn")
 
 
-class Participant:
+class Participant(RecordedRounds):
     """Somebody who takes part.
 
     Args:
@@ -42,18 +42,15 @@ class Participant:
     Attributes:
         joined: the first event.
         stage: ``instructions``, ``play``, ``questions``, ``closing``, ``end`` or ``withdrawn``.
-        round: 0 is for practice.
 
     Raises:
         InputError: the record is no participant's.
     """
 
     def __init__(self, design: Design, records: Records) -> None:
+        super().__init__(records)
         self._design = design
-        self._records = records
-        self.stage, self.round = "instructions", 0
-        self._epochs: list[Event] = []
-        self._game: Game | None = None
+        self.stage = "instructions"
         self._left: str | None = None
         self._since = perf_counter()
         self.joined: Event = {}
@@ -84,10 +81,6 @@ class Participant:
         """When anything was heard of them."""
         return str(self._records.events[-1]["time"])
 
-    def events(self) -> list[Event]:
-        """All that has happened."""
-        return list(self._records.events)
-
     def view(self) -> dict[str, Any]:
         """What their pages show."""
         study: dict[str, Any] = {"participant": self.name, "rounds": len(self.joined["order"])}
@@ -95,19 +88,19 @@ class Participant:
         if self.stage == "instructions":
             study["text"] = self._design.instructions()
         elif self.stage == "play":
-            game = self._playing()
-            view = game.view()
-            shown |= {key: view[key] for key in _SHOWN} | {"end": self._end(game) if game.done else None}
+            played = self._playing()
+            view = played.view()
+            shown |= {key: view[key] for key in _SHOWN} | {"end": self._end(played) if played.done else None}
         elif self.stage in ("questions", "closing"):
             study["questions"] = [question.model_dump() for question in self._questions()]
         elif self.stage == "end":
             study["code"] = self._design.code
         return shown
 
-    def _end(self, game: Game) -> dict[str, Any]:
-        run = game.run
+    def _end(self, played: Round) -> dict[str, Any]:
+        run = played.run
         told = {"paid": float(run.human_cost), "epochs": len(run.passed), "reached": run.done}
-        return told if self.round else {**told, "alone": game.alone}
+        return told if self.round else {**told, "alone": played.alone}
 
     # -- what pages do
 
@@ -132,8 +125,7 @@ class Participant:
         if what == "withdraw" and not self.over:
             self._add("withdrawn", stage=self.stage, round=self.round)
         elif what == "act" and self.stage == "play":
-            action = self._playing().act(message.get("action"))
-            self._add("epoch", **self._about(), **took, **self._seconds(), **action)
+            self._act(message.get("action"), **took, **self._seconds())
         elif what == "go on" and self.stage == "instructions":
             self._add("instructed", **took, **self._seconds(), text=self._design.instructions())
         elif what == "go on" and self.stage == "play" and self._playing().done:
@@ -167,6 +159,7 @@ class Participant:
 
     def _happened(self, event: Event) -> None:
         """Move on by what is recorded."""
+        super()._happened(event)
         what = event["event"]
         if what == "opened":
             return
@@ -175,13 +168,11 @@ class Participant:
         if what == "joined":
             self.joined = event
         elif what == "begun":
-            self.stage, self.round, self._epochs, self._game = "play", event["round"], [], None
-        elif what == "epoch":
-            self._epochs.append(event)
+            self.stage = "play"
         elif what == "asked":
             self.stage = event["about"]
         elif what in _OVER:
-            self.stage, self._game = what, None
+            self.stage, self._now = what, None
 
     def _go_on(self) -> None:
         """Begin what comes next, where something has come to its end."""
@@ -199,43 +190,19 @@ class Participant:
         else:
             self._add("end", condition=self.joined["condition"], code=self._design.code)
 
-    def _begin(self, number: int) -> None:
-        game = Game(self._setting(number))
-        self._add("begun", **begun(game, number))
-        self._game = game
-
-    def _playing(self) -> Game:
-        """The round, as far as it is recorded."""
-        if self._game is None:
-            self._game = Game(self._setting(self.round))
-            for event in self._epochs:
-                self._game.again(event)
-        return self._game
-
-    def _questions(self) -> list[Question]:
+    def _questions(self) -> list[Item]:
         return self._design.texts.questions if self.stage == "questions" else self._design.texts.closing
 
-    def _setting(self, number: int) -> Setting:
+    def _setting(self, number: int) -> RoundSetting:
         """What is played in a round."""
         if number:
             return self._design.setting(self.joined["order"][number - 1], self.joined["condition"])
         assert self._design.practice is not None, "else rounds begin with 1"
         return self._design.practice
 
-    def _about(self) -> Event:
-        return about(self._setting(self.round), self.round)
-
     def _seconds(self) -> Event:
         """How long what is answered now has been there."""
         return {"seconds": round(perf_counter() - self._since, 3)}
-
-    def _add(self, event: str, **told: Any) -> None:
-        try:
-            happened = self._records.add(event, **told)
-        except UsageError:
-            self._game = None  # which may be ahead of what is recorded
-            raise
-        self._happened(happened)
 
 
 def page_facts(message: Mapping[str, Any]) -> Event:

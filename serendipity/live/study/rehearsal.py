@@ -6,12 +6,12 @@ from statistics import fmean
 from typing import Any
 
 from serendipity.execution import Omniscient, Person, Replanner, moment_of
-from serendipity.live.play.setting import Setting
+from serendipity.live.play.setting import RoundSetting
 from serendipity.model.numbers import plain
 
 
 @dataclass(frozen=True, slots=True)
-class Played:
+class RehearsedRound:
     """What a round came to.
 
     Attributes:
@@ -27,11 +27,11 @@ class Played:
     helped: int
 
 
-Rehearsal = Mapping[str, Played]
+Rehearsal = Mapping[str, RehearsedRound]
 """A scenario by condition; ``none`` is always played."""
 
 
-def rehearse(setting: Setting, conditions: Sequence[str]) -> dict[str, Played]:
+def rehearse(setting: RoundSetting, conditions: Sequence[str]) -> dict[str, RehearsedRound]:
     """A scenario under some conditions, and under ``none``.
 
     Robots that announce their plan have somebody before them who does their part of it, the others somebody
@@ -41,19 +41,16 @@ def rehearse(setting: Setting, conditions: Sequence[str]) -> dict[str, Played]:
     return {name: _play(replace(setting, condition=name)) for name in names}
 
 
-def _play(setting: Setting) -> Played:
-    run, person = setting.execution(), _player(setting)
+def _play(setting: RoundSetting) -> RehearsedRound:
+    run = setting.execution()
+    person: Person = Replanner(setting.task, setting.view)
+    if setting.condition == "announced":
+        person = Omniscient(setting.task)
     most = setting.most_epochs or 1_000
     while not run.done and run.epoch <= most:
         run.step(person.choose(moment_of(run)))
     helped = sum(any(set(s.agents) != {run.human} for s in passed.steps) for passed in run.passed)
-    return Played(run.done, float(run.human_cost), float(run.cost), helped)
-
-
-def _player(setting: Setting) -> Person:
-    if setting.condition == "announced":
-        return Omniscient(setting.task)
-    return Replanner(setting.task, setting.view)
+    return RehearsedRound(run.done, float(run.human_cost), float(run.cost), helped)
 
 
 def fault(played: Rehearsal, conditions: Sequence[str]) -> str | None:

@@ -10,8 +10,7 @@ from threading import Lock
 from typing import Any, Final
 
 import serendipity
-from serendipity.live.play.records import Event, Records, as_csv, read
-from serendipity.live.play.table import Download, as_json
+from serendipity.live.play.records import Download, Event, Records, as_csv, as_json, read
 from serendipity.live.study.balance import order, places
 from serendipity.live.study.design import Design
 from serendipity.live.study.participant import Participant, page_facts

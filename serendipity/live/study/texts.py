@@ -40,8 +40,8 @@ class _Part(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
 
-class Question(_Part):
-    """A question: a scale from 1 on, a choice, or a text."""
+class Item(_Part):
+    """An item of a questionnaire: a scale from 1 on, a choice, or a text."""
 
     text: str = Field(min_length=1)
     kind: Literal["scale", "choice", "text"] = "scale"
@@ -84,11 +84,11 @@ class StudyFile(_Part):
 
     consent: Lines = _CONSENT
     instructions: Lines = _INSTRUCTIONS
-    questions: list[Question] = [
-        *(Question(text=text) for text in _SCALES),
-        Question(text="Anything else?", kind="text", required=False),
+    questions: list[Item] = [
+        *(Item(text=text) for text in _SCALES),
+        Item(text="Anything else?", kind="text", required=False),
     ]
-    closing: list[Question] = []
+    closing: list[Item] = []
     conditions: Lines = list(CONDITIONS)
     practice: bool = True
     completion_code: str | None = None

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 from serendipity.live.play.records import Event, cell
 from serendipity.live.study.design import Design
-from serendipity.live.study.texts import Question
+from serendipity.live.study.texts import Item
 from serendipity.writing.csv_text import as_csv
 
 COLUMNS: Final = {
@@ -56,13 +56,13 @@ def codebook(design: Design) -> str:
     return as_csv(("column", "meaning"), [*COLUMNS.items(), *told])
 
 
-def _answers(design: Design) -> Iterator[tuple[str, Question]]:
+def _answers(design: Design) -> Iterator[tuple[str, Item]]:
     """The columns of answers: after each round, and at the end, where they stand in each row."""
     for kind, asked in (("answer", design.texts.questions), ("closing", design.texts.closing)):
         yield from ((f"{kind}_{number}", question) for number, question in enumerate(asked, start=1))
 
 
-def _scale(question: Question) -> str:
+def _scale(question: Item) -> str:
     if question.kind == "scale":
         return f"1 {question.ends[0]}, {question.points} {question.ends[1]}"
     return "; ".join(question.choices) if question.kind == "choice" else "text"

@@ -10,7 +10,7 @@ from contextlib import suppress
 from tempfile import mkdtemp
 from typing import Final
 
-from serendipity.live.workers.frames import Frame, Incoming
+from serendipity.live.workers.messages import Incoming, Message
 
 _HEAD: Final = 2**20
 """The longest first line of a message."""
@@ -62,9 +62,9 @@ class Handle:
             EOFError: it was killed.
         """
         self.working = True
-        await self._say(Frame({"kind": "job", "job": job, "time_limit": time_limit}, body))
+        await self._say(Message({"kind": "job", "job": job, "time_limit": time_limit}, body))
 
-    async def hear(self) -> Frame:
+    async def hear(self) -> Message:
         """What it says next about its job.
 
         Raises:
@@ -79,7 +79,7 @@ class Handle:
     async def leave(self, grace: float) -> None:
         """Have it leave its job; it is still working afterwards where it does not, or is killed."""
         with suppress(EOFError, TimeoutError):
-            await self._say(Frame({"kind": "cancel"}))
+            await self._say(Message({"kind": "cancel"}))
             async with asyncio.timeout(grace):
                 while self.working:
                     await self.hear()
@@ -98,7 +98,7 @@ class Handle:
         await self._process.wait()
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    async def _say(self, frame: Frame) -> None:
+    async def _say(self, frame: Message) -> None:
         assert self._process.stdin is not None
         try:
             self._process.stdin.write(frame.encoded)

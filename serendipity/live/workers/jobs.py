@@ -4,12 +4,13 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Final
 
 import serendipity
+from serendipity.facade.call import options_from
 from serendipity.facade.session import Session
 from serendipity.live.workers.given_tasks import GivenTasks
 from serendipity.live.workers.held_sessions import HeldSessions
-from serendipity.model import Deadline, Options, Result, UsageError
+from serendipity.model import Deadline, Result, UsageError
 
-Asked = Mapping[str, Any]
+Given = Mapping[str, Any]
 Answers = Iterator["dict[str, Any] | State"]
 
 
@@ -17,14 +18,14 @@ class State(dict[str, Any]):
     """Where a call has left a session: for the server, not for who asked."""
 
 
-Job = Callable[["Desk", Asked, Deadline], Answers]
+Job = Callable[["WorkerState", Given, Deadline], Answers]
 
 _TASKS: Final = 8
 _SESSIONS: Final = 8
 
 
-class Desk:
-    """What a worker keeps between jobs, to be quicker; nothing depends on it."""
+class WorkerState:
+    """The state of a worker between jobs, to be quicker; nothing depends on it."""
 
     def __init__(self) -> None:
         self.tasks = GivenTasks(_TASKS)
@@ -37,33 +38,33 @@ class Desk:
             self.calling.cancel()
 
 
-def plan(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+def plan(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     """One answer, as ``serendipity.plan`` gives it."""
-    task = desk.tasks.task(asked["task"], deadline)
+    task = worker.tasks.task(asked["task"], deadline)
     yield serendipity.plan(task, deadline=deadline, **_call(asked)).to_dict()
 
 
-def plan_anytime(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+def plan_anytime(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     """Answers as they get better; the last one stands."""
-    task = desk.tasks.task(asked["task"], deadline)
+    task = worker.tasks.task(asked["task"], deadline)
     for better in serendipity.plan_anytime(task, deadline=deadline, **_call(asked)):
         yield better.to_dict()
 
 
-def verify(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+def verify(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     """A certificate for a result."""
     result = Result.from_dict(asked["result"])
-    task = desk.tasks.task(asked["task"], deadline)
+    task = worker.tasks.task(asked["task"], deadline)
     how = {name: asked[name] for name in ("solver", "encoding", "method") if asked.get(name) is not None}
     yield serendipity.verify(task, result, deadline=deadline, **how).to_dict()
 
 
-def session(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
+def session(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     """One call of a session; before the answers comes nothing, behind them where it stands now.
 
     The request says where it stood before, so that any worker can go on with it.
     """
-    held = desk.calling = desk.sessions.session(asked["session"], deadline)
+    held = worker.calling = worker.sessions.session(asked["session"], deadline)
     call, given = asked["call"], asked["given"]
     if call == "plan":
         yield held.plan(deadline=deadline, **_options(given)).to_dict()
@@ -76,8 +77,8 @@ def session(desk: Desk, asked: Asked, deadline: Deadline) -> Answers:
         held.change(given["facts"])
     elif call == "set_goal":
         held.set_goal(given["goal"])
-    desk.calling = None
-    yield State(desk.sessions.keep(asked["session"], held))
+    worker.calling = None
+    yield State(worker.sessions.keep(asked["session"], held))
 
 
 JOBS: Final[dict[str, Job]] = {
@@ -88,7 +89,7 @@ JOBS: Final[dict[str, Job]] = {
 }
 
 
-def _call(asked: Asked) -> dict[str, Any]:
+def _call(asked: Given) -> dict[str, Any]:
     """Keyword arguments of a planning call."""
     more = {name: asked.get(name) for name in ("human_plan", "goals", "observed", "beta")}
     options = _options(asked)
@@ -98,15 +99,12 @@ def _call(asked: Asked) -> dict[str, Any]:
     return {**options, **{name: value for name, value in more.items() if value is not None}}
 
 
-def _options(asked: Asked) -> dict[str, Any]:
+def _options(asked: Given) -> dict[str, Any]:
     """Options by name; what is no option of a plan is refused here, since calls have arguments beside them.
 
     Raises:
-        UsageError: there is no such option.
+        UsageError: there is no such option, or it has no such value.
     """
     options: dict[str, Any] = asked["options"]
-    known = Options.__dataclass_fields__
-    for name in options:
-        if name not in known:
-            raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
+    options_from(dict(options))
     return options

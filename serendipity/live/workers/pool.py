@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from search.kernel.library import library
-from serendipity.live.workers.frames import Frame
 from serendipity.live.workers.handle import Handle
+from serendipity.live.workers.messages import Message
 
 _OVERTIME: Final = 5.0
 """Seconds that a worker may take longer than its job's time limit, which it keeps by itself."""
@@ -95,7 +95,7 @@ class Pool:
         await asyncio.gather(*self._chores, return_exceptions=True)
         await asyncio.gather(*(worker.kill() for worker in self._all))
 
-    async def run(self, job: str, body: bytes) -> AsyncGenerator[Frame, None]:
+    async def run(self, job: str, body: bytes) -> AsyncGenerator[Message, None]:
         """The answers to a job, and what ended it: a frame ``end`` or ``error``.
 
         A job whose worker is lost before its first answer is given to another one.
@@ -122,7 +122,7 @@ class Pool:
                     break
         raise LostError("the worker process of this request was killed: try again")
 
-    async def _attempt(self, job: str, body: bytes) -> AsyncGenerator[Frame, None]:
+    async def _attempt(self, job: str, body: bytes) -> AsyncGenerator[Message, None]:
         async with self._worker() as worker:
             await worker.give(job, body, self.limits.time_limit)
             end = asyncio.get_running_loop().time() + self.limits.time_limit + _OVERTIME

@@ -14,8 +14,8 @@ import tempfile
 import threading
 from typing import IO, Final
 
-from serendipity.live.workers.frames import Frame, read
-from serendipity.live.workers.jobs import JOBS, Desk, State
+from serendipity.live.workers.jobs import JOBS, State, WorkerState
+from serendipity.live.workers.messages import Message, read
 from serendipity.model import Deadline, LimitReachedError, SerendipityError
 from serendipity.model.errors import limit_words
 from serendipity.model.resources.deadline import MIB
@@ -46,8 +46,8 @@ class Worker:
         self._sink = sink
         self._memory_limit = memory_limit
         self._folder = folder
-        self._desk = Desk()
-        self._jobs: queue.SimpleQueue[tuple[Frame, threading.Event]] = queue.SimpleQueue()
+        self._state = WorkerState()
+        self._jobs: queue.SimpleQueue[tuple[Message, threading.Event]] = queue.SimpleQueue()
 
     def run(self) -> None:
         """Work until there is no source any more."""
@@ -60,24 +60,24 @@ class Worker:
         while (frame := read(self._source)) is not None:
             if frame.head["kind"] == "cancel":
                 current.set()
-                self._desk.cancel()
+                self._state.cancel()
             else:
                 current = threading.Event()
                 self._jobs.put((frame, current))
         self._end()
 
-    def _work(self, job: Frame, cancelled: threading.Event) -> None:
+    def _work(self, job: Message, cancelled: threading.Event) -> None:
         self._say({"kind": "begun"})
         deadline = Deadline(job.head["time_limit"], self._memory_limit, cancelled)
         try:
-            for answer in JOBS[job.head["job"]](self._desk, json.loads(job.body), deadline):
+            for answer in JOBS[job.head["job"]](self._state, json.loads(job.body), deadline):
                 kind = {"kind": "answer", "state": isinstance(answer, State)}
                 self._say(kind, json.dumps(answer, allow_nan=False).encode())
             end: dict[str, object] = {"kind": "end"}
         except LimitReachedError as limit:
             end = _failed(TOO_LARGE if limit.reason == "memory-limit" else TOO_LONG, str(limit))
         except MemoryError:
-            self._desk = Desk()
+            self._state = WorkerState()
             end = _failed(TOO_LARGE, limit_words("memory-limit"))
         except SerendipityError as error:
             end = _failed(WRONG, str(error))
@@ -88,7 +88,7 @@ class Worker:
 
     def _say(self, head: dict[str, object], body: bytes = b"") -> None:
         try:
-            self._sink.write(Frame(head, body).encoded)
+            self._sink.write(Message(head, body).encoded)
             self._sink.flush()
         except OSError:
             self._end()

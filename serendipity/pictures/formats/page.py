@@ -34,15 +34,16 @@ def page(scene: Scene) -> str:
     """A scene as a self-contained HTML page; it asks for nothing from any network."""
     last = scene.frames[-1]
     city = map_picture(scene, 0)
+    data = json.dumps(_data(scene), ensure_ascii=False, separators=(",", ":"))
     lanes = timeline_picture(scene)
     lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, cursor(scene)), lanes.description)
-    return _template("page.html").substitute(
+    return Template(_text("page.html")).substitute(
         title=markup(f"{scene.name}: {headline(scene)}"),
         headline=markup(headline(scene)),
         subtitle=markup(subtitle(scene)),
         style=_text("style.css"),
         script=_text("play.js"),
-        data=_embedded(_data(scene)),
+        data=data.replace("<", "\\u003c"),  # it can't end the script element it stands in
         map="" if city is None else svg(city, inline=True, id="map"),
         sizes="" if city is None else _sizes(city),
         without_map="hidden" if city is None else "",
@@ -67,15 +68,6 @@ def _sizes(city: Picture) -> str:
 @cache
 def _text(name: str) -> str:
     return files("serendipity.pictures.formats").joinpath("page", name).read_text(encoding="utf-8")
-
-
-def _template(name: str) -> Template:
-    return Template(_text(name))
-
-
-def _embedded(value: dict[str, Any]) -> str:
-    """JSON that can't end the script element it stands in."""
-    return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _data(scene: Scene) -> dict[str, Any]:
@@ -134,14 +126,8 @@ def _legend(scene: Scene) -> str:
         kind = "person" if agent == scene.human else "machine"
         sample = f'<i class="{kind}" style="background:{colours[agent]};color:{on(colours[agent])}"></i>'
         items.append(f"{sample}{markup(scene.agents[agent])}")
-    if scene.deviates:
-        items.append(f'<i class="former"></i>{markup(scene.agents[scene.human])}’s former plan')
-    if scene.window is not None:
-        items.append('<i class="window"></i>window')
-    if scene.meetings:
-        items.append('<i class="meeting"></i>hand-over or joint action')
-    if scene.contains:
-        items.append('<i class="together"></i>in it, on it or carried')
+    texts = {kind: markup(text.replace("'s f", "’s f")) for kind, text in scene.legend.items()}
+    items += [f'<i class="{kind}"></i>{text}' for kind, text in texts.items()]
     if scene.goals:
         items.append('<i class="goal"></i>goal')
     return "".join(f"<li>{item}</li>" for item in items)

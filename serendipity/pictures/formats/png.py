@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from serendipity.model import UsageError
 from serendipity.model.printable import printable
-from serendipity.pictures.picture.drawing import Circle, Group, Line, Picture, Rect, Shape, Style, Text
+from serendipity.pictures.picture.drawing import Circle, Group, Picture, Polyline, Rect, Shape, Style, Text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,7 +70,7 @@ class _Painter:
             case Circle():
                 centre = (x + shape.x, y + shape.y)
                 self.axes.add_patch(patches.Circle(centre, shape.radius, **self._look(shape.style)))
-            case Line() if shape.points:
+            case Polyline() if shape.points:
                 points = [(x + px, y + py) for px, py in shape.points]
                 look = self._look(shape.style) | {"capstyle": "round", "joinstyle": "round"}
                 self.axes.add_patch(patches.Polygon(points, closed=shape.closed, **look))

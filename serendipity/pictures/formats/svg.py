@@ -3,7 +3,17 @@
 from collections.abc import Iterator, Mapping
 
 from serendipity.model.printable import markup
-from serendipity.pictures.picture.drawing import Circle, Group, Line, Picture, Point, Rect, Shape, Style, Text
+from serendipity.pictures.picture.drawing import (
+    Circle,
+    Group,
+    Picture,
+    Point,
+    Polyline,
+    Rect,
+    Shape,
+    Style,
+    Text,
+)
 
 _FONT = "system-ui, 'DejaVu Sans', 'Segoe UI', Arial, sans-serif"
 
@@ -55,7 +65,7 @@ def _shape(shape: Shape) -> Iterator[str]:
             place = {"cx": shape.x, "cy": shape.y, "r": shape.radius}
             where = {key: number(value) for key, value in place.items()}
             yield f"<circle{_attributes({**where, **_paint(shape.style)})}/>"
-        case Line():
+        case Polyline():
             drawn = {"d": path(shape.points, closed=shape.closed), **_paint(shape.style)}
             joins = {"stroke-linejoin": "round", "stroke-linecap": "round"}
             yield f"<path{_attributes({**drawn, **joins, **_data(shape.data)})}/>"

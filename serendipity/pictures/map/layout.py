@@ -6,7 +6,7 @@ Trees, and graphs that are nearly one, become floor plans; other graphs are laid
 import re
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final
 
@@ -46,13 +46,33 @@ class Box:
     height: float = CELL
     corridor: bool = False
 
+    @property
+    def left(self) -> float:
+        """Its edges, like the others."""
+        return self.x - self.width / 2
+
+    @property
+    def right(self) -> float:
+        """See ``left``."""
+        return self.x + self.width / 2
+
+    @property
+    def top(self) -> float:
+        """See ``left``."""
+        return self.y - self.height / 2
+
+    @property
+    def bottom(self) -> float:
+        """See ``left``."""
+        return self.y + self.height / 2
+
     def moved(self, dx: float, dy: float) -> "Box":
         """The same box elsewhere."""
-        return Box(self.x + dx, self.y + dy, self.width, self.height, self.corridor)
+        return replace(self, x=self.x + dx, y=self.y + dy)
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class MapLayout:
     """All places, from (0, 0) to (width, height).
 
     Attributes:
@@ -69,7 +89,7 @@ class Layout:
     width: float
     height: float
 
-    def around(self, places: Iterable[str]) -> "Layout":
+    def around(self, places: Iterable[str]) -> "MapLayout":
         """The part of the map between some places, for pictures that can't be scrolled."""
         kept = [self.boxes[place] for place in places]
         left, right = (pick(box.x for box in kept) for pick in (min, max))
@@ -77,15 +97,12 @@ class Layout:
         near = {
             place: box
             for place, box in self.boxes.items()
-            if left - CELL <= box.x + box.width / 2
-            and box.x - box.width / 2 <= right + CELL
-            and top - CELL <= box.y <= bottom + CELL
+            if left - CELL <= box.right and box.left <= right + CELL and top - CELL <= box.y <= bottom + CELL
         }
-        x = min(box.x - box.width / 2 for box in near.values())
-        y = min(box.y - box.height / 2 for box in near.values())
-        boxes = {place: box.moved(-x, -y) for place, box in near.items()}
+        left, top = min(box.left for box in near.values()), min(box.top for box in near.values())
+        boxes = {place: box.moved(-left, -top) for place, box in near.items()}
         links = tuple((a, b) for a, b in self.links if a in near and b in near)
-        return Layout(boxes, links, self.doors.intersection(links), *_extent(boxes.values()))
+        return MapLayout(boxes, links, self.doors.intersection(links), *_extent(boxes.values()))
 
     def route(self, source: str, target: str) -> tuple[Point, ...]:
         """The way from the middle of one place to the middle of the other, round the corner."""
@@ -97,7 +114,7 @@ class Layout:
         return tuple(dict.fromkeys([(a.x, a.y), corner, (b.x, b.y)]))
 
 
-def lay_out(places: Places, size: Size | None = None) -> Layout:
+def lay_out(places: Places, size: Size | None = None) -> MapLayout:
     """Lay out a map; parts that no way connects stand side by side.
 
     Args:
@@ -125,26 +142,25 @@ def lay_out(places: Places, size: Size | None = None) -> Layout:
         plan = len(part.edges) - len(part) + 1 <= len(part) * _MOST_PASSAGES
         tree = nx.minimum_spanning_tree(part) if plan else part
         found = _plan_boxes(tree, size) if plan else _graph_boxes(part, size)
-        left = min(box.x - box.width / 2 for box in found.values())
-        top = min(box.y - box.height / 2 for box in found.values())
+        left, top = min(box.left for box in found.values()), min(box.top for box in found.values())
         boxes |= {place: box.moved(right - left, -top) for place, box in found.items()}
-        right = max(boxes[place].x + boxes[place].width / 2 for place in found) + _GAP * CELL
+        right = max(boxes[place].right for place in found) + _GAP * CELL
         walls = {frozenset(edge) for edge in tree.edges} if plan else set()
         doors += [link for link in places.links if frozenset(link) in walls]
-    return Layout(boxes, places.links, frozenset(doors), *_extent(boxes.values()))
+    return MapLayout(boxes, places.links, frozenset(doors), *_extent(boxes.values()))
 
 
-def _shaft(levels: Sequence[str], size: Size) -> Layout:
+def _shaft(levels: Sequence[str], size: Size) -> MapLayout:
     """Places above one another, as wide as high ones may be; ways go through the floors between them."""
     width, height = size
     boxes = {place: Box(width, (i + 0.5) * height, 2 * width, height) for i, place in enumerate(levels)}
     links = tuple(pairwise(levels))
-    return Layout(boxes, links, frozenset(links), *_extent(boxes.values()))
+    return MapLayout(boxes, links, frozenset(links), *_extent(boxes.values()))
 
 
 def _extent(boxes: Iterable[Box]) -> Point:
-    corners = [(box.x + box.width / 2, box.y + box.height / 2) for box in boxes]
-    return max((x for x, _ in corners), default=0.0), max((y for _, y in corners), default=0.0)
+    kept = list(boxes)
+    return max((box.right for box in kept), default=0.0), max((box.bottom for box in kept), default=0.0)
 
 
 def _plan_boxes(tree: "nx.Graph[str]", size: Size) -> dict[str, Box]:
@@ -172,7 +188,7 @@ def _graph_boxes(graph: "nx.Graph[str]", size: Size) -> dict[str, Box]:
     }
 
 
-def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> Layout:
+def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> MapLayout:
     left, top = (min(axis) for axis in zip(*cells.values(), strict=True))
     width, height = size
     boxes = {
@@ -181,7 +197,7 @@ def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> Layo
         )
         for place, (x, y) in cells.items()
     }
-    return Layout(boxes, places.links, frozenset(), *_extent(boxes.values()))
+    return MapLayout(boxes, places.links, frozenset(), *_extent(boxes.values()))
 
 
 def _named_cells(graph: "nx.Graph[str]") -> dict[str, tuple[int, int]]:

@@ -51,7 +51,7 @@ class Circle:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class Polyline:
     """A line through points; ``closed`` makes a polygon."""
 
     points: tuple[Point, ...]
@@ -85,7 +85,7 @@ class Group:
     opacity: float = 1.0
 
 
-Shape = Rect | Circle | Line | Text | Group
+Shape = Rect | Circle | Polyline | Text | Group
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,14 +1,15 @@
-"""The interruptibility report as a heat map over the window's start and end."""
+"""Heat maps over the start and the end of windows."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
+from serendipity.model.task.plans import Window
 from serendipity.pictures.picture.drawing import Group, Picture, Rect, Shape, Style, Text
 from serendipity.pictures.picture.palette import INK, PAPER, WALL
 
-if TYPE_CHECKING:  # a picture knows what it draws by its form only
-    from serendipity.facade.interruptibility import Interruption, InterruptionReport
+Savings = Mapping[Window, Fraction | None]
+"""What is saved in each window; None where no plan fits."""
 
 _CELL: Final = 34
 _LEFT: Final = 110
@@ -21,36 +22,34 @@ _HIGH: Final = (0, 90, 160)
 _UNFIT: Final = "#c8cdd3"
 
 
-def heat_map(report: "InterruptionReport") -> Picture:
-    """Two maps beside each other: what the human saves, and what the team saves, by window.
+def heat_map(maps: Mapping[str, Savings], starts: int, horizon: int) -> Picture:
+    """Maps beside each other, by what stands above them.
 
     Grey cells are windows that no plan fits; where none is, a limit came before it was examined.
+
+    Args:
+        maps: what is saved.
+        starts: how many epochs a window may begin with.
+        horizon: the last epoch of a window.
     """
-    horizon, starts = report.horizon or 0, len(report.human_plan or ())
     width = _LEFT + horizon * _CELL + _GAP
-    maps: list[tuple[str, Callable[[Interruption], Fraction | None]]] = [
-        (f"{report.human} saves at most", lambda entry: entry.human_saving),
-        ("the team saves at most", lambda entry: entry.team_saving),
-    ]
     groups = tuple(
-        Group(tuple(_map(report, title, saving)), x=i * width) for i, (title, saving) in enumerate(maps)
+        Group(tuple(_map(title, savings, starts, horizon)), x=i * width)
+        for i, (title, savings) in enumerate(maps.items())
     )
-    return Picture(2 * width, _TOP + starts * _CELL + 24, groups, "Savings by window")
+    return Picture(len(maps) * width, _TOP + starts * _CELL + 24, groups, "Savings by window")
 
 
-def _map(
-    report: "InterruptionReport", title: str, saving: Callable[["Interruption"], Fraction | None]
-) -> Iterator[Shape]:
-    values = {entry.window: saving(entry) for entry in report.windows}
-    most = max((value for value in values.values() if value is not None), default=Fraction(0))
+def _map(title: str, savings: Savings, starts: int, horizon: int) -> Iterator[Shape]:
+    most = max((value for value in savings.values() if value is not None), default=Fraction(0))
     yield Text(_LEFT, 20, title, _SIZE + 2, anchor="start", bold=True)
     yield Text(_LEFT, 44, "first epoch after the window", _SIZE, anchor="start")
     yield Text(_LEFT - 8, _TOP - 12, "first epoch", _SIZE, anchor="end")
-    for end in range(2, (report.horizon or 0) + 2):
+    for end in range(2, horizon + 2):
         yield Text(_LEFT + (end - 1.5) * _CELL, _TOP - 12, str(end), _SIZE)
-    for start in range(1, len(report.human_plan or ()) + 1):
+    for start in range(1, starts + 1):
         yield Text(_LEFT - 8, _TOP + (start - 0.5) * _CELL, str(start), _SIZE, anchor="end")
-    for window, value in values.items():
+    for window, value in savings.items():
         x, y = _LEFT + (window.end - 2) * _CELL, _TOP + (window.start - 1) * _CELL
         yield _cell(x, y, value, most, f"[{window.start}, {window.end})")
 
@@ -58,7 +57,8 @@ def _map(
 def _cell(x: int, y: int, value: Fraction | None, most: Fraction, window: str) -> Group:
     share = float(value / most) if value is not None and value > 0 else 0.0
     side = _CELL - 2
-    colour = _UNFIT if value is None else _mixed(share)
+    mixed = bytes(round(low + share * (high - low)) for low, high in zip(_LOW, _HIGH, strict=True))
+    colour = _UNFIT if value is None else f"#{mixed.hex()}"
     label = "" if value is None else f"{float(value):.3g}"
     shown = "no plan fits" if value is None else f"saves {label}"
     return Group(
@@ -68,8 +68,3 @@ def _cell(x: int, y: int, value: Fraction | None, most: Fraction, window: str) -
         ),
         title=f"{window}: {shown}",
     )
-
-
-def _mixed(share: float) -> str:
-    channels = (round(low + share * (high - low)) for low, high in zip(_LOW, _HIGH, strict=True))
-    return "#" + "".join(f"{channel:02x}" for channel in channels)

@@ -1,20 +1,21 @@
 """The map: places, ways, paths, and the tokens of one frame."""
 
 from collections import defaultdict
-from collections.abc import Iterator
-from itertools import chain
+from collections.abc import Iterator, Sequence
+from itertools import chain, pairwise
+from math import hypot
 from typing import Final
 
 from serendipity.pictures.map.cards import PILL_HEIGHT, PILL_SIZES, RADIUS, pill
-from serendipity.pictures.map.layout import Box, Layout
+from serendipity.pictures.map.layout import Box, MapLayout
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import (
     BOLD,
     Circle,
     Group,
-    Line,
     Picture,
     Point,
+    Polyline,
     Rect,
     Shape,
     Style,
@@ -36,7 +37,6 @@ from serendipity.pictures.picture.palette import (
 )
 from serendipity.pictures.picture.tokens import FORMER as FORMER_TOKEN
 from serendipity.pictures.picture.tokens import Token, agent_key, initials, object_key, tokens
-from serendipity.pictures.picture.trails import LANE, trail
 from serendipity.pictures.scene.crowds import LEAST_LABEL, TAG_HEIGHT
 from serendipity.pictures.scene.scene import Meeting, Scene
 
@@ -45,6 +45,7 @@ _DOOR: Final = 40.0
 _ROOM: Final = 4.0  # between a lone place's outline and its cell
 _LABEL_SIZE: Final = 23.0
 _LABEL_AT: Final = 17.0  # below the wall
+_LANE: Final = 7.0  # between neighbouring ones, in the picture's units
 _LANES: Final = 0.36  # share of a place's smaller side that paths beside each other take
 _CROWDED: Final = 3  # ways for each place from which on they are thin
 _FAINT: Final = 0.28
@@ -81,40 +82,69 @@ def trails(scene: Scene) -> dict[str, Steps]:
         return {}
     found: dict[str, Steps] = {}
     side = min(min(box.width, box.height) for box in layout.boxes.values())
-    apart = min(1, _LANES * side / LANE / (len(scene.lanes) + 1))
+    apart = min(1, _LANES * side / _LANE / (len(scene.lanes) + 1))
     if scene.deviates:
-        found[FORMER_TOKEN] = trail(layout, [frame.former_at for frame in scene.frames], 2 * apart)
+        found[FORMER_TOKEN] = _trail(layout, [frame.former_at for frame in scene.frames], 2 * apart)
     for n, agent in enumerate(scene.lanes):
         stops = [frame.at.get(agent) for frame in scene.frames]
         if not layout.boxes.keys() >= set(stops) - {None}:
             continue
-        found[agent_key(agent)] = trail(layout, stops, (1 if n == 0 else n + 2) * apart)
+        found[agent_key(agent)] = _trail(layout, stops, (1 if n == 0 else n + 2) * apart)
     return found
 
 
-def _floor(layout: Layout) -> Iterator[Shape]:
+def _trail(layout: MapLayout, stops: Sequence[str | None], lane: float) -> tuple[tuple[Point, ...], ...]:
+    """The points that each step adds to the line of an agent.
+
+    Args:
+        layout: of the map.
+        stops: its place after each epoch, from 0; None while it is nowhere.
+        lane: from 1; how many lanes to the right of the middle; fractions lie between.
+
+    Returns:
+        for each epoch the points that its step adds; none where it stays.
+    """
+    found: list[tuple[Point, ...]] = [()]
+    for here, there in pairwise(stops):
+        if here is None or there is None or here == there:
+            found.append(())
+        else:
+            found.append(tuple(_beside(layout.route(here, there), lane * _LANE)))
+    return tuple(found)
+
+
+def _beside(route: Sequence[Point], offset: float) -> Iterator[Point]:
+    for (x1, y1), (x2, y2) in pairwise(route):
+        length = hypot(x2 - x1, y2 - y1)
+        if length:
+            dx, dy = -(y2 - y1) / length * offset, (x2 - x1) / length * offset
+            yield x1 + dx, y1 + dy
+            yield x2 + dx, y2 + dy
+
+
+def _floor(layout: MapLayout) -> Iterator[Shape]:
     in_plan = {place for door in layout.doors for place in door}
     lines = [link for link in layout.links if link not in layout.doors]
     crowded = len(lines) > _CROWDED * len(layout.boxes)
     way = Style(stroke=WALL, width=1.5, opacity=0.45) if crowded else Style(stroke=WALL, width=3)
     for a, b in lines:
         if a not in in_plan:
-            yield Line(layout.route(a, b), way)
+            yield Polyline(layout.route(a, b), way)
     for place, box in layout.boxes.items():
         yield _outline(box, in_plan=place in in_plan)
     for a, b in sorted(layout.doors):
         yield _door(layout.boxes[a], layout.boxes[b])
     for a, b in lines:
         if a in in_plan:  # a passage that no floor plan of a tree has room for
-            yield Line(layout.route(a, b), Style(stroke=WALL, width=6, dash=(2, 9)))
+            yield Polyline(layout.route(a, b), Style(stroke=WALL, width=6, dash=(2, 9)))
 
 
-def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
+def _labels(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
     """Above the paths, on the colour of the floor so that both can be read."""
     for place, box in layout.boxes.items():
         goal = place in scene.goals
         label, size = fitted(place, box.width - (38 if goal else 14), _LABEL_SIZE, LEAST_LABEL)
-        x, y = box.x + (10 if goal else 0), box.y - box.height / 2 + _LABEL_AT
+        x, y = box.x + (10 if goal else 0), box.top + _LABEL_AT
         width = ems(label) * size
         floor = Style(CORRIDOR if box.corridor else FLOOR)
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)
@@ -126,8 +156,8 @@ def _labels(scene: Scene, layout: Layout) -> Iterator[Shape]:
 def _outline(box: Box, *, in_plan: bool) -> Rect:
     inset = 0 if in_plan else _ROOM
     return Rect(
-        box.x - box.width / 2 + inset,
-        box.y - box.height / 2 + inset,
+        box.left + inset,
+        box.top + inset,
         box.width - 2 * inset,
         box.height - 2 * inset,
         Style(CORRIDOR if box.corridor else FLOOR, WALL, 2 if in_plan else 3),
@@ -135,21 +165,19 @@ def _outline(box: Box, *, in_plan: bool) -> Rect:
     )
 
 
-def _door(a: Box, b: Box) -> Line:
+def _door(a: Box, b: Box) -> Polyline:
     """The opening in the wall between two boxes, in the colour of the floor."""
     floor = Style(stroke=CORRIDOR if a.corridor or b.corridor else FLOOR, width=5)
     if a.y == b.y:
-        left = a if a.x < b.x else b
-        x = left.x + left.width / 2
-        return Line(((x, a.y - _DOOR / 2), (x, a.y + _DOOR / 2)), floor)
-    narrow, upper = (a if a.width < b.width else b), (a if a.y < b.y else b)
-    y = upper.y + upper.height / 2
-    return Line(((narrow.x - _DOOR / 2, y), (narrow.x + _DOOR / 2, y)), floor)
+        x = (a if a.x < b.x else b).right
+        return Polyline(((x, a.y - _DOOR / 2), (x, a.y + _DOOR / 2)), floor)
+    narrow, y = (a if a.width < b.width else b), (a if a.y < b.y else b).bottom
+    return Polyline(((narrow.x - _DOOR / 2, y), (narrow.x + _DOOR / 2, y)), floor)
 
 
 def _flag(x: float, y: float) -> Group:
-    pole = Line(((x, y - 10), (x, y + 10)), Style(stroke=INK, width=2))
-    cloth = Line(((x, y - 10), (x + 14, y - 5), (x, y)), Style(GOAL, INK, 1), closed=True)
+    pole = Polyline(((x, y - 10), (x, y + 10)), Style(stroke=INK, width=2))
+    cloth = Polyline(((x, y - 10), (x + 14, y - 5), (x, y)), Style(GOAL, INK, 1), closed=True)
     return Group((pole, cloth), title="the human's goal")
 
 
@@ -158,14 +186,14 @@ def _trails(scene: Scene, epoch: int) -> Iterator[Shape]:
     for key, steps in trails(scene).items():
         whole = tuple(chain.from_iterable(steps))
         if key == FORMER_TOKEN:
-            yield Line(whole, Style(stroke=FORMER, width=4, dash=(9, 8)), data={"ghost": key})
+            yield Polyline(whole, Style(stroke=FORMER, width=4, dash=(9, 8)), data={"ghost": key})
             continue
-        yield Line(whole, Style(stroke=colours[key], width=4, opacity=_FAINT))
+        yield Polyline(whole, Style(stroke=colours[key], width=4, opacity=_FAINT))
         done = tuple(chain.from_iterable(steps[: epoch + 1]))
-        yield Line(done, Style(stroke=colours[key], width=5), data={"trail": key})
+        yield Polyline(done, Style(stroke=colours[key], width=5), data={"trail": key})
 
 
-def _meetings(scene: Scene, layout: Layout) -> Iterator[Shape]:
+def _meetings(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
     """A frame and a tag for each place where somebody meets."""
     met: dict[str, list[tuple[int, Meeting]]] = defaultdict(list)
     for index, meeting in enumerate(scene.meetings):
@@ -173,7 +201,7 @@ def _meetings(scene: Scene, layout: Layout) -> Iterator[Shape]:
             met[str(meeting.place)].append((index, meeting))
     for place, several in met.items():
         box = layout.boxes[place]
-        x, y = box.x - box.width / 2, box.y - box.height / 2
+        x, y = box.left, box.top
         frame = Rect(x + 4, y + 4, box.width - 8, box.height - 8, Style(stroke=MEETING, width=5), round=12)
         epochs = [str(epoch) for epoch in dict.fromkeys(meeting.epoch for _, meeting in several)]
         text, size = _fitting(epochs, box.width - 30)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
-from serendipity.pictures.picture.drawing import Circle, Group, Line, Picture, Rect, Shape, Style, Text
+from serendipity.pictures.picture.drawing import Circle, Group, Picture, Polyline, Rect, Shape, Style, Text
 from serendipity.pictures.picture.map_picture import map_picture
 from serendipity.pictures.picture.palette import FAINT_INK, FORMER, INK, MEETING, PAPER, WINDOW, agent_colours
 from serendipity.pictures.picture.timeline_picture import (
@@ -75,15 +75,13 @@ def _legend(scene: Scene) -> Iterator[Shape]:
         human = agent == scene.human
         token = Circle(12, 12, 10, paint) if human else Rect(3, 3, 18, 18, paint, round=4)
         entries.append((token, scene.agents[agent]))
-    if scene.deviates:
-        dashes = Line(((0, 12), (26, 12)), Style(stroke=FORMER, width=4, dash=(9, 8)))
-        entries.append((dashes, f"{scene.agents[scene.human]}'s former plan"))
-    if scene.window is not None:
-        entries.append((Rect(0, 2, 22, 20, Style(WINDOW, FAINT_INK)), "window"))
-    if scene.meetings:
-        entries.append((Rect(1, 3, 20, 18, Style(PAPER, MEETING, 4), round=5), "hand-over or joint action"))
-    if scene.contains:
-        entries.append((Rect(1, 3, 20, 18, Style(PAPER, INK, 2), round=5), "in it, on it or carried"))
+    samples: dict[str, Shape] = {
+        "former": Polyline(((0, 12), (26, 12)), Style(stroke=FORMER, width=4, dash=(9, 8))),
+        "window": Rect(0, 2, 22, 20, Style(WINDOW, FAINT_INK)),
+        "meeting": Rect(1, 3, 20, 18, Style(PAPER, MEETING, 4), round=5),
+        "together": Rect(1, 3, 20, 18, Style(PAPER, INK, 2), round=5),
+    }
+    entries += [(samples[kind], text) for kind, text in scene.legend.items()]
     x = 0.0
     for sample, text in entries:
         yield Group((sample, Text(32, 12, text, 16, INK, "start")), x, 0)

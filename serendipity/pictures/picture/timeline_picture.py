@@ -6,8 +6,8 @@ from typing import Final
 from serendipity.pictures.picture.drawing import (
     Circle,
     Group,
-    Line,
     Picture,
+    Polyline,
     Rect,
     Shape,
     Style,
@@ -51,7 +51,9 @@ def lane_labels(scene: Scene) -> Picture:
     shapes: list[Shape] = [Text(8, _HEAD / 2, "epoch", 14, FAINT_INK, "start")]
     for agent, top in _lane_tops(scene).items():
         text, size = fitted(scene.agents[agent], LABELS - 34, 16, 11, bold=True)
-        marker = _marker(agent == scene.human, colours[agent], top + _LANE / 2)
+        y, paint = top + _LANE / 2, Style(colours[agent])
+        own = agent == scene.human
+        marker = Circle(14, y, 7, paint) if own else Rect(7.5, y - 6.5, 13, 13, paint, round=3)
         shapes += [marker, Text(26, top + _LANE / 2, text, size, INK, "start", bold=True)]
     if scene.deviates:
         middle = _former_top(scene) + _FORMER / 2
@@ -83,10 +85,11 @@ def timeline_picture(
     """
     end = columns(scene) - 1 if last is None else last
     width = (end - first + 1) * COLUMN
+    tops = [*_lane_tops(scene).values(), _former_top(scene), *(top for _, top in _fact_tops(scene))]
     shapes = [
         *_columns(scene, first, end),
         *_window(scene, first, end),
-        *_rules(scene, width),
+        *(Polyline(((0, top), (width, top)), Style(stroke=_RULE, width=1)) for top in tops),
         *_acts(scene, first, end),
         *_facts(scene, first, end),
     ]
@@ -123,12 +126,6 @@ def _height(scene: Scene) -> float:
     return (facts[-1][1] + _FACT if facts else _former_top(scene) + (_FORMER if scene.deviates else 0)) + 4
 
 
-def _marker(human: bool, colour: str, y: float) -> Shape:
-    if human:
-        return Circle(14, y, 7, Style(colour))
-    return Rect(7.5, y - 6.5, 13, 13, Style(colour), round=3)
-
-
 def _columns(scene: Scene, first: int, last: int) -> Iterator[Shape]:
     """The heads; each column is a group that a page can make react to clicks."""
     height = _height(scene)
@@ -150,13 +147,6 @@ def _window(scene: Scene, first: int, last: int) -> Iterator[Shape]:
         yield Group((area, head), x, 0, {"column": str(epoch)}, "the window: the human may be met")
 
 
-def _rules(scene: Scene, width: float) -> Iterator[Shape]:
-    tops = [*_lane_tops(scene).values(), _former_top(scene)]
-    tops += [top for _, top in _fact_tops(scene)]
-    for top in tops:
-        yield Line(((0, top), (width, top)), Style(stroke=_RULE, width=1))
-
-
 def _acts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
     colours = agent_colours(len(scene.agents), scene.human)
     tops = _lane_tops(scene)
@@ -168,7 +158,7 @@ def _acts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
         middles = [tops[agent] + _LANE / 2 for agent in act.agents]
         if len(middles) > 1:
             bond = Style(stroke=MEETING, width=10)
-            shapes.append(Line(((COLUMN / 2, min(middles)), (COLUMN / 2, max(middles))), bond))
+            shapes.append(Polyline(((COLUMN / 2, min(middles)), (COLUMN / 2, max(middles))), bond))
         joint = len(act.agents) > 1
         for agent, middle in zip(act.agents, middles, strict=True):
             edge = MEETING if joint else colours[agent]

@@ -10,12 +10,11 @@ from serendipity.model import GroundAction, InputError, Result, Task
 from serendipity.model.numbers import total
 from serendipity.model.task.execution import shares
 from serendipity.pictures.map.layout import lay_out
-from serendipity.pictures.map.names import parts, verb_and_rest, without
 from serendipity.pictures.map.places import Places, Whereabouts, find_places
 from serendipity.pictures.scene.changes import find_changes
 from serendipity.pictures.scene.crowds import cell_size
 from serendipity.pictures.scene.finder import Finder
-from serendipity.pictures.scene.replay import Moment, replay, replay_former
+from serendipity.pictures.scene.replay import Snapshot, replay, replay_former
 from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene
 
 MOST_EPOCHS: Final = 2_000
@@ -42,7 +41,6 @@ def build_scene(task: Task, result: Result) -> Scene:
         name=task.name,
         agents=task.agents,
         human=task.human,
-        layout=None,
         goals=places.goals(task),
         frames=builder.frames(moments, former, last),
         acts=acts,
@@ -67,13 +65,13 @@ class _Builder:
         own = result.mode != "assistance"  # there nobody's cost is discounted (semantics 7)
         self.discount = result.options.discount if own else Fraction(0)
 
-    def frames(self, moments: Sequence[Moment], former: Sequence[Moment], last: int) -> tuple[Frame, ...]:
+    def frames(self, moments: Sequence[Snapshot], former: Sequence[Snapshot], last: int) -> tuple[Frame, ...]:
         frames = []
         spent = dict.fromkeys(range(len(self.task.agents)), Fraction(0))
         former_spent = Fraction(0)
         before = moments[0].state
         for epoch in range(last + 1):
-            moment = moments[epoch] if epoch < len(moments) else Moment(epoch, (), moments[-1].state)
+            moment = moments[epoch] if epoch < len(moments) else Snapshot(epoch, (), moments[-1].state)
             then = former[min(epoch, len(former) - 1)]
             for agent, share in shares(self.task, moment.actions, self.discount).items():
                 spent[agent] += share
@@ -97,13 +95,13 @@ class _Builder:
             before = state
         return tuple(frames)
 
-    def acts(self, moment: Moment) -> list[Act]:
+    def acts(self, moment: Snapshot) -> list[Act]:
         """The actions of a moment, the human's first."""
         human = self.task.human
         ordered = sorted(moment.actions, key=lambda a: (human not in a.participants, a.participants))
         return [self._act(moment.epoch, action) for action in ordered]
 
-    def meetings(self, moments: Sequence[Moment]) -> list[Meeting]:
+    def meetings(self, moments: Sequence[Snapshot]) -> list[Meeting]:
         """Joint actions, and objects that somebody takes who did not have them last."""
         found = []
         holders: dict[str, int] = {}
@@ -122,13 +120,13 @@ class _Builder:
             found += [self._joint(moment, action, objects, passed) for action in joint]
         return found
 
-    def _found(self, moment: Moment, name: str, giver: int, taker: int) -> Meeting:
+    def _found(self, moment: Snapshot, name: str, giver: int, taker: int) -> Meeting:
         agents = self.task.agents
         text = f"{agents[taker]} takes {name}, which {agents[giver]} left"
         return Meeting(moment.epoch, self.finder.agents(moment.state).get(taker), (name,), text)
 
     def _joint(
-        self, moment: Moment, action: GroundAction, objects: dict[str, Whereabouts], passed: dict[str, int]
+        self, moment: Snapshot, action: GroundAction, objects: dict[str, Whereabouts], passed: dict[str, int]
     ) -> Meeting:
         act = self._act(moment.epoch, action)
         at = self.finder.agents(moment.state)
@@ -145,28 +143,12 @@ class _Builder:
         return Meeting(moment.epoch, place, mine, text + (f" in {place}" if gifts and place else ""))
 
     def _act(self, epoch: int, action: GroundAction) -> Act:
-        verb, detail = verb_and_rest(action.name, [self.task.agents[i] for i in action.participants])
-        if not action.joint:
-            places = self.finder.places_of(action, action.participants[0])
-            reached = [places[f] for f in action.add if f in places]
-            verb, detail = ("go to", reached[0]) if reached else (verb, detail)
-        if verb != "go to":
-            detail = self._without_here(action, detail)
-        return Act(epoch, action.participants, verb, detail, action.name)
-
-    def _without_here(self, action: GroundAction, detail: str) -> str:
-        """A detail without the place and vehicle that participants are in; kept if it is all there is."""
-        here = []
-        for agent in action.participants:
-            places = self.finder.places_of(action, agent)
-            here += [parts(places[f]) for f in action.pre if f in places]
-            here += [parts(vehicle) for vehicle in self.finder.vehicles(action, agent)]
-        return " ".join(without(here, tuple(detail.split()))) or detail
+        return Act(epoch, action.participants, *self.finder.phrase(action, self.task.agents), action.name)
 
     def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
         return tuple(self.task.facts[f] for f in sorted(ids))
 
-    def _caption(self, moment: Moment, *, ended: bool) -> str:
+    def _caption(self, moment: Snapshot, *, ended: bool) -> str:
         if moment.epoch == 0:
             return "Before anybody has done anything."
         if ended:

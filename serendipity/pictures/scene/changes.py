@@ -56,7 +56,7 @@ def find_changes(
         changes = [epoch for epoch in range(1, len(values)) if values[epoch] != values[epoch - 1]]
         if changes:
             names = [", ".join(task.facts[f] for f in value) for value in values]
-            found.append((changes[0], Change(_label(task, variable), False, _spans(names, last))))
+            found.append((changes[0], Change(_shared(task, variable), False, _spans(names, last))))
     found.sort(key=lambda entry: entry[0])
     return (*lanes, *(change for _, change in found))
 
@@ -79,12 +79,10 @@ def _spans(names: Sequence[str], last: int) -> tuple[Span, ...]:
     return tuple(spans)
 
 
-def _label(task: Task, variable: Variable) -> str:
-    return task.facts[variable.facts[0]] if variable.boolean else _shared(task, variable)
-
-
 def _shared(task: Task, variable: Variable) -> str:
     """What the names of a variable's facts have in common: word by word, else the thing they speak of."""
+    if variable.boolean:
+        return task.facts[variable.facts[0]]
     first, *others = (task.facts[f].split() for f in variable.facts)
     words = [
         word if all(i < len(other) and other[i] == word for other in others) else "·"

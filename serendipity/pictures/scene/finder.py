@@ -1,15 +1,13 @@
 """Where agents and objects are in a state, in vehicles too."""
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final
 
 from serendipity.model import GroundAction
 from serendipity.model.task.actions import State
+from serendipity.pictures.map.names import Parts, parts, verb_and_rest, without
 from serendipity.pictures.map.places import Places, Whereabouts
-
-NOWHERE: Final = Whereabouts()
 
 
 class Finder:
@@ -28,20 +26,19 @@ class Finder:
         for agent in sorted(self._places.positions.keys() | self._places.riding.keys()):
             places = self._places.positions.get(agent, {})
             place = next((place for f, place in places.items() if f in state), None)
-            if place is None and agent in self._places.riding:
-                place = self._vehicle_at(self._places.riding[agent], state)
+            if place is None:
+                ridden = (name for f, name in self._places.riding.get(agent, {}).items() if f in state)
+                told = self._places.objects.get(next(ridden, ""), {})
+                place = next((where.place for f, where in told.items() if f in state), None)
             if place is not None:
                 found[agent] = place
         return found
 
-    def _vehicle_at(self, riding: dict[int, str], state: State) -> str | None:
-        told = next((self._places.objects[name] for f, name in riding.items() if f in state), {})
-        return next((where.place for f, where in told.items() if f in state), None)
-
     def objects(self, state: State) -> dict[str, Whereabouts]:
         """Where each object is, who rides it, and who holds or rides what carries it."""
+        still = self._places.still
         told = {
-            name: next((where for f, where in of.items() if f in state), self._otherwise(name))
+            name: next((where for f, where in of.items() if f in state), Whereabouts(still.get(name)))
             for name, of in self._places.objects.items()
         }
         riders: dict[str, tuple[int, ...]] = defaultdict(tuple)
@@ -50,10 +47,6 @@ class Finder:
             if vehicle is not None:
                 riders[vehicle] += (agent,)
         return {name: self._resolved(name, told, riders) for name in told}
-
-    def _otherwise(self, name: str) -> Whereabouts:
-        """Where an object is of which nothing is told."""
-        return Whereabouts(self._places.still[name]) if name in self._places.still else NOWHERE
 
     def _resolved(
         self, name: str, told: dict[str, Whereabouts], riders: Mapping[str, tuple[int, ...]]
@@ -74,6 +67,29 @@ class Finder:
             told = self._places.objects[vehicle]
             found |= {f: where.place for f, where in told.items() if where.place is not None}
         return found
+
+    def target(self, action: GroundAction, agent: int) -> str | None:
+        """The place that an agent's own action leads to; None where it leads nowhere."""
+        places = {} if action.joint else self.places_of(action, agent)
+        return next((places[fact] for fact in action.add if fact in places), None)
+
+    def phrase(self, action: GroundAction, agents: Sequence[str]) -> tuple[str, str]:
+        """An action in two short lines, without who does it and where they are; a move is "go to" a place.
+
+        Args:
+            action: the action.
+            agents: names of all agents.
+        """
+        place = self.target(action, action.participants[0])
+        if place is not None:
+            return "go to", place
+        verb, detail = verb_and_rest(action.name, [agents[i] for i in action.participants])
+        here: list[Parts] = []
+        for agent in action.participants:
+            places = self.places_of(action, agent)
+            here += [parts(places[fact]) for fact in action.pre if fact in places]
+            here += map(parts, self.vehicles(action, agent))
+        return verb, " ".join(without(here, tuple(detail.split()))) or detail
 
     def vehicles(self, action: GroundAction, agent: int) -> list[str]:
         """What an agent is in or on while it acts."""

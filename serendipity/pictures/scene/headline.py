@@ -15,7 +15,7 @@ def headline(scene: Scene) -> str:
         return f"No single plan: figures over all optimal plans of {human}"
     if result.opportunity and scene.meetings:
         first = scene.meetings[0]
-        return f"{_capital(first.text)} at epoch {first.epoch}: {_saved(scene)}"
+        return f"{first.text[:1].upper()}{first.text[1:]} at epoch {first.epoch}: {_saved(scene)}"
     if result.opportunity:
         return f"The robots help {human}: {_saved(scene)}"
     if result.human_plan == () and not result.plan:
@@ -53,7 +53,3 @@ def _saved(scene: Scene) -> str:
     if result.saving is None or result.human_cost is None or result.cost is None:
         return "a plan together"
     return f"cost {plain(result.human_cost)} → {plain(result.cost)}, {plain(result.saving)} saved"
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -1,10 +1,10 @@
 """The scene: everything that a picture of a plan shows, epoch by epoch, before anything is drawn."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from serendipity.model import Result, Window
-from serendipity.pictures.map.layout import Layout
+from serendipity.pictures.map.layout import MapLayout
 from serendipity.pictures.map.places import Whereabouts
 from serendipity.pictures.scene.changes import Change
 
@@ -63,13 +63,13 @@ class Frame:
     epoch: int
     at: dict[int, str]
     objects: dict[str, Whereabouts]
-    former_at: str | None
-    made: tuple[str, ...]
-    undone: tuple[str, ...]
-    spent: dict[int, Fraction]
-    former_spent: Fraction
-    caption: str
-    in_window: bool
+    former_at: str | None = None
+    made: tuple[str, ...] = ()
+    undone: tuple[str, ...] = ()
+    spent: dict[int, Fraction] = field(default_factory=dict)
+    former_spent: Fraction = Fraction(0)
+    caption: str = ""
+    in_window: bool = False
 
     @property
     def cost(self) -> Fraction:
@@ -84,13 +84,13 @@ class Scene:
     Attributes:
         name: of the task.
         agents: names by id; ``human`` is an id.
+        result: what is shown.
+        frames: epoch 0, 1, ... to the end of the plan or of the former plan, whichever is later.
         layout: of the map, or None where the task has none.
         goals: places that the human's goal names.
-        frames: epoch 0, 1, ... to the end of the plan or of the former plan, whichever is later.
         acts, former_acts: the two plans.
         window: as in the result.
         changes: facts that change, for the lanes below the timeline.
-        result: what is shown.
         vehicles: objects that others can be in or on.
         towers: whether what is on an object is shown above it.
     """
@@ -98,15 +98,15 @@ class Scene:
     name: str
     agents: tuple[str, ...]
     human: int
-    layout: Layout | None
-    goals: tuple[str, ...]
-    frames: tuple[Frame, ...]
-    acts: tuple[Act, ...]
-    former_acts: tuple[Act, ...]
-    meetings: tuple[Meeting, ...]
-    window: Window | None
-    changes: tuple[Change, ...]
     result: Result
+    frames: tuple[Frame, ...]
+    layout: MapLayout | None = None
+    goals: tuple[str, ...] = ()
+    acts: tuple[Act, ...] = ()
+    former_acts: tuple[Act, ...] = ()
+    meetings: tuple[Meeting, ...] = ()
+    window: Window | None = None
+    changes: tuple[Change, ...] = ()
     vehicles: frozenset[str] = frozenset()
     towers: bool = False
 
@@ -124,10 +124,17 @@ class Scene:
         return own != [(act.epoch, act.action) for act in self.former_acts]
 
     @property
-    def contains(self) -> bool:
-        """Whether anything ever is in, on or with anything or anybody."""
-        whereabouts = [where for frame in self.frames for where in frame.objects.values()]
-        return any(where.carrier or where.riders or where.holder is not None for where in whereabouts)
+    def legend(self) -> dict[str, str]:
+        """What a picture needs samples of besides the agents, with what they mean."""
+        together = [w for frame in self.frames for w in frame.objects.values()]
+        contains = any(w.carrier or w.riders or w.holder is not None for w in together)
+        meanings = {
+            "former": (self.deviates, f"{self.agents[self.human]}'s former plan"),
+            "window": (self.window is not None, "window"),
+            "meeting": (bool(self.meetings), "hand-over or joint action"),
+            "together": (contains, "in it, on it or carried"),
+        }
+        return {kind: text for kind, (there, text) in meanings.items() if there}
 
     @property
     def key_epoch(self) -> int:

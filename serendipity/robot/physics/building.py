@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import Final
 
-from serendipity.pictures.map.layout import Box, Layout
-from serendipity.robot.physics.engine import Colour, Engine
+from serendipity.pictures.map.layout import Box, MapLayout
+from serendipity.robot.physics.engine import Colour, Engine, Link
 
 CELL: Final = 0.8
 """Least side of a room, in metres."""
@@ -25,7 +25,7 @@ _WOOD: Final[Colour] = (0.72, 0.53, 0.33, 1)
 Point = tuple[float, float]
 
 
-class Building:
+class Rooms:
     """Rooms on a floor.
 
     Args:
@@ -39,26 +39,29 @@ class Building:
         width, depth: of the whole, in metres.
     """
 
-    def __init__(self, engine: Engine, layout: Layout) -> None:
+    def __init__(self, engine: Engine, layout: MapLayout) -> None:
         self._engine = engine
         self._layout = layout
         self._scale = CELL / min(side for box in layout.boxes.values() for side in (box.width, box.height))
         self.width, self.depth = layout.width * self._scale, layout.height * self._scale
         boxes = layout.boxes.items()
-        self.corners = {p: self._at(b.x - b.width / 2, b.y + b.height / 2) for p, b in boxes}
-        self.middles = {place: self._at(box.x, box.y) for place, box in layout.boxes.items()}
+        self.corners = {p: self._at(b.left, b.bottom) for p, b in boxes}
+        self.middles = {place: self._at(box.x, box.y) for place, box in boxes}
         self.doors: dict[Point, list[int]] = {}
         ground = (self.width + 4, self.depth + 4, 0.1)
         engine.box(ground, (self.width / 2, self.depth / 2, -0.06), (1, 1, 1, 1))
         for box in layout.boxes.values():
-            self._floor(box)
+            size = (box.width * self._scale, box.height * self._scale, 0.01)
+            colour = _HALL if box.corridor else _ROOM
+            engine.box(size, (*self._at(box.x, box.y), -0.005), colour, solid=False)
         for wall in self._walls():
             self._brick(*wall)
 
     def way(self, source: str, target: str) -> tuple[Point, ...]:
         """The points on the way between two places that share a doorway: before it, in it, behind it."""
         boxes = self._layout.boxes
-        if not self._shared(source, target) or (boxes[source].corridor and boxes[target].corridor):
+        shared = not self._layout.doors.isdisjoint(((source, target), (target, source)))
+        if not shared or (boxes[source].corridor and boxes[target].corridor):
             return ()
         middle, upright = _between(boxes[source], boxes[target])
         x, y = self._at(*middle)
@@ -78,16 +81,8 @@ class Building:
 
         return min(self.middles, key=off)
 
-    def _shared(self, a: str, b: str) -> bool:
-        return not self._layout.doors.isdisjoint(((a, b), (b, a)))
-
     def _at(self, x: float, y: float) -> Point:
         return x * self._scale, self.depth - y * self._scale
-
-    def _floor(self, box: Box) -> None:
-        size = (box.width * self._scale, box.height * self._scale, 0.01)
-        colour = _HALL if box.corridor else _ROOM
-        self._engine.box(size, (*self._at(box.x, box.y), -0.005), colour, solid=False)
 
     def _walls(self) -> Iterator[tuple[Point, Point]]:
         """Pieces of wall from point to point, in metres; a doorway is between two of them."""
@@ -147,65 +142,27 @@ class Building:
         unit, length = (along[0] / whole, along[1] / whole), whole - 1.2 * _CLEAR
         half = [max(abs(part) * length, thick) / 2 for part in unit] + [height / 2]
         offset = [unit[0] * (length / 2 + _CLEAR), unit[1] * (length / 2 + _CLEAR), height / 2 + 0.01]
-        call = self._engine.call
-        shape = call("createCollisionShape", bullet.GEOM_BOX, halfExtents=half, collisionFramePosition=offset)
-        look = call(
-            "createVisualShape",
-            bullet.GEOM_BOX,
-            halfExtents=half,
-            visualFramePosition=offset,
-            rgbaColor=_WOOD,
-        )
-        door = call(
-            "createMultiBody",
-            0,
-            -1,
-            -1,
-            (*hinge, 0),
-            linkMasses=[_DOOR_MASS],
-            linkCollisionShapeIndices=[shape],
-            linkVisualShapeIndices=[look],
-            linkPositions=[(0, 0, 0)],
-            linkOrientations=[(0, 0, 0, 1)],
-            linkInertialFramePositions=[offset],
-            linkInertialFrameOrientations=[(0, 0, 0, 1)],
-            linkParentIndices=[0],
-            linkJointTypes=[bullet.JOINT_REVOLUTE],
-            linkJointAxis=[(0, 0, 1)],
-        )
+        at, call = (offset[0], offset[1], offset[2]), self._engine.call
+        solid = self._engine.solid("BOX", at, halfExtents=half)
+        look = self._engine.look("BOX", _WOOD, at, halfExtents=half)
+        leaf = Link(look, axis=(0, 0, 1), mass=_DOOR_MASS, middle=at, solid=solid)
+        door = self._engine.body(0, -1, -1, (*hinge, 0), [leaf])
         call("changeDynamics", door, 0, jointLowerLimit=-2.6, jointUpperLimit=2.6, jointDamping=0.01)
         call("setJointMotorControl2", door, 0, bullet.POSITION_CONTROL, targetPosition=0, force=_SPRING)
-        return int(door)
+        return door
 
 
 def _sides(box: Box) -> Iterator[tuple[Point, Point]]:
-    left, right = box.x - box.width / 2, box.x + box.width / 2
-    top, bottom = box.y - box.height / 2, box.y + box.height / 2
-    yield (left, top), (right, top)
-    yield (left, bottom), (right, bottom)
-    yield (left, top), (left, bottom)
-    yield (right, top), (right, bottom)
-
-
-def _beside(a: Box, b: Box) -> bool:
-    """Whether two boxes that touch are side by side, so that the wall between them is upright."""
-    return abs(abs(a.x - b.x) - (a.width + b.width) / 2) < abs(abs(a.y - b.y) - (a.height + b.height) / 2)
+    for y in (box.top, box.bottom):
+        yield (box.left, y), (box.right, y)
+    for x in (box.left, box.right):
+        yield (x, box.top), (x, box.bottom)
 
 
 def _between(a: Box, b: Box) -> tuple[Point, bool]:
-    """The middle of the wall that two boxes share, and whether it is upright."""
-    upright = _beside(a, b)
-    low = max(_low(a, upright), _low(b, upright))
-    high = min(_high(a, upright), _high(b, upright))
-    middle = (low + high) / 2
-    if upright:
-        return (a.x + (a.width if b.x > a.x else -a.width) / 2, middle), True
-    return (middle, a.y + (a.height if b.y > a.y else -a.height) / 2), False
-
-
-def _low(box: Box, along_y: bool) -> float:
-    return box.y - box.height / 2 if along_y else box.x - box.width / 2
-
-
-def _high(box: Box, along_y: bool) -> float:
-    return box.y + box.height / 2 if along_y else box.x + box.width / 2
+    """The middle of the wall that two boxes share, and whether it is upright: they are side by side."""
+    if abs(abs(a.x - b.x) - (a.width + b.width) / 2) < abs(abs(a.y - b.y) - (a.height + b.height) / 2):
+        middle = (max(a.top, b.top) + min(a.bottom, b.bottom)) / 2
+        return (a.right if b.x > a.x else a.left, middle), True
+    middle = (max(a.left, b.left) + min(a.right, b.right)) / 2
+    return (middle, a.bottom if b.y > a.y else a.top), False

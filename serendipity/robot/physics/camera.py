@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from serendipity.robot.physics.building import Building
+from serendipity.robot.physics.building import Rooms
 from serendipity.robot.physics.engine import Engine, Vector
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class Camera:
         width, height: of its pictures.
     """
 
-    def __init__(self, engine: Engine, building: Building, width: int) -> None:
+    def __init__(self, engine: Engine, building: Rooms, width: int) -> None:
         self._engine = engine
         wide, deep = building.width, building.depth
         corners = [(x, y, z) for x in (0.0, wide) for y in (0.0, deep) for z in (0.0, _TALL)]

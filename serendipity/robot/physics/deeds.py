@@ -7,12 +7,14 @@ from collections.abc import Generator, Iterable, Sequence
 from math import cos, hypot, sin
 from typing import Final
 
-from serendipity.robot.physics.building import Building, Point
+from serendipity.robot.physics.building import Point, Rooms
 from serendipity.robot.physics.engine import RATE, Engine
-from serendipity.robot.physics.figure import KNEEL, REACH, STAND, Figure, Pose
+from serendipity.robot.physics.figure import KNEEL, REACH, STAND, Pose, StickFigure
 from serendipity.robot.physics.kit import Kit
 
 Deed = Generator[None, None, None]
+
+_OVER: Final = object()
 
 _PATIENCE: Final = 3.0
 """Seconds without getting any nearer after which a way is given up."""
@@ -36,11 +38,11 @@ class Bodies:
         building: where they are.
     """
 
-    def __init__(self, engine: Engine, building: Building) -> None:
+    def __init__(self, engine: Engine, building: Rooms) -> None:
         self._engine = engine
         self._building = building
 
-    def go(self, figure: Figure, speed: float, target: str, spot: Point) -> Deed:
+    def go(self, figure: StickFigure, speed: float, target: str, spot: Point) -> Deed:
         """Walk to a spot in a place, from wherever one is.
 
         Raises:
@@ -51,13 +53,14 @@ class Bodies:
         for point in (*points, spot):
             yield from self._walk(figure, speed, point, target)
 
-    def take(self, figure: Figure, speed: float, kit: Kit) -> Deed:
+    def take(self, figure: StickFigure, speed: float, kit: Kit) -> Deed:
         """Pick something up from the floor.
 
         Raises:
             StuckError: it is out of reach.
         """
-        yield from self._step_up(figure, speed, kit)
+        if figure.away(kit.place[:2]) > _ARM:
+            yield from self._walk(figure, speed, _towards(kit.place[:2], figure.at, _ARM), "it")
         yield from _pose(figure, KNEEL, _DOWN, kit.place[:2])
         if not kit.within_reach(figure):
             raise StuckError("it is out of reach")
@@ -65,49 +68,40 @@ class Bodies:
         yield from _pose(figure, KNEEL, _HOLDING / 2)
         yield from _pose(figure, STAND, _DOWN)
 
-    def put(self, figure: Figure, kit: Kit) -> Deed:
+    def put(self, figure: StickFigure, kit: Kit) -> Deed:
         """Lay something down."""
         yield from _pose(figure, KNEEL, _DOWN)
         kit.let_go()
         yield from _pose(figure, STAND, _DOWN)
 
-    def hand(self, giver: Figure, taker: Figure, speed: float, kit: Kit) -> Deed:
+    def hand(self, giver: StickFigure, taker: StickFigure, speed: float, kit: Kit) -> Deed:
         """Hand something over.
 
         Raises:
             StuckError: they don't get near enough to each other.
         """
-        x, y = giver.at
         if giver.away(taker.at) > _FACING:
-            away = giver.away(taker.at)
-            share = _FACING / away
-            spot = x + (taker.at[0] - x) * share, y + (taker.at[1] - y) * share
-            for _ in self._walk(taker, speed, spot, "the other"):
+            for _ in self._walk(taker, speed, _towards(giver.at, taker.at, _FACING), "the other"):
                 giver.rest(facing=taker.at)
                 yield
-        for seconds, ready in ((_DOWN, True), (_HOLDING, False)):
-            if not ready:
-                if not kit.within_reach(taker):
-                    raise StuckError("their hands don't meet")
-                kit.take(taker)
-            for _ in range(round(seconds * RATE)):
-                giver.rest(REACH, taker.at)
-                taker.rest(REACH, giver.at)
-                yield
+        for _ in _moments(_DOWN):
+            giver.rest(REACH, taker.at)
+            taker.rest(REACH, giver.at)
+            yield
+        if not kit.within_reach(taker):
+            raise StuckError("their hands don't meet")
+        kit.take(taker)
+        for _ in _moments(_HOLDING):
+            giver.rest(REACH, taker.at)
+            taker.rest(REACH, giver.at)
+            yield
 
-    def work(self, figures: Sequence[Figure]) -> Deed:
+    def work(self, figures: Sequence[StickFigure]) -> Deed:
         """Be busy where one is."""
         for pose, seconds in ((KNEEL, _WORK), (STAND, _DOWN)):
             yield from together([_pose(figure, pose, seconds) for figure in figures])
 
-    def _step_up(self, figure: Figure, speed: float, kit: Kit) -> Deed:
-        away = figure.away(kit.place[:2])
-        if away > _ARM:
-            share = _ARM / away
-            (x, y), (a, b, _) = figure.at, kit.place
-            yield from self._walk(figure, speed, (a + (x - a) * share, b + (y - b) * share), "it")
-
-    def _walk(self, figure: Figure, speed: float, point: Point, target: str) -> Deed:
+    def _walk(self, figure: StickFigure, speed: float, point: Point, target: str) -> Deed:
         nearest, since = figure.away(point), self._engine.seconds
         while not figure.walk(point, speed):
             yield
@@ -122,7 +116,7 @@ def together(deeds: Iterable[Deed]) -> Deed:
     """Several deeds at the same time."""
     left = list(deeds)
     while left:
-        left = [deed for deed in left if _goes_on(deed)]
+        left = [deed for deed in left if next(deed, _OVER) is not _OVER]
         if left:
             yield
 
@@ -147,21 +141,17 @@ def shelf(middle: Point, number: int) -> Point:
     return middle[0] + radius * cos(angle), middle[1] + radius * sin(angle)
 
 
-def near(figure: Figure, point: Point, metres: float) -> bool:
-    """Whether somebody is within a distance of a point."""
-    x, y = figure.at
-    return hypot(x - point[0], y - point[1]) <= metres
-
-
-def _pose(figure: Figure, pose: Pose, seconds: float, facing: Sequence[float] | None = None) -> Deed:
-    for _ in range(round(seconds * RATE)):
+def _pose(figure: StickFigure, pose: Pose, seconds: float, facing: Sequence[float] | None = None) -> Deed:
+    for _ in _moments(seconds):
         figure.rest(pose, None if facing is None else (facing[0], facing[1]))
         yield
 
 
-def _goes_on(deed: Deed) -> bool:
-    try:
-        next(deed)
-    except StopIteration:
-        return False
-    return True
+def _moments(seconds: float) -> range:
+    return range(round(seconds * RATE))
+
+
+def _towards(point: Point, other: Point, metres: float) -> Point:
+    """The point that is so far from one point, on the way to another one."""
+    share = metres / hypot(other[0] - point[0], other[1] - point[1])
+    return point[0] + (other[0] - point[0]) * share, point[1] + (other[1] - point[1]) * share

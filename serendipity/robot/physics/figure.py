@@ -7,7 +7,7 @@ from math import atan2, cos, hypot, pi, sin
 from typing import Final, NamedTuple
 
 from serendipity.robot.physics.building import Point
-from serendipity.robot.physics.engine import RATE, Colour, Engine, Vector
+from serendipity.robot.physics.engine import RATE, Colour, Engine, Link, Vector
 
 THIGH: Final = 0.14
 SHIN: Final = 0.15
@@ -53,7 +53,7 @@ CARRY: Final = (-0.75, -0.75), (-0.9, -0.9)
 """Arms and elbows of who carries something."""
 
 
-class Figure:
+class StickFigure:
     """A body that walks.
 
     Args:
@@ -199,79 +199,28 @@ class Figure:
         return tip[0], tip[1], tip[2]
 
 
-class _Link(NamedTuple):
-    """A part of the body: its shape hangs from its joint.
-
-    Attributes:
-        parent: number of the part that it hangs on, the trunk being 0.
-        joint: where, from the parent's own joint.
-        length: of the limb; 0 for the head.
-        colour: of its shape.
-    """
-
-    parent: int
-    joint: Vector
-    length: float
-    colour: Colour
-
-
 def _built(engine: Engine, at: Point, colour: Colour, cap: Colour, size: float) -> int:
-    links = [_Link(0, (0, 0, _TRUNK + _HEAD * 1.1), 0, cap)]
     dark: Colour = (colour[0] * 0.7, colour[1] * 0.7, colour[2] * 0.7, 1)
+
+    def scaled(x: float, y: float, z: float) -> Vector:
+        return x * size, y * size, z * size
+
+    def limb(parent: int, joint: Vector, length: float, colour: Colour) -> Link:
+        middle = scaled(0, 0, -length / 2)
+        look = engine.look("CAPSULE", colour, middle, radius=_LIMB * size, length=length * size)
+        return Link(look, scaled(*joint), (0, 1, 0), _LIMB_MASS, middle, parent)
+
+    head = engine.look("SPHERE", cap, radius=_HEAD * size)
+    links = [Link(head, scaled(0, 0, _TRUNK + _HEAD * 1.1), mass=_LIMB_MASS)]
     for side in (1, -1):
         arm = len(links) + 1
-        links.append(_Link(0, (0, side * _SHOULDER, _TRUNK - 0.01), _ARM, colour))
-        links.append(_Link(arm, (0, 0, -_ARM), _ARM, dark))
-        links.append(_Link(0, (0, side * _HIP, -0.01), THIGH, colour))
-        links.append(_Link(arm + 2, (0, 0, -THIGH), SHIN, dark))
-    bullet, call = engine.bullet, engine.call
-    looks = [_look(engine, link, size) for link in links]
-    trunk = [0.045 * size, 0.07 * size, _TRUNK / 2 * size]
+        links.append(limb(0, (0, side * _SHOULDER, _TRUNK - 0.01), _ARM, colour))
+        links.append(limb(arm, (0, 0, -_ARM), _ARM, dark))
+        links.append(limb(0, (0, side * _HIP, -0.01), THIGH, colour))
+        links.append(limb(arm + 2, (0, 0, -THIGH), SHIN, dark))
     low, high = -_HEIGHT + 0.03, _TRUNK
-    return int(
-        call(
-            "createMultiBody",
-            _MASS,
-            call(
-                "createCollisionShape",
-                bullet.GEOM_CYLINDER,
-                radius=RADIUS,
-                height=(high - low) * size,
-                collisionFramePosition=(0, 0, (low + high) / 2 * size),
-            ),
-            call(
-                "createVisualShape",
-                bullet.GEOM_BOX,
-                halfExtents=trunk,
-                visualFramePosition=(0, 0, _TRUNK / 2 * size),
-                rgbaColor=colour,
-            ),
-            (*at, _HEIGHT * size),
-            linkMasses=[_LIMB_MASS] * len(links),
-            linkCollisionShapeIndices=[-1] * len(links),
-            linkVisualShapeIndices=looks,
-            linkPositions=[[value * size for value in link.joint] for link in links],
-            linkOrientations=[(0, 0, 0, 1)] * len(links),
-            linkInertialFramePositions=[(0, 0, -link.length / 2 * size) for link in links],
-            linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),
-            linkParentIndices=[link.parent for link in links],
-            linkJointTypes=[bullet.JOINT_FIXED, *[bullet.JOINT_REVOLUTE] * (len(links) - 1)],
-            linkJointAxis=[(0, 1, 0)] * len(links),
-        )
-    )
-
-
-def _look(engine: Engine, link: _Link, size: float) -> int:
-    call, bullet = engine.call, engine.bullet
-    if not link.length:
-        return int(call("createVisualShape", bullet.GEOM_SPHERE, radius=_HEAD * size, rgbaColor=link.colour))
-    return int(
-        call(
-            "createVisualShape",
-            bullet.GEOM_CAPSULE,
-            radius=_LIMB * size,
-            length=link.length * size,
-            visualFramePosition=(0, 0, -link.length / 2 * size),
-            rgbaColor=link.colour,
-        )
-    )
+    around = scaled(0, 0, (low + high) / 2)
+    solid = engine.solid("CYLINDER", around, radius=RADIUS, height=(high - low) * size)
+    trunk = [0.045 * size, 0.07 * size, _TRUNK / 2 * size]
+    look = engine.look("BOX", colour, scaled(0, 0, _TRUNK / 2), halfExtents=trunk)
+    return engine.body(_MASS, solid, look, (*at, _HEIGHT * size), links)

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import plain
-from serendipity.robot.physics.building import Building
+from serendipity.robot.physics.building import Rooms
 from serendipity.robot.physics.camera import Camera, Pixel
 from serendipity.robot.physics.engine import Engine
-from serendipity.robot.physics.figure import Figure
+from serendipity.robot.physics.figure import StickFigure
 from serendipity.robot.physics.kit import Kit
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Film:
     # -- recording
 
     def begin(
-        self, engine: Engine, building: Building, figures: Mapping[str, Figure], things: Mapping[str, Kit]
+        self, engine: Engine, building: Rooms, figures: Mapping[str, StickFigure], things: Mapping[str, Kit]
     ) -> None:
         """Set up the camera.
 

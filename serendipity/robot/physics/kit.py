@@ -4,8 +4,8 @@ from math import dist
 from typing import Final
 
 from serendipity.robot.physics.building import Point
-from serendipity.robot.physics.engine import Colour, Engine, Vector
-from serendipity.robot.physics.figure import PARTS, Figure
+from serendipity.robot.physics.engine import Colour, Engine, Link, Vector
+from serendipity.robot.physics.figure import PARTS, StickFigure
 
 _SIZE: Final[Vector] = (0.15, 0.11, 0.09)
 _MASS: Final = 0.2
@@ -34,7 +34,7 @@ class Kit:
     def __init__(self, engine: Engine, at: Point, *, first_aid: bool) -> None:
         self._engine = engine
         self.body = _built(engine, (*at, _SIZE[2] / 2), first_aid=first_aid)
-        self.holder: Figure | None = None
+        self.holder: StickFigure | None = None
         self._grip = -1
 
     @property
@@ -42,11 +42,11 @@ class Kit:
         """Where its middle is."""
         return self._engine.place_of(self.body)
 
-    def within_reach(self, figure: Figure) -> bool:
+    def within_reach(self, figure: StickFigure) -> bool:
         """Whether somebody's hands can take hold of it as they are."""
         return dist(figure.hand, self.place) < _REACH
 
-    def take(self, figure: Figure) -> None:
+    def take(self, figure: StickFigure) -> None:
         """Fix it between somebody's hands; whoever has held it lets go."""
         self.let_go()
         engine, bullet = self._engine, self._engine.bullet
@@ -83,38 +83,14 @@ class Kit:
 
 
 def _built(engine: Engine, at: Vector, *, first_aid: bool) -> int:
-    call, bullet = engine.call, engine.bullet
     length, width, height = _SIZE
     cross = [(0.05, 0.014, 0.006), (0.014, 0.042, 0.006)] if first_aid else []
-    halves = [(length / 2, width / 2, height / 2), *cross]
-    colours = [_RED if first_aid else _BROWN, *[_WHITE] * len(cross)]
-    looks = [
-        call("createVisualShape", bullet.GEOM_BOX, halfExtents=half, rgbaColor=colour)
-        for half, colour in zip(halves, colours, strict=True)
-    ]
     around = (length / 2 + 0.003, 0.018, 0.02)
-    band = call(
-        "createVisualShape", bullet.GEOM_BOX, halfExtents=around, rgbaColor=_WHITE if first_aid else _TAPE
-    )
-    shape = call("createCollisionShape", bullet.GEOM_BOX, halfExtents=halves[0])
-    links = [*looks[1:], band]
-    none = [-1] * len(links)
-    body = call(
-        "createMultiBody",
-        _MASS,
-        shape,
-        looks[0],
-        at,
-        linkMasses=[0.001] * len(links),
-        linkCollisionShapeIndices=none,
-        linkVisualShapeIndices=links,
-        linkPositions=[(0, 0, height / 2 + 0.004)] * len(cross) + [(0, 0, 0)],
-        linkOrientations=[(0, 0, 0, 1)] * len(links),
-        linkInertialFramePositions=[(0, 0, 0)] * len(links),
-        linkInertialFrameOrientations=[(0, 0, 0, 1)] * len(links),
-        linkParentIndices=[0] * len(links),
-        linkJointTypes=[bullet.JOINT_FIXED] * len(links),
-        linkJointAxis=[(0, 0, 1)] * len(links),
-    )
-    call("changeDynamics", body, -1, angularDamping=0.9)
-    return int(body)
+    trunk = (length / 2, width / 2, height / 2)
+    look = engine.look("BOX", _RED if first_aid else _BROWN, halfExtents=trunk)
+    lid = (0, 0, height / 2 + 0.004)
+    links = [Link(engine.look("BOX", _WHITE, halfExtents=half), lid) for half in cross]
+    links.append(Link(engine.look("BOX", _WHITE if first_aid else _TAPE, halfExtents=around)))
+    body = engine.body(_MASS, engine.solid("BOX", halfExtents=trunk), look, at, links)
+    engine.call("changeDynamics", body, -1, angularDamping=0.9)
+    return body

@@ -1,6 +1,7 @@
 """An adapter whose robots are stick figures in physics, in the building of the task."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from typing import Final
 
 from serendipity.model.errors import UsageError
@@ -12,10 +13,10 @@ from serendipity.pictures.map.names import parts
 from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.pictures.scene.finder import Finder
 from serendipity.robot.adapter import Epoch, Order, Report
-from serendipity.robot.physics.building import CELL, Building, Point
+from serendipity.robot.physics.building import CELL, Point, Rooms
 from serendipity.robot.physics.deeds import Bodies, Deed, StuckError, in_turn, shelf, spot_of, together
 from serendipity.robot.physics.engine import RATE, Colour, Engine
-from serendipity.robot.physics.figure import Figure
+from serendipity.robot.physics.figure import StickFigure
 from serendipity.robot.physics.film import Film
 from serendipity.robot.physics.kit import Kit
 
@@ -64,7 +65,7 @@ class Stage:
         self._task = task
         self._epoch = EPOCH if epoch is None else epoch
         self._engine = engine = Engine()
-        self._building = Building(engine, lay_out(places))
+        self._building = Rooms(engine, lay_out(places))
         self._bodies = Bodies(engine, self._building)
         self._figures = {agent: self._figure(agent, place) for agent, place in agents.items()}
         self._kits: dict[str, Kit] = {}
@@ -74,7 +75,9 @@ class Stage:
         self._begun: dict[Order, _Errand] = {}
         for pair, kilograms in (rubble or {}).items():
             self._heap(*pair, kilograms)
-        self._part()
+        bodies = [figure.body for figure in self._figures.values()]
+        for one, other in product(bodies, bodies):  # figures are not in each other's way
+            engine.call("setCollisionFilterPair", one, other, -1, -1, 0)
         self._settle(task.init)
         self._film = film
         if film is not None:
@@ -87,7 +90,8 @@ class Stage:
         """See :class:`serendipity.robot.Adapter`."""
         self._settle(epoch.state)
         kept = {order: self._begun.get(order) or self._errand(order, epoch.state) for order in epoch.orders}
-        own = None if epoch.human is None else self._own(epoch.human, epoch.state)
+        person = (self._task.agents[self._task.human],)
+        own = None if epoch.human is None else self._errand(Order(person, epoch.human), epoch.state)
         errands = [*kept.values(), *([] if own is None else [own])]
         for moment in range(round(_LONGEST * self._epoch * RATE)):
             if moment >= self._epoch * RATE and (own is None or own.over):
@@ -115,9 +119,6 @@ class Stage:
             self._film.watch(epoch)
 
     # -- from actions to deeds
-
-    def _own(self, name: str, state: frozenset[int]) -> "_Errand":
-        return self._errand(Order((self._task.agents[self._task.human],), name), state)
 
     def _errand(self, order: Order, state: frozenset[int]) -> "_Errand":
         action = self._task.actions[variant_named(self._task, order.action, order.agents, state)]
@@ -152,7 +153,7 @@ class Stage:
             elif was is not None and will is not None:
                 yield self._bodies.hand(was, will, _SPEED, kit)
 
-    def _holder(self, where: Whereabouts) -> Figure | None:
+    def _holder(self, where: Whereabouts) -> StickFigure | None:
         return None if where.holder is None else self._figures.get(where.holder)
 
     def _to(self, agent: int, place: str) -> Deed:
@@ -161,12 +162,12 @@ class Stage:
 
     # -- where things stand
 
-    def _figure(self, agent: int, place: str) -> Figure:
+    def _figure(self, agent: int, place: str) -> StickFigure:
         at = self._spot(agent, place)
         if agent == self._task.human:
-            return Figure(self._engine, at, *_PERSON, size=1.15)
+            return StickFigure(self._engine, at, *_PERSON, size=1.15)
         colour = _ROBOTS[self._task.robots.index(agent) % len(_ROBOTS)]
-        return Figure(self._engine, at, colour, _FACE)
+        return StickFigure(self._engine, at, colour, _FACE)
 
     def _spot(self, agent: int, place: str) -> Point:
         return spot_of(self._building.middles[place], agent, len(self._task.agents))
@@ -182,13 +183,6 @@ class Stage:
                 lies = kit.holder is None and self._building.place_at(kit.place[:2]) == where.place
                 if not (lies and kit.place[0] > -CELL / 2):
                     kit.put(shelf(self._building.middles[where.place], number))
-
-    def _part(self) -> None:
-        """Figures are not in each other's way."""
-        bodies = [figure.body for figure in self._figures.values()]
-        for one in bodies:
-            for other in bodies:
-                self._engine.call("setCollisionFilterPair", one, other, -1, -1, 0)
 
     def _heap(self, a: str, b: str, kilograms: float) -> None:
         way = self._building.way(a, b) if {a, b} <= self._building.middles.keys() else ()

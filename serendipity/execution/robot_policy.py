@@ -1,20 +1,18 @@
-"""The robots' side: what they know of the person, and what they decide in each epoch."""
+"""The robots' policy: what they know of the person, and what they decide in each epoch."""
 
 from collections.abc import Iterable, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
-from serendipity.execution.advice import Allows, Question
-from serendipity.execution.amends import Untouched
+from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import Decided
-from serendipity.execution.imagined import Imagined
+from serendipity.execution.history import HelpHistory, Untouched
+from serendipity.execution.hypotheses import Hypotheses, Hypothesis
 from serendipity.execution.outlook import Outlook
-from serendipity.execution.promises import Promises
 from serendipity.execution.prospects import Prospect, best_for_all
-from serendipity.execution.thread import Thread
 from serendipity.execution.why import Why
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
@@ -40,34 +38,7 @@ _TIME_TO_RECOGNISE: Final = 0.4
 """The share of the time that recognition may take; the posterior of an earlier epoch has to do otherwise."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Asked:
-    """What all goals have in common in an epoch.
-
-    Attributes:
-        state: ids of the facts that are true.
-        out: ids of actions that nobody can do any more.
-        barred: these, and those that wait for what is running.
-        running: ids of what robots go on with in any case.
-        allows: what may happen in the epoch.
-        weights: how probable each goal is.
-    """
-
-    state: frozenset[int]
-    out: frozenset[int]
-    barred: frozenset[int]
-    running: frozenset[int]
-    allows: Allows
-    weights: dict[int, Fraction]
-
-    def of(self, imagined: Imagined, allows: Allows | None = None) -> Question:
-        """What is asked about one goal."""
-        return Question(
-            self.state, imagined.following, self.out, self.barred, self.running, allows or self.allows
-        )
-
-
-class Brain:
+class RobotPolicy:
     """Recognises, plans, and leaves alone what the person may need.
 
     Args:
@@ -93,11 +64,11 @@ class Brain:
         self._told = told
         self._gone: dict[int, frozenset[int]] = {}
         self._failing: frozenset[int] = frozenset()
-        self._beliefs = None if goals is None else Beliefs.about(task, goals, beta)
+        self._beliefs = None if goals is None else Beliefs(task, goals, beta)
         conditions = [task.goal] if self._beliefs is None else [c.goal for c in self._beliefs.candidates]
         tasks = [task if goal == task.goal else task.with_goal(goal) for goal in conditions]
-        self._promises = Promises(tasks, options, told=told, surely=surely)
-        self._thread = Thread(task)
+        self._hypotheses = Hypotheses(tasks, options, told=told, surely=surely)
+        self._history = HelpHistory(task)
         self._untouched = Untouched(task)
         self._human = task.agents[task.human]
         self._agents = {name: i for i, name in enumerate(task.agents)}
@@ -107,39 +78,38 @@ class Brain:
         """The posterior of each candidate goal; empty where there is only one."""
         return {} if self._beliefs is None else self._beliefs.named()
 
-    def again(self) -> "Brain":
+    def again(self) -> "RobotPolicy":
         """The same robots, who know what these know, and go their own way from here; their goal is known."""
         assert self._beliefs is None, "what is known of several goals is not told twice"
         other = copy(self)
-        other._promises = self._promises.again()
-        other._thread = Thread(self._task)
+        other._hypotheses = self._hypotheses.again()
+        other._history = HelpHistory(self._task)
         other._untouched = Untouched(self._task)
-        other._gone = dict(self._gone)
         return other
 
     # -- what robots learn
 
     def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
         """See :class:`serendipity.execution.Robots`."""
-        self._thread.saw(executed)
+        self._history.saw(executed)
         self._untouched.saw(own, executed)
-        self._promises.acted(own, executed, tried)
+        self._hypotheses.acted(own, executed, tried)
         if self._beliefs is not None:
             self._beliefs.saw(own, executed)
 
     def surprised(self) -> None:
         """The world is other than what actions have made it."""
-        self._thread.broken("changed")
+        self._history.broken("changed")
         self._untouched.forget()
-        self._promises.surprised()
+        self._hypotheses.surprised()
         if self._beliefs is not None:
             self._beliefs.disturbed()
 
     def drop(self, robots: Iterable[int]) -> None:
         """Robots are out of order: nothing that they take part in is possible any more."""
         gone = tuple(robots)
-        self._thread.broken("out-of-order", ", ".join(self._task.agents[i] for i in gone))
-        self._gone |= {robot: self._promises.hands.of([robot]) for robot in gone}
+        self._history.broken("out-of-order", ", ".join(self._task.agents[i] for i in gone))
+        self._gone = self._gone | {robot: self._hypotheses.actions.of([robot]) for robot in gone}
 
     def unable(self, actions: Iterable[int]) -> None:
         """See :class:`serendipity.execution.Robots`."""
@@ -153,34 +123,34 @@ class Brain:
         Raises:
             LimitReachedError: the deadline came first; robots had better do nothing.
         """
-        return self._thread.told(self._decided(outlook, deadline), outlook.running)
+        return self._history.told(self._decided(outlook, deadline), outlook.running)
 
     def _decided(self, outlook: Outlook, deadline: Deadline) -> Decided:
-        state, hands = outlook.world.state, self._promises.hands
+        state, able = outlook.world.state, self._hypotheses.actions
         self._untouched.look(state)
         weights = self._weights(state, deadline)
-        able = self._promises.look(state, weights, deadline)
-        goals = able or list(weights)[:1]
+        reachable = self._hypotheses.look(state, weights, deadline)
+        goals = reachable or list(weights)[:1]
         gone = frozenset[int]().union(*self._gone.values())
         out = gone | self._failing
-        if hands.all <= gone or (able and hands.all <= out):
-            return self._idle(outlook, self._disabled(state, able))
+        if able.all <= gone or (reachable and able.all <= out):
+            return self._idle(outlook, self._disabled(state, reachable))
         running = self._going_on(outlook, goals)
-        barred = out | hands.of([self._agents[name] for step in outlook.running for name in step.agents])
-        if hands.all <= barred and running and not self._told:
+        barred = out | able.of(self._agents[name] for step in outlook.running for name in step.agents)
+        if able.all <= barred and running and not self._told:
             return self._idle(outlook, Why("out-of-order"), running)
-        begun = [outlook.world.of(step) for step in running]
-        allows = self._promises.allows(goals, begun)
-        asked = _Asked(state, out, barred, frozenset(begun), allows, {g: weights[g] for g in goals})
-        prospects = self._planned(asked, deadline.sooner(_TIME_TO_WEIGH))
-        if not able and prospects[0].advice is None and not running and self._failing - gone:
-            prospects = self._planned(replace(asked, out=gone, barred=gone), deadline)
-        return self._chosen(outlook, asked, prospects, running, deadline)
+        begun = frozenset(map(outlook.world.of, running))
+        now = DecisionPoint(state, out, barred, begun, self._hypotheses.allows(goals, list(begun)))
+        likely = {goal: weights[goal] for goal in goals}
+        prospects = self._planned(likely, now, deadline.sooner(_TIME_TO_WEIGH))
+        if not reachable and prospects[0].advice is None and not running and self._failing - gone:
+            prospects = self._planned(likely, replace(now, out=gone, barred=gone), deadline)
+        return self._chosen(outlook, now, prospects, running, deadline)
 
     def _chosen(
         self,
         outlook: Outlook,
-        asked: "_Asked",
+        now: DecisionPoint,
         prospects: Sequence[Prospect],
         running: Sequence[PlanStep],
         deadline: Deadline,
@@ -188,7 +158,7 @@ class Brain:
         """The decision, once it is known what is best for each goal."""
         certain = len(prospects) == 1
         if certain and prospects[0].advice is None:
-            return self._idle(outlook, self._lost(asked, prospects[0], deadline), running)
+            return self._idle(outlook, self._lost(now, prospects[0].hypothesis, deadline), running)
         prospect = prospects[0] if certain else best_for_all(prospects, deadline)
         if prospect is not None:
             decided = self._following(outlook, prospect, running)
@@ -196,33 +166,32 @@ class Brain:
                 return decided
         elif running:
             return self._idle(outlook, Why("no-help"), running)
-        elif self._torn(asked, prospects, deadline):
+        elif self._torn(now, prospects, deadline):
             return self._idle(outlook, Why("unsure", goals=self._likely()))
         else:
             done = next((prospect for prospect in prospects if prospect.pays and not prospect.open), None)
             decided = self._following(outlook, done, ()) if done else self._idle(outlook, Why("no-help"))
-        return self._made_up(outlook, asked, prospects, deadline) or replace(
-            decided, because=self._why_not(asked, decided, prospects, deadline)
+        return self._made_up(outlook, now, prospects, deadline) or replace(
+            decided, because=self._why_not(now, decided, prospects, deadline)
         )
 
     def _made_up(
-        self, outlook: Outlook, asked: "_Asked", prospects: Sequence[Prospect], deadline: Deadline
+        self, outlook: Outlook, now: DecisionPoint, prospects: Sequence[Prospect], deadline: Deadline
     ) -> Decided | None:
         """Robots make up for what they have done, if somebody pays more for it and there is a way."""
         for prospect in prospects:
-            imagined = prospect.imagined
-            if owed := self._owed(asked.state, imagined):
+            if owed := self._owed(now.state, prospect.hypothesis):
                 try:
-                    advice = imagined.amends.advise(asked.of(imagined), deadline.part(_TIME_TO_TELL))
+                    advice = prospect.hypothesis.amends(now, deadline.part(_TIME_TO_TELL))
                 except LIMITS:
                     continue
                 if advice is not None:
-                    return self._following(outlook, replace(prospect, advice=advice), (), float(owed))
+                    return self._following(outlook, replace(prospect, advice=advice), (), owed)
         return None
 
-    def _owed(self, state: frozenset[int], imagined: Imagined) -> Fraction:
-        """How much dearer the person's way is by what robots have done."""
-        return imagined.amends.owed(self._untouched.state, state)
+    def _owed(self, state: frozenset[int], *hypotheses: Hypothesis) -> float:
+        """How much dearer the person's way is by what robots have done, at most."""
+        return float(max(known.owed(self._untouched.state, state) for known in hypotheses))
 
     def _weights(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:
         """The goals that the person may have, with their probabilities, the most probable first."""
@@ -238,57 +207,59 @@ class Brain:
     def _going_on(self, outlook: Outlook, goals: Sequence[int]) -> list[PlanStep]:
         """What was begun and may still be finished."""
         running: list[PlanStep] = []
-        allows = self._promises.allows(goals)
+        allows = self._hypotheses.allows(goals)
         for step in outlook.running:
             if allows([outlook.world.of(other) for other in (*running, step)]):
                 running.append(step)
         return running
 
-    def _planned(self, asked: "_Asked", deadline: Deadline) -> list[Prospect]:
+    def _planned(
+        self, weights: dict[int, Fraction], now: DecisionPoint, deadline: Deadline
+    ) -> list[Prospect]:
         """A prospect for each goal; goals that hardly matter get what time is left."""
-        total = sum(asked.weights.values())
+        total = sum(weights.values())
         prospects = []
-        for number, (goal, weight) in enumerate(asked.weights.items()):
-            imagined = self._promises.to(goal)
+        for number, (goal, weight) in enumerate(weights.items()):
+            known = self._hypotheses[goal]
             try:
-                share = deadline.part(1 / (len(asked.weights) - number))
-                advice = imagined.adviser.advise(asked.of(imagined), share)
+                share = deadline.part(1 / (len(weights) - number))
+                advice = known.adviser.advise(known.following, now, share)
             except LIMITS:
-                if len(asked.weights) == 1:
+                if len(weights) == 1:
                     raise
                 advice = None
-            imagined.companion.under(deadline)
-            prospects.append(Prospect(goal, imagined, advice, weight / total))
+            known.companion.under(deadline)
+            prospects.append(Prospect(goal, known, advice, weight / total))
         return prospects
 
-    def _torn(self, asked: "_Asked", prospects: Sequence[Prospect], deadline: Deadline) -> bool:
+    def _torn(self, now: DecisionPoint, prospects: Sequence[Prospect], deadline: Deadline) -> bool:
         """Whether help would pay if it were known which goal it is; taken for no if time does not tell."""
         if len(prospects) < 2 or any(prospect.open for prospect in prospects):
             return len(prospects) > 1
         if not _leisurely(deadline):
             return False
         try:
-            return any(self._pays_alone(asked, prospect, deadline) for prospect in prospects)
+            for prospect in prospects:
+                alone = replace(now, allows=self._hypotheses.allows([prospect.goal]))
+                known = prospect.hypothesis
+                advice = known.adviser.advise(known.following, alone, deadline)
+                if advice is not None and advice.pays:
+                    return True
         except LIMITS:
-            return False
-
-    def _pays_alone(self, asked: "_Asked", prospect: Prospect, deadline: Deadline) -> bool:
-        """Whether help would pay if a goal were the only one."""
-        imagined, allows = prospect.imagined, self._promises.allows([prospect.goal])
-        advice = imagined.adviser.advise(asked.of(imagined, allows), deadline)
-        return advice is not None and advice.pays
+            pass
+        return False
 
     def _why_not(
-        self, asked: "_Asked", decided: Decided, prospects: Sequence[Prospect], deadline: Deadline
+        self, now: DecisionPoint, decided: Decided, prospects: Sequence[Prospect], deadline: Deadline
     ) -> Why:
         """Why nothing is done, whatever the goal is, and what the person pays more by what was done."""
-        owed = float(max(self._owed(asked.state, prospect.imagined) for prospect in prospects))
+        owed = self._owed(now.state, *(prospect.hypothesis for prospect in prospects))
         why = decided.because
         if why is None or why.kind != "done":
-            why = self._no_help(asked, prospects, deadline)
+            why = self._no_help(now, prospects, deadline)
         return replace(why, owed=owed)
 
-    def _no_help(self, asked: "_Asked", prospects: Sequence[Prospect], deadline: Deadline) -> Why:
+    def _no_help(self, now: DecisionPoint, prospects: Sequence[Prospect], deadline: Deadline) -> Why:
         """In which sense no help pays."""
         if not all(prospect.advice is not None and prospect.advice.proved for prospect in prospects):
             return Why("unfound")
@@ -298,19 +269,18 @@ class Brain:
             return Why("no-safe-help")
         share = deadline.part(_TIME_TO_TELL).within(_TELLING)
         try:
-            whys = [p.imagined.unbound.why(asked.of(p.imagined), share) for p in prospects]
+            whys = [p.hypothesis.unbound.why(p.hypothesis.following, now, share) for p in prospects]
         except LIMITS:
             return Why("no-safe-help")
         return next((why for why in whys if why.kind != "no-help"), whys[0])
 
-    def _lost(self, asked: "_Asked", prospect: Prospect, deadline: Deadline) -> Why:
+    def _lost(self, now: DecisionPoint, known: Hypothesis, deadline: Deadline) -> Why:
         """Why there is no plan at all."""
-        unbound, question = prospect.imagined.unbound, asked.of(prospect.imagined)
+        share = deadline.part(_TIME_TO_TELL).within(_TELLING)
         try:
-            share = deadline.part(_TIME_TO_TELL).within(_TELLING)
-            if not question.following.hopeless:
-                return unbound.why_not_even_alone(question, share)
-            return Why("out-of-reach") if self._told else unbound.why_out_of_reach(question, share)
+            if not known.following.hopeless:
+                return known.unbound.why_not_even_alone(known.following, now, share)
+            return Why("out-of-reach") if self._told else known.unbound.why_out_of_reach(now, share)
         except LIMITS:
             return Why("unfound")
 
@@ -318,7 +288,7 @@ class Brain:
         """Nobody is left who could do anything."""
         if not goals:
             return Why("out-of-reach")
-        owed = float(max(self._owed(state, self._promises.to(goal)) for goal in goals))
+        owed = self._owed(state, *(self._hypotheses[goal] for goal in goals))
         gone = tuple(self._task.agents[i] for i in sorted(self._gone))
         if len(gone) < len(self._task.robots):
             return Why("all-failed", owed=owed)
@@ -367,7 +337,7 @@ class Brain:
             return "helps", Why("only-way" if alone is None else "pays", cost, alone, goals=guess)
         later = min((s.epoch for s in prospect.plan if s.agents != (self._human,)), default=None)
         if later is None:
-            return "aside", Why("done", cost, alone) if self._thread.helped else Why("no-help")
+            return "aside", Why("done", cost, alone) if self._history.helped else Why("no-help")
         if self._beliefs is not None and len(self._beliefs.possible()) > 1:
             return "unsure", Why("unsure", epoch=epoch + later - 1, goals=self._likely())
         return "waits", Why("later", cost, alone, epoch=epoch + later - 1)

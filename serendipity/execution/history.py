@@ -1,10 +1,11 @@
-"""What robots were at from one epoch to the next: whether help has begun, and what has come between."""
+"""The history of help: whether it has begun, what has come between, and what would be so without it."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from serendipity.execution.decided import Decided
 from serendipity.execution.why import Cause
+from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import participants
 from serendipity.model.task.plans import PlanStep
 from serendipity.model.task.task import Task
@@ -13,11 +14,8 @@ _AT_IT = ("helps", "waits")
 """Verdicts of a decision that follows a plan which pays."""
 
 
-class Thread:
-    """Follows what is decided, and what becomes of it.
-
-    Args:
-        task: the task.
+class HelpHistory:
+    """What was decided in a task, and what has become of it.
 
     Attributes:
         helped: whether robots have done anything for help.
@@ -78,3 +76,34 @@ class Thread:
         reason = why.text(self._human, verdict)
         self._last = replace(decided, verdict=verdict, because=why, reason=reason)
         return self._last
+
+
+class Untouched:
+    """The state as it would be if robots had done nothing since the person last took something from them.
+
+    Attributes:
+        state: ids of the facts that would be true.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self.state = task.init
+        self._known = False
+
+    def saw(self, own: int | None, executed: Sequence[int]) -> None:
+        """Take in an epoch: what the person did alone, and everything that took place, by action ids."""
+        actions = self._task.actions
+        if any(self._task.human in actions[i].participants for i in executed if i != own):
+            self._known = False
+        elif own is not None:
+            self._known &= actions[own].applicable(self.state)
+            self.state = apply(self.state, actions[own])
+
+    def forget(self) -> None:
+        """What is true has changed otherwise."""
+        self._known = False
+
+    def look(self, state: frozenset[int]) -> None:
+        """Say which facts are true, by their ids."""
+        if not self._known:
+            self.state, self._known = state, True

@@ -9,7 +9,7 @@ _LENGTH: Final = "length"
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class Message:
     """One message.
 
     Attributes:
@@ -26,14 +26,14 @@ class Frame:
         return json.dumps({**self.head, _LENGTH: len(self.body)}).encode() + b"\n" + self.body
 
 
-def read(stream: IO[bytes]) -> Frame | None:
+def read(stream: IO[bytes]) -> Message | None:
     """The next message of a stream; None at its end."""
     line = stream.readline()
     if not line.endswith(b"\n"):
         return None
     head = json.loads(line)
     body = stream.read(head[_LENGTH])
-    return Frame(head, body) if len(body) == head[_LENGTH] else None
+    return Message(head, body) if len(body) == head[_LENGTH] else None
 
 
 class Incoming:
@@ -48,7 +48,7 @@ class Incoming:
         self._head: dict[str, Any] | None = None
         """Of a message whose body is still to come."""
 
-    async def next(self) -> Frame:
+    async def next(self) -> Message:
         """The next message.
 
         Raises:
@@ -62,4 +62,4 @@ class Incoming:
         head = self._head
         body = await self._stream.readexactly(head[_LENGTH])  # its IncompleteReadError is an EOFError
         self._head = None
-        return Frame(head, body)
+        return Message(head, body)

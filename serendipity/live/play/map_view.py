@@ -1,12 +1,11 @@
-"""The picture of a round: the map as the person knows it, and where on it the places are."""
+"""The map of a round as the person knows it, and where on it the places are."""
 
-from fractions import Fraction
 from typing import Any
 
-from serendipity.live.play.eyes import Eyes
+from serendipity.live.play.knowledge import Knowledge
 from serendipity.model import Options, Result, Task
 from serendipity.pictures.formats.svg import svg
-from serendipity.pictures.map.layout import Layout, lay_out
+from serendipity.pictures.map.layout import MapLayout, lay_out
 from serendipity.pictures.map.places import Places
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture
 from serendipity.pictures.picture.palette import agent_colours, on
@@ -16,33 +15,26 @@ from serendipity.pictures.scene.finder import Finder
 from serendipity.pictures.scene.scene import Frame, Scene
 
 
-class Stage:
-    """The map of a task, drawn anew after each epoch.
+class MapView:
+    """The map of a task as its person knows it, drawn anew after each epoch."""
 
-    Args:
-        task: the task.
-        places: its map.
-        eyes: what the person knows.
-    """
-
-    def __init__(self, task: Task, places: Places, eyes: Eyes) -> None:
+    def __init__(self, task: Task, places: Places, knowledge: Knowledge) -> None:
         self._task = task
         self._places = places
         self._finder = Finder(places)
-        self._eyes = eyes
-        self._layout: Layout | None = None
+        self._knowledge = knowledge
+        self._layout: MapLayout | None = None
         self._size = (0.0, 0.0)
         self._frames: list[Frame] = []
+        self.look()
 
-    def look(self, state: frozenset[int]) -> None:
-        """Take in where things are after an epoch."""
-        self._state = state
-        self._frames.append(self._frame(len(self._frames)))
-        if self._places.names:
-            self._make_room()
-
-    def _make_room(self) -> None:
-        """Lay out the map so that all that has been anywhere has room there; it never shrinks."""
+    def look(self) -> None:
+        """Take in where things are after an epoch; the map has room for all that has been anywhere."""
+        known = self._knowledge.belief
+        at, objects = self._finder.agents(known), self._finder.objects(known)
+        self._frames.append(Frame(len(self._frames), at, objects))
+        if not self._places.names:
+            return
         wanted = cell_size(self._scene(), self._places.names)
         size = max(wanted[0], self._size[0]), max(wanted[1], self._size[1])
         if size != self._size:
@@ -68,7 +60,7 @@ class Stage:
             "width": drawn.width,
             "places": boxes,
             "here": self.here,
-            "seen": None if self._eyes.everywhere else [self.here],
+            "seen": None if self._knowledge.everywhere else [self.here],
             "remembered": self._remembered(),
         }
 
@@ -91,7 +83,7 @@ class Stage:
 
     def _remembered(self) -> list[str]:
         """Tokens of what the person does not see now."""
-        if self._eyes.everywhere:
+        if self._knowledge.everywhere:
             return []
         frame = self._frames[-1]
         away = [agent for agent, place in frame.at.items() if place != self.here]
@@ -110,21 +102,6 @@ class Stage:
             return self._place(frame, str(where.carrier))
         return where.place if where.holder is None else frame.at.get(where.holder)
 
-    def _frame(self, epoch: int) -> Frame:
-        known = self._eyes.belief
-        return Frame(
-            epoch=epoch,
-            at=self._finder.agents(known),
-            objects=self._finder.objects(known),
-            former_at=None,
-            made=(),
-            undone=(),
-            spent={},
-            former_spent=Fraction(0),
-            caption="",
-            in_window=False,
-        )
-
     def _scene(self) -> Scene:
         task = self._task
         nothing = Result("individual", "unknown", task.agents[task.human], Options(mode="individual"))
@@ -132,15 +109,10 @@ class Stage:
             name=task.name,
             agents=task.agents,
             human=task.human,
+            result=nothing,
+            frames=tuple(self._frames),
             layout=self._layout,
             goals=self._places.goals(task),
-            frames=tuple(self._frames),
-            acts=(),
-            former_acts=(),
-            meetings=(),
-            window=None,
-            changes=(),
-            result=nothing,
             vehicles=self._places.vehicles,
             towers=self._places.towers,
         )

@@ -4,14 +4,14 @@ from pathlib import Path
 from typing import Any
 
 import serendipity
-from serendipity.execution import VERDICTS, Decided, Passed
-from serendipity.execution.account import account
+from serendipity.execution import Decided, Passed
+from serendipity.execution.decided import account
 from serendipity.execution.log import decision_of
-from serendipity.live.play.eyes import Eyes
+from serendipity.live.play.knowledge import Knowledge
+from serendipity.live.play.map_view import MapView
 from serendipity.live.play.records import Event
-from serendipity.live.play.setting import Setting
-from serendipity.live.play.stage import Stage
-from serendipity.live.play.words import Words
+from serendipity.live.play.setting import RoundSetting
+from serendipity.live.play.words import Phrases
 from serendipity.model import GroundAction, InputError, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
@@ -22,7 +22,7 @@ _EXPLAINING = 10.0
 """Seconds for an explanation at the end."""
 
 
-class Game:
+class Round:
     """A person, robots and the world.
 
     Args:
@@ -32,7 +32,7 @@ class Game:
         UsageError: the person has no way to reach the goal alone.
     """
 
-    def __init__(self, setting: Setting) -> None:
+    def __init__(self, setting: RoundSetting) -> None:
         self.setting = setting
         task = setting.task
         alone = serendipity.plan(task, mode="individual")
@@ -41,10 +41,9 @@ class Game:
         self.alone = alone.cost
         self.run = setting.execution()
         places = find_places(task)
-        self._words = Words(task, places, setting.labels)
-        self._eyes = Eyes(task, setting.view)
-        self._stage = Stage(task, places, self._eyes)
-        self._stage.look(self.run.state)
+        self._words = Phrases(task, places, setting.labels)
+        self._known = Knowledge(task, setting.view)
+        self._map = MapView(task, places, self._known)
         self._seen: list[dict[str, Any]] = []
         self.human = task.agents[task.human]
 
@@ -71,7 +70,7 @@ class Game:
         shown = {
             "said": self._said(decided),
             "choices": [choice["text"] for choice in self._choices(decided)],
-            "goal": self._words.goal(self._eyes.belief),
+            "goal": self._words.goal(self._known.belief),
         }
         passed = self._step(action)
         return {
@@ -115,11 +114,11 @@ class Game:
             raise InputError(f"epoch {event.get('epoch')}: comes out otherwise than it is recorded", file)
 
     def _step(self, action: str | None) -> Passed:
-        near, before = self._stage.here, self.run.state
+        near, before = self._map.here, self.run.state
         passed = self.run.step(action)
         own = next((step for step in passed.steps if self.human in step.agents), None)
-        self._eyes.look(self.run.state, None if own is None else self._ground(own, before))
-        self._stage.look(self.run.state)
+        self._known.look(self.run.state, None if own is None else self._ground(own, before))
+        self._map.look()
         self._seen.insert(0, self._told(passed, near))
         return passed
 
@@ -127,18 +126,18 @@ class Game:
 
     def view(self) -> dict[str, Any]:
         """Everything that the page shows of the round."""
-        run = self.run
+        run, names = self.run, self.setting.task.facts
         decided = None if self.done else run.decided
+        known, hidden = sorted(self._known.belief), {d.fact for d in self.setting.task.disjunctions}
         return {
             "scenario": self.setting.name,
-            "condition": self.setting.condition,
-            "sight": "everywhere" if self._eyes.everywhere else "here",
+            "sight": "everywhere" if self._known.everywhere else "here",
             "human": self.human,
-            "goal": self._words.goal(self._eyes.belief),
+            "goal": self._words.goal(self._known.belief),
             "epoch": run.epoch,
-            "map": self._stage.picture(),
-            "legend": self._stage.legend(),
-            "facts": None if self._stage.here else self._facts(),
+            "map": self._map.picture(),
+            "legend": self._map.legend(),
+            "facts": None if self._map.here else [names[fact] for fact in known if fact not in hidden],
             "can": [] if decided is None else self._choices(decided),
             "paid": float(run.human_cost),
             "team": float(run.cost),
@@ -177,15 +176,9 @@ class Game:
         task = self.setting.task
         return task.actions[variant_named(task, step.action, step.agents, state)]
 
-    def _facts(self) -> list[str]:
-        """What the person knows to be true, where there is no map."""
-        names = self.setting.task.facts
-        hidden = {disjunction.fact for disjunction in self.setting.task.disjunctions}
-        return [names[fact] for fact in sorted(self._eyes.belief) if fact not in hidden]
-
     def _choices(self, decided: Decided) -> list[dict[str, Any]]:
         """What the person can do, as far as they know: what robots offer first, waiting last."""
-        task = self.setting.task
+        task, belief = self.setting.task, self._known.belief
         choices = [
             {
                 "action": step.action,
@@ -200,8 +193,9 @@ class Game:
         known: dict[str, dict[str, Any]] = {}
         for i in task.human_actions:
             action = task.actions[i]
-            if self._changes(action) and action.name not in known:
-                place = self._words.target(action, task.human)
+            changes = action.applicable(belief) and apply(belief, action) != belief
+            if changes and action.name not in known:
+                place = self._words.target(action)
                 known[action.name] = {
                     "action": action.name,
                     "text": self._words.action(action),
@@ -212,18 +206,20 @@ class Game:
         own = sorted(known.values(), key=lambda choice: choice["kind"])
         return [*choices, *own, {"action": None, "text": "wait", "kind": "wait", "cost": 0, "place": None}]
 
-    def _changes(self, action: GroundAction) -> bool:
-        """Whether an action is possible, as far as the person knows, and would change anything."""
-        belief = self._eyes.belief
-        return action.applicable(belief) and apply(belief, action) != belief
-
     def _thinking(self, decided: Decided) -> dict[str, Any]:
         return {
             "verdict": decided.verdict,
-            "meaning": VERDICTS[decided.verdict],
             "reason": decided.reason,
             "goals": [{"name": name, "share": share} for name, share in decided.goals.items()],
-            "plan": [self._planned(step) for step in decided.plan or ()],
+            "plan": [
+                {
+                    "epoch": self.run.epoch + step.epoch - 1,
+                    "agents": list(step.agents),
+                    "text": self._words.step(step),
+                    "help": list(step.agents) != [self.human],
+                }
+                for step in decided.plan or ()
+            ],
             "expected": None if decided.expected is None else self._words.step(decided.expected),
             "window": None if decided.window is None else decided.window.to_dict(),
             "cost": decided.cost,
@@ -231,20 +227,13 @@ class Game:
             "milliseconds": round(1000 * decided.seconds),
         }
 
-    def _planned(self, step: PlanStep) -> dict[str, Any]:
-        """A step of the robots' plan, with the epoch counted from the beginning."""
-        return {
-            "epoch": self.run.epoch + step.epoch - 1,
-            "agents": list(step.agents),
-            "text": self._words.step(step),
-            "help": list(step.agents) != [self.human],
-        }
-
     def _said(self, decided: Decided) -> str | None:
         """What robots say aloud, where they do."""
-        if self.setting.condition == "announced" and decided.verdict == "stopped":
+        if self.setting.condition != "announced":
+            return None
+        if decided.verdict == "stopped":
             return "I have stopped helping; please go on alone."
-        if self.setting.condition != "announced" or decided.verdict not in ("helps", "waits"):
+        if decided.verdict not in ("helps", "waits"):
             return None
         task = self.setting.task
         mine = [s for s in decided.plan or () if list(s.agents) != [self.human]]
@@ -257,8 +246,8 @@ class Game:
             text = f"{self._words.step(step, robot)} (epoch {self.run.epoch + step.epoch - 1})"
             said.setdefault(self._words.robots(step), []).append(text)
         one = len(task.robots) == 1
-        speeches = (f"{'I' if one else _capital(who)} will {', '.join(does)}." for who, does in said.items())
-        return " ".join(speeches) + wish
+        names = {who: "I" if one else who[:1].upper() + who[1:] for who in said}
+        return " ".join(f"{names[who]} will {', '.join(does)}." for who, does in said.items()) + wish
 
     def _told(self, passed: Passed, near: str | None) -> dict[str, Any]:
         """An epoch as the person has seen it."""
@@ -270,30 +259,23 @@ class Game:
             did = f"tried to {passed.human}, in vain"
         else:
             did = "waited"
-        others = []
-        for step in passed.steps:
-            if self.human not in step.agents and self._noticed(step, near):
-                others.append(f"{self._words.robots(step)}: {self._words.step(step)}")
+        seen = (s for s in passed.steps if self.human not in s.agents and self._noticed(s, near))
+        others = [f"{self._words.robots(step)}: {self._words.step(step)}" for step in seen]
         return {"epoch": passed.epoch, "you": did, "others": others}
 
     def _noticed(self, step: PlanStep, near: str | None) -> bool:
         """Whether the person was where a robot did something, or it came to where they are."""
-        if self._eyes.everywhere:
+        if self._known.everywhere:
             return True
         action = self._ground(step, self.run.state)
         facts = (*action.pre, *action.add)
-        return any(self._eyes.sees(fact, self.run.state) for fact in facts) and near is not None
+        return any(self._known.sees(fact, self.run.state) for fact in facts) and near is not None
 
     def _end(self) -> dict[str, Any]:
         """What the round came to."""
-        run, discount = self.run, self.setting.discount
+        run = self.run
         paid, team = float(run.human_cost), float(run.cost)
-        lines = []
-        for passed in run.passed:
-            for step in passed.steps:
-                if list(step.agents) != [self.human]:
-                    who = " and ".join(step.agents)
-                    lines.append({"epoch": passed.epoch, "text": f"{who}: {self._words.step(step)}"})
+        theirs = [s for passed in run.passed for s in passed.steps if list(s.agents) != [self.human]]
         return {
             "paid": paid,
             "team": team,
@@ -301,13 +283,10 @@ class Game:
             "saved": round(self.alone - team, 9),
             "spared": round(self.alone - paid, 9),
             "epochs": len(run.passed),
-            "help": lines,
+            "help": [
+                {"epoch": s.epoch, "text": f"{' and '.join(s.agents)}: {self._words.step(s)}"} for s in theirs
+            ],
             "reached": run.done,
             **self.robots(),
-            "discount": float(discount),
             "reasons": [{"epoch": p.epoch, "text": p.decided.reason} for p in run.passed],
         }
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

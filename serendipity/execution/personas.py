@@ -1,7 +1,7 @@
-"""People by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscient``, ``recorded:FILE``."""
+"""Personas, people by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscient``, ``recorded:FILE``."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 from random import Random
 from typing import Final
@@ -10,17 +10,16 @@ from search import PreparedTask
 from serendipity.execution.faults import probability
 from serendipity.execution.persons import Noisy, Omniscient, Person, Recorded, Replanner
 from serendipity.model.errors import InputError, UsageError
-from serendipity.model.task.task import Task, canonical_name, several
-from serendipity.pddl.parsing.files import read_text
-from serendipity.pddl.parsing.lists import actions_in
+from serendipity.model.task.task import Task
+from serendipity.recognition.candidates import ObservedGiven, named_actions
 
-POLICIES: Final = ("recorded:FILE", "omniscient", "observant", "local", "noisy:P")
+PERSONAS: Final = ("recorded:FILE", "omniscient", "observant", "local", "noisy:P")
 """How people are named."""
 
 
 @dataclass(frozen=True, slots=True)
-class Policy:
-    """What somebody does, so that it can be done again.
+class Persona:
+    """Somebody who acts in a certain way, again and again.
 
     Attributes:
         name: ``recorded``, ``omniscient``, ``observant``, ``local`` or ``noisy``.
@@ -62,45 +61,39 @@ class Policy:
         return Replanner(task, self.name, dice if drawn else None, prepared)
 
 
-def policy_from(task: Task, text: str) -> Policy:
-    """The policy that a text names.
+def persona_from(task: Task, text: str) -> Persona:
+    """The persona that a text names.
 
     Args:
         task: what they act in.
-        text: as in ``POLICIES``; what follows the name stands behind a colon or a blank.
+        text: as in ``PERSONAS``; what follows the name stands behind a colon or a blank.
 
     Raises:
-        UsageError: there is no such policy.
+        UsageError: there is no such persona.
         InputError: the file of ``recorded`` is wrong; it says where.
     """
     name, _, rest = text.strip().replace(" ", ":", 1).partition(":")
     rest = rest.strip()
     if name == "recorded" and rest:
-        return Policy(name, actions=recorded_actions(task, Path(rest)))
+        return Persona(name, actions=recorded_actions(task, Path(rest)))
     if name == "noisy" and rest:
-        return Policy(name, probability(rest, "noisy"))
+        return Persona(name, probability(rest, "noisy"))
     if name in ("omniscient", "observant", "local") and not rest:
-        return Policy(name)
-    raise UsageError(f"human: expected one of {', '.join(POLICIES)}, got '{text:.50}'")
+        return Persona(name)
+    raise UsageError(f"human: expected one of {', '.join(PERSONAS)}, got '{text:.50}'")
 
 
-def recorded_actions(task: Task, file: Path | Sequence[str]) -> tuple[str, ...]:
-    """What was written down, one action an epoch; ``noop`` is an epoch of waiting.
+def recorded_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
+    """The actions that were written down, one an epoch; ``noop`` is an epoch of waiting.
 
     Raises:
         InputError: a line is no action that the human takes part in.
     """
-    if isinstance(file, Path):
-        lines: list[tuple[str, int | None]] = [(n, i) for n, i in actions_in(read_text(file), file)]
-    else:
-        lines = [(name, None) for name in several(file, "human")]
-    where = file if isinstance(file, Path) else None
-    names = []
-    for text, line in lines:
-        name = canonical_name(text)
+    lines = named_actions(given, "human")
+    for name, line in lines:
         ids = task.named.get(name, ())
         if not task.waits(name) and all(task.human not in task.actions[i].participants for i in ids):
+            where = given if isinstance(given, str | PathLike) else None
             human = task.agents[task.human]
             raise InputError(f"recorded action '{name}': expected an action of {human}'s", where, line)
-        names.append(name)
-    return tuple(names)
+    return tuple(name for name, _ in lines)

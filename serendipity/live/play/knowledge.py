@@ -5,8 +5,8 @@ from serendipity.model.task.actions import apply
 from serendipity.model.task.visibility import surroundings
 
 
-class Eyes:
-    """A person's knowledge of the state.
+class Knowledge:
+    """What a person takes to be true.
 
     Args:
         task: where it begins, which they know.
