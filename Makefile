@@ -8,7 +8,7 @@ READY := .venv/.ready
 PROBLEMS := $(or $(SERENDIPITY_PROBLEMS),../shared)
 
 .DEFAULT_GOAL := help
-.PHONY: help .venv demo test test-browser test-robot robot pictures browser check docs bench bench-domains bench-limits bench-extra fuzz wheels release-check requirements clean
+.PHONY: help .venv demo test test-slow test-sanitized test-browser test-robot robot pictures browser check docs bench bench-domains bench-limits bench-extra fuzz wheels release-check requirements clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z.-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -65,7 +65,18 @@ demo: $(RUNS)  ## the paper's example III-C: plan, proof, what the person will r
 	@echo && echo "Open build/demo/room2.html in a browser to see it."
 
 test: $(READY)  ## run the tests
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest -n auto --dist worksteal --durations 20
+
+test-slow: $(READY)  ## run the tests that take long
+	@$(BIN)/python -m pytest -m slow -n auto --dist worksteal --durations 20
+
+SANITIZED := CC="cc -fsanitize=address,undefined -fno-sanitize-recover=undefined -g" ASAN_OPTIONS=detect_leaks=0 \
+  LD_PRELOAD="$$(cc -print-file-name=libasan.so) $$(cc -print-file-name=libubsan.so)"
+
+test-sanitized: $(READY)  ## run the search's tests on a kernel that looks for undefined behaviour and stray addresses
+	@$(SANITIZED) $(BIN)/python -m search.kernel.build
+	@$(SANITIZED) $(BIN)/python -m pytest -q -n auto --dist worksteal tests/search; status=$$?; \
+	  $(BIN)/python -m search.kernel.build; exit $$status
 
 test-browser: browser  ## play the pages of `show` and `play` in a headless Chromium, which it installs where it may
 	@$(BIN)/python -m pytest -m browser -rs tests/show tests/live tests/docs

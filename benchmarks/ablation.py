@@ -23,7 +23,7 @@ from typing import Any, Final
 import serendipity
 from benchmarks.families import FAMILIES
 from benchmarks.problems import PROBLEMS
-from search.strategies.portfolio import STRATEGIES
+from search.strategies.portfolio import STRATEGIES, TURNS
 from serendipity import SerendipityError, Task
 from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles, problems, roles
 from serendipity.model.resources import deadline
@@ -39,15 +39,10 @@ CALLS: dict[str, dict[str, Any]] = {
 }
 
 _TAKES: Final = 0.05
-"""A strategy that takes this share of the time is looked at though nothing came of it."""
+"""A turn that takes this share of the time is looked at though nothing came of it."""
 
-
-_TOGETHER: Final = (
-    ("timetable-soon", "timetable-on", "timetable"),
-    ("joint-optimum", "joint-optimum-on", "joint-bound"),
-    ("robots-by-numbers", "robots-apart"),
-)
-"""Strategies that are one technique in parts."""
+_NEEDED: Final = ("optimal-plan", "bound", "all")
+"""Without these nothing is planned, or nothing proved."""
 
 
 def main() -> None:
@@ -138,8 +133,8 @@ def _worth_a_look(row: dict[str, Any]) -> list[str]:
         did = part["better"] or part["bound"] is not None or part["settled"]
         if did or part["seconds"] > _TAKES * row["limit"]:
             tried[part["name"]] = None
-    alone = [name for name in tried if name not in ("human-plan", "bound", "all")]
-    return alone + [",".join(group) for group in _TOGETHER if tried.keys() & {*group}]
+    turns = [turn for turn in TURNS if turn.name in tried and turn.name not in _NEEDED]
+    return list(dict.fromkeys([turn.name for turn in turns] + [turn.strategy for turn in turns]))
 
 
 def _asked(task: Task, where: dict[str, Any], without: str) -> dict[str, Any]:
@@ -178,8 +173,10 @@ def table(rows: dict[tuple[Any, ...], dict[str, Any]]) -> Iterator[str]:
     yield "|---|---|---|---|---|---|---|"
     whole = {key[:-1]: row for key, row in rows.items() if not key[-1]}
     total = sum(row["gap"] for row in whole.values())
-    for name in [*(strategy.name for strategy in STRATEGIES), *(",".join(group) for group in _TOGETHER)]:
-        tried = [p for row in whole.values() for p in row["tried"] if p["name"] in name.split(",")]
+    parts = {turn.name: [turn.name] for turn in TURNS}
+    parts.update({name: [turn.name for turn in TURNS if turn.strategy == name] for name in STRATEGIES})
+    for name in dict.fromkeys(name for turn in TURNS for name in (turn.strategy, turn.name)):
+        tried = [p for row in whole.values() for p in row["tried"] if p["name"] in parts[name]]
         useful = sum(bool(p["better"] or p["bound"] is not None or p["settled"]) for p in tried)
         lost: dict[str, int] = {}
         won: dict[str, int] = {}

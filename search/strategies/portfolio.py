@@ -1,8 +1,8 @@
-"""The strategies of a planning call, in the order in which they are tried, and what each may take.
+"""The strategies of a planning call, their turns in the order in which they come, and what each may take.
 
-This table is all there is of order and time.  A strategy is tried where it applies, for its share of the
+These tables are all there is of order and time.  A turn is taken where it applies, for its share of the
 time that is left and its limit, and hands on what it has found.  Once nothing better is left, only those
-are tried that come after the best plan.
+are taken that come after the best plan.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -36,25 +36,27 @@ from serendipity.model.task.task import HumanPlan
 
 
 class Stage(Enum):
-    """When a strategy is tried."""
+    """The part of a call in which a turn is taken."""
 
     PREPARE = "as long as there may be a plan"
     IMPROVE = "as long as there may be a better one"
     FINISH = "once there is none"
 
 
-class Strategy(NamedTuple):
-    """A row of the table.
+class Turn(NamedTuple):
+    """A row of the table: a strategy at work.
 
     Attributes:
-        name: for those who choose.
-        applies: whether it is tried in a call, as that stands.
-        run: tries it; yields whenever the incumbent has become better.
+        strategy: its name; what is chosen or left out is a strategy, or one turn of it.
+        name: of the turn.
+        applies: the condition under which a call takes it.
+        run: takes it; yields whenever the incumbent has become better.
         share: of the time that is left.
         limit: of what it counts: nodes, states, or what its bound counts for; 0 where it counts nothing.
-        stage: when it is tried.
+        stage: the part of the call that it belongs to.
     """
 
+    strategy: str
     name: str
     applies: Callable[[Call], bool]
     run: Callable[[Call, Part], Iterable[None] | None]
@@ -64,35 +66,51 @@ class Strategy(NamedTuple):
 
     @property
     def does(self) -> str:
-        """What it tries, in a line."""
+        """The first line of what its function says of itself."""
         return (self.run.__doc__ or "").partition("\n")[0]
 
 
-STRATEGIES: Final = (
-    Strategy("first-plan", calls.wants_first_plan, first_plan, stage=Stage.PREPARE),
-    Strategy("human-plan-soon", calls.has_first_plan, optimal_plan, share=0.6, stage=Stage.PREPARE),
-    Strategy("human-plan", calls.wants_human_plan, optimal_plan, stage=Stage.PREPARE),
-    Strategy("known", calls.is_warm, known_plan, share=0.3, stage=Stage.PREPARE),
-    Strategy("alone", calls.has_given_plan, plan_alone, stage=Stage.PREPARE),
-    Strategy("bound", calls.is_planned, first_bound, stage=Stage.PREPARE),
-    Strategy("joint-optimum", calls.joint_optimum_may_be_it, joint_optimum, share=0.4),
-    Strategy("joint-bound", calls.joint_optimum_only_bounds, joint_optimum, share=0.05),
-    Strategy("few-nodes", calls.short_windows_suffice, few_nodes, share=0.1, limit=500),
-    Strategy("robots-by-numbers", calls.robots_only_leave_behind, robots_by_numbers, share=0.7),
-    Strategy("timetable-soon", calls.robots_only_leave_behind, beside_timetable, share=0.1, limit=300_000),
-    Strategy("timetable-on", calls.timetable_is_hopeful, beside_timetable, share=0.35, limit=3_000_000),
-    Strategy("robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
-    Strategy("timetable", calls.robots_only_leave_behind, beside_timetable, share=0.9, limit=10_000_000),
-    Strategy("along-plan", calls.may_begin_at_once, along_human_plan, share=0.1),
-    Strategy("one-epoch", calls.longer_windows_may_pay, one_epoch, share=0.1),
-    Strategy("greedy", calls.joint_plans_on_the_way, greedily_within_horizon, share=0.2, limit=5),
-    Strategy("joint-optimum-on", calls.joint_optimum_is_open, open_joint_optimum, share=0.9),
-    Strategy("within-horizon", calls.joint_plans_decide_here, within_horizon),
-    Strategy("exact-bounds", calls.is_for_team_beside_plan, while_bounds_are_exact),
-    Strategy("team", calls.is_for_kernel, team_optimum),
-    Strategy("all", calls.is_planned, all_plans),
-    Strategy("ties", calls.has_ties, ties, share=0.1, stage=Stage.FINISH),
-    Strategy("saving", calls.compares_with_human, saving, stage=Stage.FINISH),
+STRATEGIES: Final = {
+    "human-plan": "The human's optimal plan alone, and before it a greedy one to go on beside.",
+    "warm-start": "The rest of the last answer, where it is a plan of this call.",
+    "bound": "The private costs that are left to the human in every plan.",
+    "joint-optimum": "The best plan of all agents together without a horizon, by the kernel's A*.",
+    "within-horizon": "Composite plans within T.",
+    "along-plan": "Best composite plans from the states of pi_H, begun by the robots at once.",
+    "robots-apart": "Windows of one epoch from what each robot can bring about by itself.",
+    "timetable": "Windows of one epoch from all states beside the human's timetable.",
+    "one-epoch": "Windows of one epoch, where longer ones may be better, too.",
+    "all-plans": "Best-first search over all windows and plans of the mode.",
+}
+"""The strategies, with what each does."""
+
+_PREPARE, _FINISH = Stage.PREPARE, Stage.FINISH
+
+TURNS: Final = (
+    Turn("human-plan", "first-plan", calls.wants_first_plan, first_plan, stage=_PREPARE),
+    Turn("human-plan", "optimal-plan-soon", calls.has_first_plan, optimal_plan, share=0.6, stage=_PREPARE),
+    Turn("human-plan", "optimal-plan", calls.wants_human_plan, optimal_plan, stage=_PREPARE),
+    Turn("warm-start", "warm-start", calls.is_warm, known_plan, share=0.3, stage=_PREPARE),
+    Turn("human-plan", "alone", calls.has_given_plan, plan_alone, stage=_PREPARE),
+    Turn("bound", "bound", calls.is_planned, first_bound, stage=_PREPARE),
+    Turn("joint-optimum", "joint-optimum-soon", calls.joint_optimum_may_be_it, joint_optimum, share=0.4),
+    Turn("joint-optimum", "joint-bound", calls.joint_optimum_only_bounds, joint_optimum, share=0.05),
+    Turn("all-plans", "few-nodes", calls.short_windows_suffice, few_nodes, share=0.1, limit=500),
+    Turn("robots-apart", "robots-by-numbers", calls.robots_only_leave_behind, robots_by_numbers, share=0.7),
+    Turn("timetable", "timetable-soon", calls.robots_only_leave_behind, beside_timetable, 0.1, 300_000),
+    Turn("timetable", "timetable-on", calls.timetable_is_hopeful, beside_timetable, 0.35, 3_000_000),
+    Turn("robots-apart", "each-robot", calls.robots_only_leave_behind, robots_apart, share=0.5),
+    Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
+    Turn("along-plan", "along-plan", calls.may_begin_at_once, along_human_plan, share=0.1),
+    Turn("one-epoch", "one-epoch", calls.longer_windows_may_pay, one_epoch, share=0.1),
+    Turn("within-horizon", "greedy", calls.joint_plans_on_the_way, greedily_within_horizon, 0.2, limit=5),
+    Turn("joint-optimum", "joint-optimum-on", calls.joint_optimum_is_open, open_joint_optimum, share=0.9),
+    Turn("within-horizon", "exact-within-horizon", calls.joint_plans_decide_here, within_horizon),
+    Turn("all-plans", "exact-bounds", calls.is_for_team_beside_plan, while_bounds_are_exact),
+    Turn("joint-optimum", "team", calls.is_for_kernel, team_optimum),
+    Turn("all-plans", "all", calls.is_planned, all_plans),
+    Turn("all-plans", "ties", calls.has_ties, ties, share=0.1, stage=_FINISH),
+    Turn("human-plan", "saving", calls.compares_with_human, saving, stage=_FINISH),
 )
 
 
@@ -103,7 +121,7 @@ def solve(
     human_plan: HumanPlan | None = None,
     deadline: Deadline | None = None,
     warm: WarmStart | None = None,
-    strategies: Sequence[Strategy] = STRATEGIES,
+    turns: Sequence[Turn] = TURNS,
 ) -> Iterator[Answer]:
     """Answers with falling objective and rising lower bound; the last one is the best known.
 
@@ -113,12 +131,12 @@ def solve(
         human_plan: ``pi_H``, already replayed, or None to predict it.
         deadline: deadline and cancellation.
         warm: what is known before.
-        strategies: what is tried; of these, those that the options name.
+        turns: those that may be taken; of these, those that the options name.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``, or one is missing; there is no such strategy.
     """
-    chosen_ones = chosen(options.strategy_names, strategies)
+    chosen_ones = chosen(options.strategy_names, turns)
     try:
         context = SearchContext(prepared, options, deadline or Deadline(options.time_limit))
     except LIMITS as limit:
@@ -127,9 +145,9 @@ def solve(
     call = Call(context, human_plan, warm or WarmStart())
     try:
         begin(call)
-        for strategy in chosen_ones:
-            if _is_due(call, strategy.stage) and strategy.applies(call):
-                for _ in _tried(call, strategy):
+        for turn in chosen_ones:
+            if _is_due(call, turn.stage) and turn.applies(call):
+                for _ in _taken(call, turn):
                     yield answer_of(call)
         if not call.is_done and not call.is_settled:
             call.limit = "strategies"  # those that were chosen are not enough
@@ -154,17 +172,17 @@ def begin(call: Call) -> None:
         call.follow(call.given, optimal=False)
 
 
-def _tried(call: Call, strategy: Strategy) -> Iterator[None]:
-    """Try a strategy in its share of the time; yield whenever more is known.
+def _taken(call: Call, turn: Turn) -> Iterator[None]:
+    """Take a turn in its share of the time; yield whenever more is known.
 
     Raises:
         LimitReachedError: the deadline of the call came.
     """
     deadline = call.context.deadline
-    part = Part(deadline if strategy.share == 1 else deadline.part(strategy.share), strategy.limit)
+    part = Part(deadline if turn.share == 1 else deadline.part(turn.share), turn.limit)
     begun, bound, known, better = deadline.elapsed(), call.progress.bound, call.best.key, 0
     try:
-        for _ in strategy.run(call, part) or ():
+        for _ in turn.run(call, part) or ():
             better += call.best.key < known
             known = call.best.key
             yield
@@ -176,23 +194,23 @@ def _tried(call: Call, strategy: Strategy) -> Iterator[None]:
         least = call.progress.bound
         risen = call.keys.objective(least) if bound < least < INFINITE_KEY else None
         seconds, settled = deadline.elapsed() - begun, call.is_done or call.is_settled
-        call.tried.append(Tried(strategy.name, seconds, better, risen, settled))
+        call.tried.append(Tried(turn.name, seconds, better, risen, settled))
 
 
-def chosen(names: Sequence[str], strategies: Sequence[Strategy] = STRATEGIES) -> list[Strategy]:
-    """The strategies that some names choose: those named, or all but those with a minus sign.
+def chosen(names: Sequence[str], turns: Sequence[Turn] = TURNS) -> list[Turn]:
+    """The turns that names of strategies or turns choose: those named, or all but those with a minus sign.
 
     Raises:
-        UsageError: there is no strategy of a name.
+        UsageError: there is no strategy and no turn of a name.
     """
-    every = [strategy.name for strategy in strategies]
+    known = {turn.strategy for turn in turns} | {turn.name for turn in turns}
     for name in names:
-        if name.removeprefix("-") not in every:
-            raise UsageError(
-                f"strategies: there is no '{name}'; expected some of {', '.join(every)}, or -NAME"
-            )
-    wanted = {name for name in names if not name.startswith("-")} or {*every}
-    return [s for s in strategies if s.name in wanted and f"-{s.name}" not in names]
+        if name.removeprefix("-") not in known:
+            few = ", ".join(dict.fromkeys(turn.strategy for turn in turns))
+            raise UsageError(f"strategies: there is no '{name}'; expected some of {few}, or -NAME")
+    wanted = {name for name in names if not name.startswith("-")} or known
+    unwanted = {name.removeprefix("-") for name in names if name.startswith("-")}
+    return [t for t in turns if {t.strategy, t.name} & wanted and not {t.strategy, t.name} & unwanted]
 
 
 def _go_on_beside_first_plan(call: Call) -> None:

@@ -7,11 +7,14 @@ from typing import Any
 import pytest
 
 import serendipity
-from search.strategies.portfolio import STRATEGIES, chosen
+from search.strategies.portfolio import STRATEGIES, TURNS, chosen
 from serendipity import Result, Task, UsageError
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 
-NAMES = [strategy.name for strategy in STRATEGIES]
+NAMES = list(dict.fromkeys([*STRATEGIES, *(turn.name for turn in TURNS)]))
+"""Strategies, and single turns of theirs."""
+
+OF = {turn.name: turn.strategy for turn in TURNS}
 
 CALLS: list[dict[str, Any]] = [
     {"mode": "individual"},
@@ -61,7 +64,11 @@ def test_one_alone(name: str, optima: dict[tuple[int, int], Result]) -> None:
     """Beside those that the others stand on."""
     for (i, j), optimum in optima.items():
         answer = serendipity.plan(replace(TASKS[i]), strategies=f"human-plan,bound,{name}", **CALLS[j])
-        assert {row["name"] for row in answer.statistics["strategies"]} <= {"human-plan", "bound", name}
+        assert {OF[row["name"]] for row in answer.statistics["strategies"]} <= {
+            "human-plan",
+            "bound",
+            OF.get(name, name),
+        }
         _claims_no_more(answer, optimum)
         if answer.status == "feasible":
             assert serendipity.check(TASKS[i], answer).verdict != "refuted"
@@ -72,13 +79,14 @@ def test_all_but_one(name: str, optima: dict[tuple[int, int], Result]) -> None:
     for (i, j), optimum in optima.items():
         answer = serendipity.plan(replace(TASKS[i]), strategies=f"-{name}", **CALLS[j])
         _claims_no_more(answer, optimum)
-        if name not in ("human-plan", "all"):
+        if name not in ("human-plan", "optimal-plan", "all-plans", "all"):
             assert (answer.status, answer.objective) == (optimum.status, optimum.objective)
 
 
 def test_each_says_what_it_does() -> None:
-    assert len({*NAMES}) == len(NAMES)
-    assert all(strategy.does and 0 < strategy.share <= 1 for strategy in STRATEGIES)
+    assert len({turn.name for turn in TURNS}) == len(TURNS)
+    assert {turn.strategy for turn in TURNS} == {*STRATEGIES}
+    assert all(turn.does and 0 < turn.share <= 1 for turn in TURNS)
 
 
 def test_none_is_left_without_saying_so() -> None:
@@ -87,18 +95,22 @@ def test_none_is_left_without_saying_so() -> None:
 
 
 def test_names_that_are_none() -> None:
-    with pytest.raises(UsageError, match="there is no 'al'; expected some of first-plan, "):
+    with pytest.raises(UsageError, match="there is no 'al'; expected some of human-plan, "):
         serendipity.plan(TASKS[0], strategies="al")
     with pytest.raises(UsageError, match="strategies: expected names"):
         serendipity.plan(TASKS[0], strategies=3)
-    assert [strategy.name for strategy in chosen(["all", "bound"])] == ["bound", "all"]
-    assert "ties" not in [strategy.name for strategy in chosen(["-ties"])]
+    assert [turn.name for turn in chosen(["all", "bound"])] == ["bound", "all"]
+    assert [turn.name for turn in chosen(["timetable", "-timetable-on"])] == [
+        "timetable-soon",
+        "timetable-last",
+    ]
+    assert not {"ties", "all"} & {turn.name for turn in chosen(["-all-plans"])}
 
 
 def test_where_the_time_went_is_told() -> None:
     answer = serendipity.plan(serendipity.example("room2"), discount=0.6)
     rows = answer.statistics["strategies"]
-    assert [row["name"] for row in rows] == ["human-plan", "bound", "all"]
+    assert [row["name"] for row in rows] == ["optimal-plan", "bound", "all"]
     assert [row["better"] for row in rows] == [0, 0, 1]
     assert rows[-1]["settled"] and rows[-1]["bound"] == answer.objective
     assert 0 < sum(row["seconds"] for row in rows) < answer.statistics["elapsed_seconds"]
