@@ -25,7 +25,7 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from itertools import chain
 
-from search.bounds.achiever_costs import AchieverCosts, Label, Node, Spot, Teams
+from search.bounds.achiever_costs import AchieverCosts, AutomatonNode, Label, Spot, Teams
 from search.bounds.interactions import Need
 from search.engine.shortest_paths import LevelQueue
 from search.packed.cost_vector import INFINITE_KEY
@@ -82,10 +82,10 @@ class AchieverAutomaton:
         for i, need in needs:
             deadline.tick()
             self._index(i, need)
-        self._nodes: dict[Spot, Node] = {}  # in the order in which they were met
-        self._accepted: dict[int, list[Node]] = {}
+        self._nodes: dict[Spot, AutomatonNode] = {}  # in the order in which they were met
+        self._accepted: dict[int, list[AutomatonNode]] = {}
         self._open_exits: dict[Label, set[int]] = {}
-        self._stopped: dict[Label, list[Node]] = {}
+        self._stopped: dict[Label, list[AutomatonNode]] = {}
         self._too_dear = INFINITE_KEY
         self._steps: dict[Label, int] = {}
         self.cost: dict[int, int] = {}
@@ -94,7 +94,7 @@ class AchieverAutomaton:
     def explore(self, pays: Callable[[int], bool]) -> None:
         """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
         for spot in self._starts():
-            self._nodes[spot] = Node(spot)
+            self._nodes[spot] = AutomatonNode(spot)
         queue = LevelQueue((0, node) for node in self._nodes.values())
         for cost, level in queue:
             for node in level:
@@ -109,7 +109,7 @@ class AchieverAutomaton:
                 for weight, after in edges:
                     self._relax(queue, node, weight, after, pays)
 
-    def settled(self, spot: Spot) -> Node | None:
+    def settled(self, spot: Spot) -> AutomatonNode | None:
         """What is known of a spot that was explored."""
         node = self._nodes.get(spot)
         return None if node is None or node.cost < 0 else node
@@ -121,8 +121,8 @@ class AchieverAutomaton:
 
     def _relax(
         self,
-        queue: LevelQueue[Node],
-        before: Node,
+        queue: LevelQueue[AutomatonNode],
+        before: AutomatonNode,
         weight: int,
         after: Spot,
         pays: Callable[[int], bool],
@@ -130,7 +130,7 @@ class AchieverAutomaton:
         """Record an edge, and look at where it leads as long as the cost pays."""
         node = self._nodes.get(after)
         if node is None:
-            node = self._nodes[after] = Node(after)
+            node = self._nodes[after] = AutomatonNode(after)
         node.edges.append((weight, before))
         cost = before.cost + weight
         if node.cost < 0 and cost < self._too_dear:
@@ -142,7 +142,7 @@ class AchieverAutomaton:
             else:
                 self._too_dear = cost  # nor does what costs more
 
-    def _walks(self, node: Node) -> list[Edge]:
+    def _walks(self, node: AutomatonNode) -> list[Edge]:
         """Walks of the tracked robot; only those to known spots, if there is nowhere left to go.
 
         Where else the robot may walk to is left open then (see :meth:`distances`).
@@ -241,7 +241,7 @@ class AchieverAutomaton:
         listed = chain(walks.always, *walks.by_value.values())
         return min((self._weights[index] for _, index in listed), default=0)
 
-    def _accept(self, node: Node) -> None:
+    def _accept(self, node: AutomatonNode) -> None:
         """Note the needs that are provided at a spot."""
         value, team, robot, place = node.spot
         there: Iterable[int]
@@ -262,7 +262,7 @@ class AchieverAutomaton:
             slack: a key increment; if robots pay as much or more from the initial state on, it is too dear.
         """
         queue = LevelQueue((0, node) for node in self._accepted.get(need, ()))
-        found: dict[Node, int] = {}
+        found: dict[AutomatonNode, int] = {}
         elsewhere: dict[Label, int] = {}
         for cost, level in queue:
             latest = slack - cost

@@ -20,7 +20,7 @@ Teams = tuple[tuple[int, tuple[int, ...], bool], ...]
 those will do (team 0 stands for no team)."""
 
 
-class Node:
+class AutomatonNode:
     """A spot that was met.
 
     Attributes:
@@ -34,7 +34,7 @@ class Node:
     def __init__(self, spot: Spot) -> None:
         self.spot = spot
         self.cost = -1
-        self.edges: list[tuple[int, Node]] = []
+        self.edges: list[tuple[int, AutomatonNode]] = []
 
 
 class _Robot(NamedTuple):
@@ -65,12 +65,12 @@ class AchieverCosts:
 
     def __init__(
         self,
-        settled: Callable[[Spot], Node | None],
+        settled: Callable[[Spot], AutomatonNode | None],
         teams: Callable[[int], Teams],
         unchanged: int,
         field: int,
         places: dict[int, int],
-        found: dict[Node, int],
+        found: dict[AutomatonNode, int],
         elsewhere: dict[Label, int],
     ) -> None:
         self._settled = settled

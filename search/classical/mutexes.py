@@ -13,7 +13,7 @@ from serendipity.model.resources.deadline import Deadline
 _MOST_VALUES: Final = 4_000
 
 
-class _Change(NamedTuple):
+class _FieldChange(NamedTuple):
     """An operator: the values that it asks for and sets, also as bit sets, and those that it leaves alone."""
 
     needs: tuple[int, ...]
@@ -23,7 +23,7 @@ class _Change(NamedTuple):
     kept: int
 
 
-class Pairs:
+class ReachablePairs:
     """Pairs of values that may be reached together.
 
     Args:
@@ -67,7 +67,7 @@ class Pairs:
     def _numbers(self, mask: int, state: int) -> tuple[int, ...]:
         return tuple(self._number[field, state & field] for field in split(mask, self._lowest))
 
-    def _changes(self, operators: Iterable[Operator], deadline: Deadline) -> list[_Change]:
+    def _changes(self, operators: Iterable[Operator], deadline: Deadline) -> list[_FieldChange]:
         kept: dict[int, int] = {}
         found = []
         for op in operators:
@@ -75,10 +75,10 @@ class Pairs:
             if op.keep not in kept:
                 kept[op.keep] = _bits(n for (field, _), n in self._number.items() if field & op.keep)
             needs, sets = self._numbers(op.need_mask, op.need), self._numbers(self.mask & ~op.keep, op.put)
-            found.append(_Change(needs, _bits(needs), sets, _bits(sets), kept[op.keep]))
+            found.append(_FieldChange(needs, _bits(needs), sets, _bits(sets), kept[op.keep]))
         return found
 
-    def _reach(self, reached: int, changes: Sequence[_Change], deadline: Deadline) -> None:
+    def _reach(self, reached: int, changes: Sequence[_FieldChange], deadline: Deadline) -> None:
         beside, is_new = self._beside, True
         while is_new:
             is_new = False

@@ -13,7 +13,7 @@ Neighbours = list[dict[int, int]]
 """Per field those that its changers ask for or set as well, and how many of them do."""
 
 
-class Field(NamedTuple):
+class StateField(NamedTuple):
     """A field of the packed task.
 
     Attributes:
@@ -28,12 +28,12 @@ class Field(NamedTuple):
 
 
 def patterns(
-    fields: Sequence[Field],
+    fields: Sequence[StateField],
     operators: Sequence[Operator],
     goal: PackedGoal,
     most_states: int,
     deadline: Deadline,
-) -> Iterator[tuple[Field, ...]]:
+) -> Iterator[tuple[StateField, ...]]:
     """Sets of fields that have something to say of the goal, none twice; each is worked out when asked for.
 
     One is grown from each field of the goal; besides there are all single ones and pairs that can
@@ -60,7 +60,9 @@ def patterns(
             yield tuple(fields[i] for i in sorted(chosen))
 
 
-def _neighbours(fields: Sequence[Field], operators: Sequence[Operator], deadline: Deadline) -> Neighbours:
+def _neighbours(
+    fields: Sequence[StateField], operators: Sequence[Operator], deadline: Deadline
+) -> Neighbours:
     shapes: dict[tuple[int, int], int] = {}
     for op in deadline.each(operators):
         shape = op.need_mask, op.keep
@@ -75,7 +77,7 @@ def _neighbours(fields: Sequence[Field], operators: Sequence[Operator], deadline
     return found
 
 
-def _grown(start: int, fields: Sequence[Field], asked: Neighbours, most_states: int) -> frozenset[int]:
+def _grown(start: int, fields: Sequence[StateField], asked: Neighbours, most_states: int) -> frozenset[int]:
     """A field, and of those near it again and again the one that most changers ask for."""
     chosen, size = {start}, fields[start].size
     near = dict(asked[start])
@@ -104,5 +106,5 @@ def _small(goals: Sequence[int], asked: Neighbours, deadline: Deadline) -> Itera
             yield frozenset([i, j])
 
 
-def _size(chosen: frozenset[int] | set[int], fields: Sequence[Field]) -> int:
+def _size(chosen: frozenset[int] | set[int], fields: Sequence[StateField]) -> int:
     return prod(fields[i].size for i in chosen)

@@ -2,8 +2,7 @@
 
 What it learns of states serves later questions: exact costs along plans, and of every state that was
 expanded that it costs no less than what was left then (Koenig and Likhachev 2005).  It begins with LM-cut
-alone; tables of projections, and whether plans' lengths are even or odd, follow once a question turns out
-to be worth them.
+alone; tables of projections follow once a question turns out to be worth them.
 """
 
 import ctypes
@@ -11,10 +10,9 @@ from array import array
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Final
 
-from search.classical.parity import Parity, parity_of
-from search.classical.patterns import Field, patterns
+from search.classical.encoded_problem import EncodedProblem, memory_for
+from search.classical.patterns import StateField, patterns
 from search.classical.problem import ClassicalProblem
-from search.classical.told import Told, memory_for
 from search.engine.astar import AStar
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import applicable
@@ -28,10 +26,10 @@ ROOM: Final = 1 << 24
 """Bytes that may be allocated before memory is asked for again."""
 
 _MANY: Final = 2_000
-"""Evaluations after which tables are worth their time, and a look at the parity of plans' lengths is."""
+"""Evaluations after which tables are worth their time."""
 
 _SHARE: Final = 0.25
-"""What of the time that is left either may take."""
+"""What of the time that is left they may take."""
 
 _MOST_STATES: Final = 10_000
 _MOST_TRANSITIONS: Final = 3_000_000
@@ -71,7 +69,7 @@ class ClassicalPlanner:
         self._kernel = library
         self._mask = problem.mask
         deadline.require(memory_for(problem))
-        self.told = Told(problem)
+        self.told = EncodedProblem(problem)
         self._planner: int | None = None
         self._start()
 
@@ -85,8 +83,7 @@ class ClassicalPlanner:
         self._planner = self._kernel.planner_new(ctypes.byref(self.told.spec))
         if not self._planner:
             raise LimitReachedError("memory-limit")
-        self._tables = self._is_parity_sought = False
-        self._parity: Parity | None = None
+        self._tables = False
         self._asked: int | None = None
         self._most = INFINITE_KEY
         self._plans: dict[int, list[int]] = {}
@@ -123,7 +120,6 @@ class ClassicalPlanner:
         kernel, planner = self._kernel, self._planner
         row, most = self.told.row(state), self.problem.limit(limit)
         self._asked, self._is_open, self._most = state & self._mask, False, limit
-        self._tell_parity(state)
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
         self._is_open = True
         return self.go_on(deadline, on_bound)
@@ -150,7 +146,6 @@ class ClassicalPlanner:
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
-            self._find_parity(deadline)
             self.prepare(deadline)
         found = self._unbounded(deadline) if outcome == _UNFIT else self.least
         self._is_open = False
@@ -314,27 +309,6 @@ class ClassicalPlanner:
             outcome = call(wanted)
         return outcome
 
-    # -- whether plans' lengths are even or odd
-
-    def _find_parity(self, deadline: Deadline) -> None:
-        """Look for it from where the search began, once it is worth the time; all steps weigh alike then."""
-        if self._is_parity_sought or self.counts()[2] < _MANY:
-            return
-        self._is_parity_sought = True
-        assert self._asked is not None, "a search is under way"
-        if len({*self.problem.weights}) > 1:
-            return
-        try:
-            self._parity = parity_of(self.problem, self._asked, deadline.part(_SHARE))
-        except LimitReachedError:
-            deadline.check()
-        self._tell_parity(self._asked)
-
-    def _tell_parity(self, state: int) -> None:
-        odd = None if self._parity is None else self._parity.of(state)
-        step = 0 if odd is None else self.problem.weights[0]
-        self._kernel.planner_parity(self._planner, step, odd or 0)
-
     # -- tables
 
     def prepare(self, deadline: Deadline) -> None:
@@ -372,7 +346,9 @@ class ClassicalPlanner:
 
     def _patterns(self, deadline: Deadline) -> Iterator[list[int]]:
         problem = self.problem
-        fields = [Field(field, (field & -field).bit_length() - 1, values) for field, values in problem.fields]
+        fields = [
+            StateField(field, (field & -field).bit_length() - 1, values) for field, values in problem.fields
+        ]
         places = {field: place for place, field in enumerate(fields)}
         chosen = patterns(fields, problem.operators, problem.goal, _MOST_STATES, deadline)
         return ([places[field] for field in pattern] for pattern in chosen)

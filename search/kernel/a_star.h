@@ -29,8 +29,6 @@ typedef struct {
     Heap open;
     Ints applicable, closed, plan, spare; /* plan: the best that was found, if has_plan; it costs what the limit is */
     Word *row;
-    Cost step; /* what each operator weighs, where plans have an even number of steps, or (odd) an odd one; 0: not known */
-    int32_t odd;
     Cost limit, least; /* nothing from the limit on is of interest; no plan is cheaper than least */
     uint32_t stamp;
     int32_t start, serial, has_plan;
@@ -54,19 +52,8 @@ static void a_star_free(AStar *s) {
 /* What is left from a node, at least, for an optimal plan that comes by it. */
 static Cost left_from(const Node *node) { return node->exact || node->onward < node->rest ? node->rest : node->onward; }
 
-/* All plans by a node have an even number of steps, or all an odd one. */
-static void round_up(const AStar *s, Node *node) {
-    Cost left = left_from(node);
-    if (!s->step || node->exact || left == INFINITE_COST) return;
-    Cost steps = (node->spent + left + s->step - 1) / s->step;
-    left = (steps + (steps + s->odd) % 2) * s->step - node->spent;
-    if (node->onward > node->rest) node->onward = left;
-    else node->rest = left;
-}
-
 static void open_node(AStar *s, int32_t id) {
     Node *node = node_of(&s->table, id);
-    round_up(s, node);
     if (left_from(node) == INFINITE_COST) return;
     Cost total = plus(node->spent, left_from(node));
     if (total >= s->limit || total == MOST_COST) {
@@ -236,7 +223,6 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
             evaluate(&s->evaluator, p, s->relaxation, &s->table, node, state);
         if (node->evaluated == N_TURNS && node->rest < INFINITE_COST && node->spent + left_from(node) == entry.key)
             evaluate_onward(&s->evaluator, p, s->relaxation, node, state);
-        round_up(s, node);
         if (left_from(node) == INFINITE_COST || node->spent + left_from(node) != entry.key) {
             heap_pop(&s->open);
             open_node(s, entry.item);

@@ -56,9 +56,6 @@ API int planner_begin(Planner *s, const Word *state, int32_t before, Cost limit,
 }
 API int planner_run(Planner *s, double seconds, size_t allowed) { return a_star_run(&s->a_star, seconds, allowed); }
 
-/* Plans from where it begins have an even number of steps, or an odd one, and all operators weigh as much; 0: not known. */
-API void planner_parity(Planner *s, Cost step, int32_t odd) { s->a_star.step = step, s->a_star.odd = odd; }
-
 /* No plan from where it began is cheaper. */
 API Cost planner_least(const Planner *s) { return s->a_star.least; }
 

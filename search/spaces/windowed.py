@@ -145,7 +145,7 @@ class AnyOfPlan(Unscheduled):
         return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
 
 
-class _Judged(NamedTuple):
+class _JudgedNode(NamedTuple):
     """A node of the window and the human's part of the next epoch, evaluated together.
 
     Attributes:
@@ -287,7 +287,7 @@ class Windowed:
                     if bound < best.key and self._labels.add(child.state, child.epoch, child.key, child.idle):
                         yield bound, child
 
-    def _child(self, judged: _Judged, option: JointAction) -> Node:
+    def _child(self, judged: _JudgedNode, option: JointAction) -> Node:
         """The node after an epoch of the window."""
         node = judged.node
         after = node.state & option.keep | option.put
@@ -302,7 +302,7 @@ class Windowed:
             self._successors.rested(node.idle, option, after),
         )
 
-    def _judge(self, node: Node, part: JointAction, best: Incumbent) -> _Judged | None:
+    def _judge(self, node: Node, part: JointAction, best: Incumbent) -> _JudgedNode | None:
         """What the human's part of the next epoch means; None if it comes too early, or can't pay."""
         if not in_time(part, node.idle):
             return None
@@ -312,9 +312,9 @@ class Windowed:
         if spent + part.weight + rest >= best.key or node.epoch + 1 + self._bounds.steps(at) > self._horizon:
             return None
         touched = node.phase == TOUCHED or self._bounds.interactions(part.actions)
-        return _Judged(node, spent, rest, touched)
+        return _JudgedNode(node, spent, rest, touched)
 
-    def _least(self, judged: _Judged, option: JointAction, idle: Idle) -> int:
+    def _least(self, judged: _JudgedNode, option: JointAction, idle: Idle) -> int:
         """Least key of a plan that goes on with an option; ``idle``: how long robots have been, after it."""
         node, spent, rest, touched = judged
         key = spent + option.weight
@@ -324,7 +324,7 @@ class Windowed:
             return key + rest
         return key + max(rest, self._bounds.untouched(node.epoch + 1, after, key, idle))
 
-    def _promising(self, judged: _Judged, sooner: Idle, best: Incumbent, option: JointAction) -> bool:
+    def _promising(self, judged: _JudgedNode, sooner: Idle, best: Incumbent, option: JointAction) -> bool:
         """Whether the human's part and what one robot does may still pay."""
         return self._least(judged, option, sooner) < best.key
 

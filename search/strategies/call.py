@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from search.strategies.first_answer import FirstAnswer
 
 
-class Part(NamedTuple):
+class Allowance(NamedTuple):
     """What of a call a strategy may take.
 
     Attributes:

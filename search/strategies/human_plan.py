@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.packed.cost_vector import INFINITE_KEY
-from search.strategies.call import Call, Part
+from search.strategies.call import Allowance, Call
 from search.strategies.conditions import is_for_team_first
 from search.strategies.first_answer import FirstAnswer
 from search.strategies.outcome import answered
@@ -13,7 +13,7 @@ from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.task import HumanPlan
 
 
-def first_plan(call: Call, _: Part) -> Iterator[None]:
+def first_plan(call: Call, _: Allowance) -> Iterator[None]:
     """Some plan of the human's, by a greedy search, and doing nothing beside it."""
     call.first = FirstAnswer(call.context, call.given, call.warm)
     plan = call.first.plan
@@ -21,7 +21,7 @@ def first_plan(call: Call, _: Part) -> Iterator[None]:
         yield
 
 
-def optimal_plan(call: Call, part: Part) -> None:
+def optimal_plan(call: Call, part: Allowance) -> None:
     """The human's canonical plan; at a limit of this part alone, the best plan that was come across."""
     try:
         found = call.under(part.deadline).canonical_plan()
@@ -43,7 +43,7 @@ def optimal_plan(call: Call, part: Part) -> None:
         call.follow(None, optimal=True)
 
 
-def known_plan(call: Call, part: Part) -> None:
+def known_plan(call: Call, part: Allowance) -> None:
     """What is left of the last answer, where it is a plan of this call."""
     context = call.under(part.deadline)
     found = replayed(context, call.plan or (), call.epochs, call.most_cost, call.warm)
@@ -51,7 +51,7 @@ def known_plan(call: Call, part: Part) -> None:
         call.offer(found)  # told once it is known what the human gains alone
 
 
-def plan_alone(call: Call, part: Part) -> None:
+def plan_alone(call: Call, part: Allowance) -> None:
     """What the human gains alone, where the plan that is given is not an optimal one (semantics 1)."""
     plan = call.plan
     assert plan is not None and call.given is not None, "it is given"
@@ -89,7 +89,7 @@ def _may_turn_at_once(call: Call, optimum: int) -> bool:
     return free and fits and not call.task.robot_goal
 
 
-def first_bound(call: Call, _: Part) -> Iterator[None]:
+def first_bound(call: Call, _: Allowance) -> Iterator[None]:
     """What the human has to do themselves bounds every plan; and whether that was known to be all."""
     if not is_for_team_first(call):
         call.raise_bound(call.least())
@@ -98,7 +98,7 @@ def first_bound(call: Call, _: Part) -> Iterator[None]:
     yield
 
 
-def saving(call: Call, part: Part) -> None:
+def saving(call: Call, part: Allowance) -> None:
     """What the human does alone, for the saving of an answer that did not have to wait for it."""
     optimal = call.under(part.deadline).canonical_plan()
     call.compare(None if optimal is None else optimal.actions)

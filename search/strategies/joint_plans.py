@@ -11,7 +11,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.spaces.factory import joint_space
 from search.spaces.from_composite import Suggestions
-from search.strategies.call import Call, Part
+from search.strategies.call import Allowance, Call
 from search.strategies.conditions import joint_optimum_is_open
 from search.strategies.limits import SUGGESTIONS
 from serendipity.model.errors import LimitReachedError
@@ -20,7 +20,7 @@ if TYPE_CHECKING:  # loaded by the calls that it serves
     from search.classical.team import Sets, Team
 
 
-def team_optimum(call: Call, part: Part) -> Iterator[None]:
+def team_optimum(call: Call, part: Allowance) -> Iterator[None]:
     """The best composite plan of any length, which is the answer."""
     team, context = _team(call), call.context
     before = call.progress.expanded, call.progress.generated
@@ -57,13 +57,13 @@ def _team(call: Call) -> "Team":
     return team
 
 
-def joint_optimum(call: Call, part: Part) -> Iterator[None]:
+def joint_optimum(call: Call, part: Allowance) -> Iterator[None]:
     """The joint optimum without a horizon, as far as time goes: a bound, and what it suggests."""
     plans = _team(call).better_plans(call.context.packed.init, part.deadline, partial(_raise, call))
     yield from _take_all(call, plans)
 
 
-def open_joint_optimum(call: Call, part: Part) -> Iterator[None]:
+def open_joint_optimum(call: Call, part: Allowance) -> Iterator[None]:
     """The same, from where a limit came."""
     plans = _team(call).go_on(call.context.packed.init, part.deadline, partial(_raise, call))
     yield from _take_all(call, plans)
@@ -84,7 +84,7 @@ def _raise(call: Call, amount: int) -> None:
     call.raise_joint_bound(call.context.amount_key(amount))
 
 
-def along_human_plan(call: Call, part: Part) -> Iterator[None]:
+def along_human_plan(call: Call, part: Allowance) -> Iterator[None]:
     """Robots begin at once with what would be best after an epoch of ``pi_H``."""
     context, plan, state = call.context, call.plan or (), call.context.packed.init
     # Where the search without a horizon is to go on, it keeps its planner to itself.
@@ -101,7 +101,7 @@ def along_human_plan(call: Call, part: Part) -> Iterator[None]:
         context.deadline.check()
 
 
-def greedily_within_horizon(call: Call, part: Part) -> Iterator[None]:
+def greedily_within_horizon(call: Call, part: Allowance) -> Iterator[None]:
     """Composite plans within ``T`` that a greedy search comes by."""
     joint = _incumbent(call)
     space = joint_space(call.context, int(call.horizon), joint.key, part.limit)
@@ -110,7 +110,7 @@ def greedily_within_horizon(call: Call, part: Part) -> Iterator[None]:
             yield
 
 
-def within_horizon(call: Call, part: Part) -> Iterator[None]:
+def within_horizon(call: Call, part: Allowance) -> Iterator[None]:
     """A best composite plan within ``T``, which is the answer but for its window and for ties."""
     joint = _incumbent(call)
     progress = Progress(call.progress.bound, told_at=part.deadline.elapsed())

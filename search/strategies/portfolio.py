@@ -14,7 +14,7 @@ from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import INFINITE_KEY
 from search.strategies import conditions as calls
-from search.strategies.call import Call, Part
+from search.strategies.call import Allowance, Call
 from search.strategies.human_plan import first_bound, first_plan, known_plan, optimal_plan, plan_alone, saving
 from search.strategies.joint_plans import (
     along_human_plan,
@@ -25,7 +25,7 @@ from search.strategies.joint_plans import (
     within_horizon,
 )
 from search.strategies.outcome import answer_of
-from search.strategies.short_windows import beside_timetable, robots_apart, robots_by_numbers
+from search.strategies.short_windows import beside_timetable, robots_apart
 from search.strategies.warm_start import WarmStart
 from search.strategies.windows import all_plans, few_nodes, one_epoch, ties, while_bounds_are_exact
 from serendipity.model.answers.answer import Answer, Tried
@@ -35,7 +35,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 
 
-class Stage(Enum):
+class CallStage(Enum):
     """The part of a call in which a turn is taken."""
 
     PREPARE = "as long as there may be a plan"
@@ -59,10 +59,10 @@ class Turn(NamedTuple):
     strategy: str
     name: str
     applies: Callable[[Call], bool]
-    run: Callable[[Call, Part], Iterable[None] | None]
+    run: Callable[[Call, Allowance], Iterable[None] | None]
     share: float = 1
     limit: int = 0
-    stage: Stage = Stage.IMPROVE
+    stage: CallStage = CallStage.IMPROVE
 
     @property
     def does(self) -> str:
@@ -84,7 +84,7 @@ STRATEGIES: Final = {
 }
 """The strategies, with what each does."""
 
-_PREPARE, _FINISH = Stage.PREPARE, Stage.FINISH
+_PREPARE, _FINISH = CallStage.PREPARE, CallStage.FINISH
 
 TURNS: Final = (
     Turn("human-plan", "first-plan", calls.wants_first_plan, first_plan, stage=_PREPARE),
@@ -96,10 +96,9 @@ TURNS: Final = (
     Turn("joint-optimum", "joint-optimum-soon", calls.joint_optimum_may_be_it, joint_optimum, share=0.4),
     Turn("joint-optimum", "joint-bound", calls.joint_optimum_only_bounds, joint_optimum, share=0.05),
     Turn("all-plans", "few-nodes", calls.short_windows_suffice, few_nodes, share=0.1, limit=500),
-    Turn("robots-apart", "robots-by-numbers", calls.robots_only_leave_behind, robots_by_numbers, share=0.7),
     Turn("timetable", "timetable-soon", calls.robots_only_leave_behind, beside_timetable, 0.1, 300_000),
     Turn("timetable", "timetable-on", calls.timetable_is_hopeful, beside_timetable, 0.35, 3_000_000),
-    Turn("robots-apart", "each-robot", calls.robots_only_leave_behind, robots_apart, share=0.5),
+    Turn("robots-apart", "robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
     Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
     Turn("along-plan", "along-plan", calls.may_begin_at_once, along_human_plan, share=0.1),
     Turn("one-epoch", "one-epoch", calls.longer_windows_may_pay, one_epoch, share=0.1),
@@ -158,10 +157,10 @@ def solve(
     yield answer_of(call)
 
 
-def _is_due(call: Call, stage: Stage) -> bool:
-    if stage is Stage.PREPARE:
+def _is_due(call: Call, stage: CallStage) -> bool:
+    if stage is CallStage.PREPARE:
         return call.refusal is None
-    return (call.is_done or call.is_settled) == (stage is Stage.FINISH)
+    return (call.is_done or call.is_settled) == (stage is CallStage.FINISH)
 
 
 def begin(call: Call) -> None:
@@ -179,7 +178,7 @@ def _taken(call: Call, turn: Turn) -> Iterator[None]:
         LimitReachedError: the deadline of the call came.
     """
     deadline = call.context.deadline
-    part = Part(deadline if turn.share == 1 else deadline.part(turn.share), turn.limit)
+    part = Allowance(deadline if turn.share == 1 else deadline.part(turn.share), turn.limit)
     begun, bound, known, better = deadline.elapsed(), call.progress.bound, call.best.key, 0
     try:
         for _ in turn.run(call, part) or ():
@@ -219,4 +218,4 @@ def _go_on_beside_first_plan(call: Call) -> None:
     if plan is not None and not call.is_planned and call.options.mode != "individual":
         with suppress(*LIMITS):
             call.follow(plan, optimal=False)
-            known_plan(call, Part(call.context.deadline, 0))
+            known_plan(call, Allowance(call.context.deadline, 0))

@@ -1,28 +1,22 @@
 """Windows of one epoch, where longer ones can't be better."""
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from search.strategies.call import Call, Part
+from search.strategies.call import Allowance, Call
+from serendipity.model.resources.deadline import Deadline
+
+if TYPE_CHECKING:  # loaded by the calls that it serves
+    from search.short_windows.question import ShortWindowQuestion
 
 
-def robots_apart(call: Call, part: Part) -> Iterator[None]:
+def robots_apart(call: Call, part: Allowance) -> Iterator[None]:
     """What each robot can bring about by itself, put together, by the epoch of the window."""
-    yield from _apart(call, part, by_numbers=False)
-
-
-def robots_by_numbers(call: Call, part: Part) -> Iterator[None]:
-    """The same by how many of the things that are alike they have seen to."""
-    yield from _apart(call, part, by_numbers=True)
-
-
-def _apart(call: Call, part: Part, *, by_numbers: bool) -> Iterator[None]:
     from search.short_windows.independent.short_windows import (
         short_windows,  # only here: most calls come by without
     )
 
-    plan, epochs = call.plan, call.epochs
-    assert plan is not None and epochs is not None, "there is a window"
-    short = short_windows(call.under(part.deadline), plan, epochs, call.best, by_numbers=by_numbers)
+    short = short_windows(_question(call, part.deadline))
     if short is None:
         return
     try:
@@ -32,12 +26,19 @@ def _apart(call: Call, part: Part, *, by_numbers: bool) -> Iterator[None]:
         call.raise_bound(min(short.bound, call.longer, call.best.key))
 
 
-def beside_timetable(call: Call, part: Part) -> Iterator[None]:
+def beside_timetable(call: Call, part: Allowance) -> Iterator[None]:
     """All states beside the human's timetable, epoch by epoch; it goes on from where a limit came."""
     from search.short_windows.joint.all_together import AllTogether  # only here, as above
 
     if call.timetable is None:
-        plan, epochs = call.plan, call.epochs
-        assert plan is not None and epochs is not None, "there is a window"
-        call.timetable = AllTogether(call.context, plan, epochs, call.best, call.progress, call.longer)
+        question = _question(call, call.context.deadline)
+        call.timetable = AllTogether(question, call.progress, call.longer)
     yield from call.timetable.windows(part.limit, part.deadline)
+
+
+def _question(call: Call, deadline: Deadline) -> "ShortWindowQuestion":
+    from search.short_windows.question import ShortWindowQuestion  # only here, as above
+
+    plan, epochs = call.plan, call.epochs
+    assert plan is not None and epochs is not None, "there is a window"
+    return ShortWindowQuestion(call.under(deadline), plan, epochs, call.best)

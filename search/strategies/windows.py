@@ -5,11 +5,11 @@ from contextlib import suppress
 
 from search.engine.best_first import Progress, Ties, best_first
 from search.engine.until import EnoughError, Until, few, risen
-from search.strategies.call import Call, Part
+from search.strategies.call import Allowance, Call
 from search.strategies.limits import TIES
 
 
-def all_plans(call: Call, part: Part) -> Iterator[None]:
+def all_plans(call: Call, part: Allowance) -> Iterator[None]:
     """All plans, until none can be better."""
     space = call.space(part.deadline, call.best.key)
     for _ in best_first(space, call.best, call.progress, part.deadline, _ties(call)):
@@ -17,7 +17,7 @@ def all_plans(call: Call, part: Part) -> Iterator[None]:
     call.finish()
 
 
-def few_nodes(call: Call, part: Part) -> Iterator[None]:
+def few_nodes(call: Call, part: Allowance) -> Iterator[None]:
     """The same for a number of nodes: many calls need no more."""
     space = Until(call.space(part.deadline, call.best.key), few(part.limit))
     with suppress(EnoughError):
@@ -26,7 +26,7 @@ def few_nodes(call: Call, part: Part) -> Iterator[None]:
         call.finish()
 
 
-def while_bounds_are_exact(call: Call, part: Part) -> Iterator[None]:
+def while_bounds_are_exact(call: Call, part: Allowance) -> Iterator[None]:
     """The same for as long as no plan costs more than seemed possible at the start."""
     enough = risen(call.progress, call.keys.objective_shift, lambda: call.context.team is not None)
     space = Until(call.space(part.deadline, call.best.key), enough)
@@ -36,14 +36,14 @@ def while_bounds_are_exact(call: Call, part: Part) -> Iterator[None]:
         call.finish()
 
 
-def one_epoch(call: Call, part: Part) -> Iterator[None]:
+def one_epoch(call: Call, part: Allowance) -> Iterator[None]:
     """Plans with the shortest window, where longer ones may be better, too."""
     space = call.space(part.deadline, call.best.key, max_window=1)
     for _ in best_first(space, call.best, Progress(), part.deadline):
         yield
 
 
-def ties(call: Call, part: Part) -> Iterator[None]:
+def ties(call: Call, part: Allowance) -> Iterator[None]:
     """Better windows and fewer actions for the same objective, as far as they come soon."""
     space = call.space(part.deadline, call.best.key)
     for _ in best_first(space, call.best, call.progress, part.deadline, _ties(call)):

@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import Final, Literal
 
 from search import PreparedTask
-from search.modes.simulation import Epoch, Simulated
+from search.modes.simulation import SimulatedEpoch, Simulation
 from search.modes.simulation import simulate as play
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
@@ -149,7 +149,7 @@ def _action(task: Task, step: PlanStep) -> int:
 class _Story:
     """Turns ids into names and numbers into words."""
 
-    def __init__(self, task: Task, result: Result, human_model: str, simulated: Simulated) -> None:
+    def __init__(self, task: Task, result: Result, human_model: str, simulated: Simulation) -> None:
         assert result.cost is not None, "a result with a plan has a cost"
         self.task = task
         self.discount = result.options.discount
@@ -216,11 +216,11 @@ class _Story:
                 ),
             )
 
-    def _steps(self, epoch: Epoch) -> tuple[PlanStep, ...]:
+    def _steps(self, epoch: SimulatedEpoch) -> tuple[PlanStep, ...]:
         steps = (Step(epoch.epoch, i) for i in sorted(epoch.executed))
         return named_steps(self.task, self.discount, steps)
 
-    def _did(self, epoch: Epoch) -> str | None:
+    def _did(self, epoch: SimulatedEpoch) -> str | None:
         did = epoch.own if epoch.accepted is None else epoch.accepted
         return None if did is None else self._name(did)
 
@@ -231,7 +231,7 @@ class _Story:
         return participants(self.task, self.task.actions[action])
 
 
-def _why(decision: str, epoch: Epoch) -> str:
+def _why(decision: str, epoch: SimulatedEpoch) -> str:
     if decision == "waits":
         return "has no plan from here and waits"
     if decision == "keeps":

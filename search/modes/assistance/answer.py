@@ -7,11 +7,11 @@ from functools import partial
 from typing import Final, TypeVar
 
 from search.call.prepared_task import PreparedTask
-from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import Mean, Worst
-from search.modes.assistance.game.solution import ZERO, Costs, Solution
+from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
 from search.modes.assistance.phase import PhaseDeadline
 from search.modes.assistance.solvers.cheapest_run import CheapestRun
 from search.modes.assistance.solvers.lao_star import LaoStar
@@ -119,7 +119,7 @@ def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]
 
 def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Answer:
     """What is known when the time is up: doing nothing is always an answer, if the prime has a plan."""
-    known = Solution(None, None) if search is None else search.solution(floors=False)
+    known = GameSolution(None, None) if search is None else search.solution(floors=False)
     if search is not None and known.upper is not None and known.lower == known.upper:
         return _answer(writer, search, "optimal")
     least = _bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE))
@@ -134,7 +134,7 @@ def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None
     alone = game.alone(game.init)  # known since the first phase
     if alone >= INFINITE_KEY:
         return _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
-    idle = Solution(lower, game.pair(alone))
+    idle = GameSolution(lower, game.pair(alone))
     return _said(
         game.task,
         "feasible",
@@ -160,7 +160,7 @@ def _no_plan(game: Game) -> Answer:
 
 
 def _search(game: Game, options: Options) -> CheapestRun | LaoStar:
-    bound = Bound(game)
+    bound = ValueBound(game)
     no_block = bool(options.no_block)
     if options.ties in ("fixed", "optimistic"):
         return CheapestRun(game, bound, fixed=options.ties == "fixed", no_block=no_block)
@@ -238,5 +238,5 @@ def joint_optimum(prepared: PreparedTask, deadline: Deadline | None = None) -> C
     None where not even both together reach the goal.
     """
     game = Game(prepared, deadline or Deadline())
-    value = Bound(game)(game.init)
+    value = ValueBound(game)(game.init)
     return None if value >= INFINITE_KEY else game.pair(value)

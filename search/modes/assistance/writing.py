@@ -1,7 +1,7 @@
 """Writes solutions in the model's terms: names of facts and actions, plans by epochs."""
 
 from search.modes.assistance.game.game import NOOP, Game, Move
-from search.modes.assistance.game.solution import Costs, Solution
+from search.modes.assistance.game.solution import Costs, GameSolution
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
 from serendipity.model.errors import LIMITS
@@ -40,7 +40,7 @@ class Writer:
             state = move.after
         return tuple(plan)
 
-    def policy(self, solution: Solution) -> Policy:
+    def policy(self, solution: GameSolution) -> Policy:
         """The policy, with its lower bounds where there is time to write them down."""
         decisions = tuple(
             Decision(self._delta(state), self._name(entry.action), entry.value)
@@ -51,7 +51,7 @@ class Writer:
         except LIMITS:
             return Policy(decisions, None)
 
-    def _floors(self, solution: Solution) -> tuple[Floor, ...] | None:
+    def _floors(self, solution: GameSolution) -> tuple[Floor, ...] | None:
         if solution.floors is None:
             return None
         floors = []
@@ -60,7 +60,7 @@ class Writer:
             floors.append(Floor(self._delta(state), value))
         return tuple(floors)
 
-    def plan(self, solution: Solution) -> tuple[Step, ...] | None:
+    def plan(self, solution: GameSolution) -> tuple[Step, ...] | None:
         """The only run of a policy; None where the prime's choices make several."""
         game, state, helping = self._game, self._game.init, True
         steps: list[Step] = []
@@ -87,7 +87,7 @@ class Writer:
             state = move.after
         return tuple(steps)
 
-    def _reply(self, state: int, solution: Solution, rest: Costs | None) -> Move | None:
+    def _reply(self, state: int, solution: GameSolution, rest: Costs | None) -> Move | None:
         """The prime's move, where it is determined."""
         if self._game.alone(state) >= INFINITE_KEY:
             return Move(0, state, NOOP)
@@ -98,7 +98,7 @@ class Writer:
             return None
         return next((move for move in moves if self._attains(move, solution, rest)), moves[0])
 
-    def _attains(self, move: Move, solution: Solution, rest: Costs | None) -> bool:
+    def _attains(self, move: Move, solution: GameSolution, rest: Costs | None) -> bool:
         """Whether the cheapest run goes on with this move."""
         if rest is None:
             return True

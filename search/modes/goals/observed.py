@@ -103,7 +103,7 @@ def _explanation(
     those before, and as much where these are as cheap as any.
     """
     if earlier is None:
-        search = _Search(prepared, observed, deadline)
+        search = _ObservedSearch(prepared, observed, deadline)
         known, plan = search.embedding(canonical=canonical)
         return Likelihood(known, search.other(), plan)
     known, other = earlier.with_observed, earlier.without_observed
@@ -111,7 +111,7 @@ def _explanation(
     as_cheap = other is not None and (known is None or other <= known)
     if goes_on and as_cheap:
         return earlier
-    search = _Search(prepared, observed, deadline)
+    search = _ObservedSearch(prepared, observed, deadline)
     if not goes_on:
         known, plan = search.embedding(canonical=canonical)
     else:
@@ -125,7 +125,7 @@ def _embeds(task: Task, plan: HumanPlan, observed: Sequence[str]) -> bool:
     return all(name in names for name in observed)
 
 
-class _Search:
+class _ObservedSearch:
     """A* over what matters to one goal and to the observations."""
 
     def __init__(self, prepared: PreparedTask, observed: tuple[str, ...], deadline: Deadline) -> None:

@@ -59,7 +59,7 @@ def solve_expected(
     Raises:
         UsageError: the horizon is shorter than the longest plan.
     """
-    search = _Search(prepared, options, candidates, deadline or Deadline(options.time_limit))
+    search = _SequenceSearch(prepared, options, candidates, deadline or Deadline(options.time_limit))
     try:
         search.prepare()
         search.run()
@@ -69,7 +69,7 @@ def solve_expected(
 
 
 @dataclass(frozen=True, slots=True)
-class _Node:
+class _GoalsNode:
     """A robots' plan up to an epoch, and what can have happened beside it."""
 
     epoch: int
@@ -77,11 +77,11 @@ class _Node:
     robots: JointAction
     spent: int
     """Key of the robots' own actions."""
-    parent: "_Node | None"
+    parent: "_GoalsNode | None"
 
 
 @dataclass(frozen=True, slots=True)
-class _Best:
+class _BestSequence:
     """A complete robots' plan."""
 
     rank: Rank
@@ -89,7 +89,7 @@ class _Best:
     robots: tuple[Step, ...]
 
 
-class _Search:
+class _SequenceSearch:
     """One call."""
 
     def __init__(
@@ -101,8 +101,8 @@ class _Search:
         self._options = options.but(horizon=self._horizon, time_limit=None)
         self._deadline = deadline
         self._floors: list[Rank] = [(0, 0)] * len(candidates)
-        self._idle: _Best | None = None
-        self._best: _Best | None = None
+        self._idle: _BestSequence | None = None
+        self._best: _BestSequence | None = None
         self._bound: Rank = (0, 0)
         self._expanded = self._generated = 0
 
@@ -170,7 +170,7 @@ class _Search:
 
     def _offer(self, robots: dict[int, JointAction], acting: Successors) -> None:
         """Play a robots' plan against every candidate; keep it if it is the best so far."""
-        node: _Node | None = self._root()
+        node: _GoalsNode | None = self._root()
         for epoch in range(1, self._horizon + 1):
             assert node is not None
             node = self._child(node, robots.get(epoch, NOTHING), acting)
@@ -205,10 +205,10 @@ class _Search:
                     heappush(queue, (bound, -child.epoch, next(tie), child))
         self._bound = self._decisive()
 
-    def _root(self) -> _Node:
-        return _Node(0, tuple(line.first() for line in self._timelines), NOTHING, 0, None)
+    def _root(self) -> _GoalsNode:
+        return _GoalsNode(0, tuple(line.first() for line in self._timelines), NOTHING, 0, None)
 
-    def _choices(self, node: _Node) -> Iterator[JointAction]:
+    def _choices(self, node: _GoalsNode) -> Iterator[JointAction]:
         """Robots' action sets that are possible on some label of the candidate with the fewest."""
         if node.epoch == self._horizon:
             return
@@ -224,7 +224,7 @@ class _Search:
                 offered.setdefault(option.actions, option)
         yield from offered.values()
 
-    def _child(self, node: _Node, robots: JointAction, acting: Successors) -> _Node | None:
+    def _child(self, node: _GoalsNode, robots: JointAction, acting: Successors) -> _GoalsNode | None:
         after = []
         self._deadline.tick()
         for i, line in enumerate(self._timelines):
@@ -232,7 +232,7 @@ class _Search:
             if situation is None:
                 return None
             after.append(situation)
-        return _Node(node.epoch + 1, tuple(after), robots, node.spent + robots.weight, node)
+        return _GoalsNode(node.epoch + 1, tuple(after), robots, node.spent + robots.weight, node)
 
     def _limit(self, candidate: int) -> int:
         """Key at which a candidate alone makes every robots' plan worse than the incumbent."""
@@ -246,7 +246,7 @@ class _Search:
         most = (self._best.rank[0] - others) // self._expected.shares[candidate]
         return (most + 1) << self._keys.objective_shift
 
-    def _complete(self, node: _Node) -> None:
+    def _complete(self, node: _GoalsNode) -> None:
         ends = []
         for line, last in zip(self._timelines, node.situations, strict=True):
             end = line.complete(last)
@@ -255,9 +255,9 @@ class _Search:
             ends.append(end)
         rank = self._expected.weighted([self._expected.rank(end.key) for end in ends])
         if self._best is None or rank < self._best.rank:
-            self._best = _Best(rank, tuple(ends), _robots_steps(node))
+            self._best = _BestSequence(rank, tuple(ends), _robots_steps(node))
 
-    def _rank_bound(self, node: _Node) -> Rank:
+    def _rank_bound(self, node: _GoalsNode) -> Rank:
         ranks = [self._expected.rank(now.bound)[:_SAME] for now in node.situations]
         return self._expected.weighted([max(pair) for pair in zip(ranks, self._floors, strict=True)])
 
@@ -334,7 +334,7 @@ def _timeline(context: SearchContext, candidate: Candidate, horizon: int) -> Goa
     )
 
 
-def _is_new(node: _Node, seen: dict[object, int]) -> bool:
+def _is_new(node: _GoalsNode, seen: dict[object, int]) -> bool:
     """Whether no robots' plan has led to the same labels for at most as much."""
     same = (node.epoch, tuple(_labels(now, node.spent) for now in node.situations))
     known = seen.get(same)
@@ -353,9 +353,9 @@ def _labels(now: Situation, spent: int) -> object:
     )
 
 
-def _robots_steps(node: _Node) -> tuple[Step, ...]:
+def _robots_steps(node: _GoalsNode) -> tuple[Step, ...]:
     steps: list[Step] = []
-    at: _Node | None = node
+    at: _GoalsNode | None = node
     while at is not None:
         steps.extend(Step(at.epoch, action) for action in at.robots.actions)
         at = at.parent

@@ -13,7 +13,7 @@ from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Progress, best_first
 from search.engine.paths import path_steps, plan_steps
 from search.modes.simulation.human import Human
-from search.modes.simulation.simulator import Simulated, simulate_from, way_on
+from search.modes.simulation.simulator import Simulation, simulate_from, way_on
 from search.modes.simulation.space import Reactive, Start
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.successor_generator import Successors
@@ -129,7 +129,7 @@ class Companion:
         alone = None if idle.key >= INFINITE_KEY else keys.cost(idle.key)
         return Course(steps or (), keys.cost(best.key), alone, proved)
 
-    def played(self, start: Start, steps: Sequence[Step], deadline: Deadline) -> Simulated:
+    def played(self, start: Start, steps: Sequence[Step], deadline: Deadline) -> Simulation:
         """What becomes of the robots' part of a plan.
 
         Raises:

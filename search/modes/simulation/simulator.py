@@ -28,7 +28,7 @@ class Skipped:
 
 
 @dataclass(frozen=True, slots=True)
-class Epoch:
+class SimulatedEpoch:
     """What happened in one epoch.
 
     Attributes:
@@ -65,7 +65,7 @@ class Epoch:
 
 
 @dataclass(frozen=True, slots=True)
-class Simulated:
+class Simulation:
     """A plan as it turned out.
 
     Attributes:
@@ -75,7 +75,7 @@ class Simulated:
         limit: which limit came before the end (as ``Result.reason`` has it), or None.
     """
 
-    epochs: tuple[Epoch, ...]
+    epochs: tuple[SimulatedEpoch, ...]
     goals_hold: bool
     cost: Fraction
     limit: str | None = None
@@ -102,7 +102,7 @@ def simulate(
     horizon: int | None,
     visible: Visible | None = None,
     deadline: Deadline | None = None,
-) -> Simulated:
+) -> Simulation:
     """What becomes of the robots' part of a plan with a human who replans.
 
     Args:
@@ -135,7 +135,7 @@ def simulate_from(
     *,
     horizon: int | None,
     deadline: Deadline,
-) -> Simulated:
+) -> Simulation:
     """The same from any moment, with a human who is there already.
 
     Args:
@@ -155,7 +155,7 @@ def simulate_from(
 
 def way_on(
     start: Start, human: Human, options: Options, steps: Sequence[Step], deadline: Deadline
-) -> Simulated | None:
+) -> Simulation | None:
     """What becomes of a plan that was made for another moment; None where it does not lead to the goals.
 
     Args:
@@ -212,10 +212,10 @@ class _Run:
         self.state, self.expected = start.state, start.belief
         self.intention = start.intention
 
-    def play(self, horizon: int | None) -> Simulated:
+    def play(self, horizon: int | None) -> Simulation:
         intention = self.intention
         last = max(self.planned, default=0)
-        epochs: list[Epoch] = []
+        epochs: list[SimulatedEpoch] = []
         limit = None
         while not self._done() and (horizon is None or len(epochs) < horizon):
             before = self.expected
@@ -230,9 +230,9 @@ class _Run:
             epochs.append(epoch)
             if epoch.epoch >= last and not epoch.executed and self.expected == before:
                 break  # nothing will ever change again
-        return Simulated(tuple(epochs), self._done(), self._cost(epochs), limit)
+        return Simulation(tuple(epochs), self._done(), self._cost(epochs), limit)
 
-    def _epoch(self, number: int, intention: Intention) -> tuple[Epoch, Intention]:
+    def _epoch(self, number: int, intention: Intention) -> tuple[SimulatedEpoch, Intention]:
         human, packed = self.human, self.packed
         belief = human.eyes.look(self.expected, self.state)
         saw = self._differences(self.expected, belief)
@@ -250,7 +250,7 @@ class _Run:
         else:
             self.expected = belief if did is None else belief & did.keep | did.put
         self._apply([packed.op(i) for i in robots] + ([] if did is None else [did]))
-        epoch = Epoch(
+        epoch = SimulatedEpoch(
             number,
             saw,
             self._exact(look.kept),
@@ -337,7 +337,7 @@ class _Run:
     def _exact(self, scaled: int | None) -> Fraction | None:
         return None if scaled is None else Fraction(scaled, self.human.keys.scale)
 
-    def _cost(self, epochs: Iterable[Epoch]) -> Fraction:
+    def _cost(self, epochs: Iterable[SimulatedEpoch]) -> Fraction:
         human = self.human
         keys = sum(human.weights.team(self.packed.op(i)) for epoch in epochs for i in epoch.executed)
         return human.keys.cost(keys)

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from search.classical.mutexes import Pairs
+from search.classical.mutexes import ReachablePairs
 from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent.rows import Rows, column
@@ -35,9 +35,9 @@ def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
     return True
 
 
-def _pairs(packed: PackedTask, deadline: Deadline) -> Pairs:
+def _pairs(packed: PackedTask, deadline: Deadline) -> ReachablePairs:
     fields = ((field, packed.values(field)) for field in packed.fields)
-    return Pairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, deadline)
+    return ReachablePairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, deadline)
 
 
 def lost_values(packed: PackedTask) -> dict[int, set[int]]:

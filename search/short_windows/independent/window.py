@@ -1,19 +1,24 @@
-"""Windows of one epoch: which of what robots can leave behind by then may still be worth it."""
+"""What robots can have left behind if the window is in one epoch, and which of that may still be worth it."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping, Sequence
 from typing import Final
+
+import numpy as np
 
 from search.call.context import SearchContext
 from search.packed.cost_vector import ACTIONS_BITS, FAR, INFINITE_KEY
 from search.packed.operators import Operator
-from search.short_windows.independent.landmarks import Landmarks
+from search.short_windows.independent.landmarks import Landmark, Landmarks
+from search.short_windows.independent.outcomes import Outcomes, Together, outcomes
 from search.short_windows.independent.provision import Value
-from search.short_windows.independent.remaining import Remaining
+from search.short_windows.independent.remaining import Remaining, left_to_pay, values
+from search.short_windows.independent.rows import Amounts, column, states
+from search.short_windows.independent.timeline import Timeline, TooManyStatesError
 
 ACTION: Final = 1 << ACTIONS_BITS
 """Amounts are costs in these units, and a number of actions."""
 
-FEW: Final = 50
+_FEW: Final = 50
 """So many outcomes are told one by one sooner than by landmarks."""
 
 
@@ -22,32 +27,97 @@ class Window:
 
     Args:
         context: of the call.
+        timelines: robots, up to the window.
         landmarks: of the human's own task.
-        base: the packed state before it without robots.
+        lost: by field the values from which the human can't get to their goal.
+        base: the packed state before it without them.
         start: key of what comes before it, and of the window.
+        limit: key from which on nothing is of interest.
 
     Attributes:
         found: the least key of what was looked at.
+
+    Raises:
+        LimitReachedError: there are too many states, or the deadline came.
     """
 
-    is_exact = True
-    """Whether robots can do what is looked at."""
-
-    def __init__(self, context: SearchContext, landmarks: Landmarks, base: int, start: int) -> None:
+    def __init__(
+        self,
+        context: SearchContext,
+        timelines: Sequence[Timeline],
+        landmarks: Landmarks,
+        lost: Mapping[int, Collection[int]],
+        base: int,
+        start: int,
+        limit: int,
+    ) -> None:
         self.found = INFINITE_KEY
         self._context = context
+        self._timelines = timelines
         self._landmarks = landmarks
         self._base = base
         self._start = start
-        self._given: Collection[Value] = ()
-        """The values that fields can have."""
+        self._epochs = timelines[0].epochs
+        self._fields = [field for field in context.packed.fields if field & context.relevant]
+        self._shared: list[int] = []
+        self._apart: list[Outcomes] = []
+        self._leave_behind(lost)
+        # Whether robots can do what is looked at: nothing was forgotten by now.
+        self._is_exact = all(timeline.is_exact for timeline in timelines)
+        self._given = self._values()
+        self._together: Together | None = None
         self._remaining: Remaining | None = None
-        self._least = 0
-        """The amount that nothing is below, where there are too many outcomes."""
+        self._least = 0  # the amount that nothing is below, where there are too many outcomes
+        self._join(limit)
+
+    def _leave_behind(self, lost: Mapping[int, Collection[int]]) -> None:
+        """What each robot can leave behind on its own."""
+        deadline = self._context.deadline
+        for timeline in self._timelines:
+            others = 0
+            for other in self._timelines:
+                others |= 0 if other is timeline else other.changes
+            own = [field for field in self._fields if field & timeline.changes]
+            self._shared.append(others & sum(own))
+            self._apart.append(outcomes(timeline.ends(), self._base, own, others, lost, deadline))
+
+    def _values(self) -> set[Value]:
+        """The values that fields can have."""
+        found = set()
+        for apart in self._apart:
+            rows = apart.rows ^ column(self._base, len(apart.rows))
+            found |= values(rows, self._fields)
+        return found
+
+    def _join(self, limit: int) -> None:
+        """Put together what each of them leaves behind."""
+        pairs = np.prod([len(apart.amounts) for apart in self._apart], dtype=np.float64)
+        found = self._landmarks.of(self._base, self._given) if pairs > _FEW else []
+        finite = [landmark for landmark in found if landmark.cost < FAR]
+        own = sum(landmark.cost for landmark in finite)
+        nets = [apart.amounts - self._saved(apart, finite, own) for apart in self._apart]
+        most, deadline = self._most(limit) - own, self._context.deadline
+        try:
+            self._together = Together(self._apart, nets, self._fields, most, self._most_paid(), deadline)
+        except TooManyStatesError:
+            self._least = max(0, own + sum(int(net.min(initial=0)) for net in nets))
+            return
+        self._remaining = Remaining(self._together.found, self._base)
+        self._remaining.learn(found)
 
     def _most(self, limit: int) -> int:
         """The amount from which on nothing is of interest, by a limit on keys."""
         return self._context.amount_from(limit - self._start, FAR)
+
+    def _most_paid(self) -> int:
+        """An amount that robots together can't pay, as each does at most one thing an epoch."""
+        context = self._context
+        dearest = max(map(context.weights.scaled_cost, context.packed.others))
+        return (dearest * len(self._timelines) * (self._epochs + 1) + 1) * ACTION
+
+    def _saved(self, apart: Outcomes, landmarks: Sequence[Landmark], own: int) -> Amounts:
+        """What of landmarks the human need not pay for after each of a robot's outcomes."""
+        return own - left_to_pay(landmarks, apart.rows ^ column(self._base, len(apart.rows)))
 
     @property
     def bound(self) -> int:
@@ -61,7 +131,7 @@ class Window:
 
     def is_open(self, limit: int) -> bool:
         """Whether something is left that may be below a limit."""
-        if self._remaining is None or (self.found < limit and not self.is_exact):
+        if self._remaining is None or (self.found < limit and not self._is_exact):
             return False
         self._remaining.drop(self._most(limit))
         return len(self._remaining) > 0
@@ -81,15 +151,26 @@ class Window:
             key = paid + alone.key(state, limit - paid)
             if key < limit:
                 self.found = min(self.found, key)
-                return place if self.is_exact else None
-        if len(self._remaining) > FEW:
+                return place if self._is_exact else None
+        if len(self._remaining) > _FEW:
             self._remaining.learn(self._landmarks.of(state, self._given))
         return None
 
-    def ways(self, place: int) -> list[list[Operator]] | None:
-        """What robots do epoch by epoch for something that they leave behind; None where no way is found.
-
-        Raises:
-            LimitReachedError: the deadline came.
-        """
-        raise NotImplementedError
+    def ways(self, place: int) -> list[list[Operator]]:
+        """What robots do epoch by epoch for something that they leave behind."""
+        assert self._together is not None, "there is something"
+        epochs: list[list[Operator]] = [[] for _ in range(self._epochs + 1)]
+        parts = self._together.parts(place)
+        for timeline, apart, shared, part in zip(
+            self._timelines, self._apart, self._shared, parts, strict=True
+        ):
+            change = states(apart.rows[:, part : part + 1])[0]
+            mask = 0
+            for field in self._fields:
+                if field & timeline.changes and (change & field or not field & shared):
+                    mask |= field
+            way = timeline.way(self._epochs, mask, (self._base ^ change) & mask, int(apart.amounts[part]))
+            for epoch, op in enumerate(way):
+                if op is not None:
+                    epochs[epoch].append(op)
+        return epochs

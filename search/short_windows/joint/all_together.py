@@ -9,16 +9,15 @@ from typing import Final
 
 from search.call.context import SearchContext
 from search.classical.problem import MOST_WEIGHT, ClassicalProblem
-from search.engine.best_first import Incumbent, Progress
+from search.engine.best_first import Progress
 from search.human.own_problem import own_planner
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, own_costs
 from search.short_windows.independent.conditions import lost_values
 from search.short_windows.joint.epochs import Epochs, Leaving
+from search.short_windows.question import ShortWindowQuestion
 from search.spaces.factory import suffix_rule
-from search.spaces.from_composite import Suggestions
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.task import HumanPlan
 
 _HOPEFUL: Final = 3
 """One part in so many of the epochs has to be behind it to be worth going on at once: states multiply at
@@ -37,30 +36,19 @@ class AllTogether:
     """Windows of one epoch, the earliest first, looked at in one go or in several.
 
     Args:
-        context: of the call, in a mode with windows.
-        plan: ``pi_H``.
-        horizon: ``T``.
-        best: the incumbent, which is made better.
+        question: which of them are wanted.
         progress: what is known so far, which is brought up to date.
         longer: no plan with a longer window has a smaller key.
     """
 
-    def __init__(
-        self,
-        context: SearchContext,
-        plan: HumanPlan,
-        horizon: int,
-        best: Incumbent,
-        progress: Progress,
-        longer: int,
-    ) -> None:
-        self._context = context
-        self._plan = plan
-        self._horizon = horizon
-        self._best = best
+    def __init__(self, question: ShortWindowQuestion, progress: Progress, longer: int) -> None:
+        self._question = question
+        self._context = question.context
+        self._steps = question.steps()
+        self._best = question.best
         self._progress = progress
         self._longer = longer
-        self._suffix = suffix_rule(context, plan)
+        self._suffix = suffix_rule(question.context, question.plan)
         self._epochs: Epochs | None = None
         self._epoch = 1
         self._left: list[Leaving] | None = None
@@ -70,7 +58,7 @@ class AllTogether:
     @property
     def is_hopeful(self) -> bool:
         """Whether a good part of the epochs is behind it."""
-        return _HOPEFUL * self._epoch >= len(self._plan)
+        return _HOPEFUL * self._epoch >= len(self._steps)
 
     def windows(self, most: int, deadline: Deadline) -> Iterator[None]:
         """Yield whenever the incumbent has become better; raise the bound after all epochs.
@@ -95,15 +83,17 @@ class AllTogether:
 
     def _windows(self, epochs: Epochs, most: int, deadline: Deadline) -> Iterator[None]:
         """All that are left, unless there are too many states."""
-        while self._epoch <= len(self._plan):
+        while self._epoch <= len(self._steps):
             if self._left is None:
-                left = epochs.leave(self._amount(self._best.key - self._start()), most, deadline)
+                left = epochs.leave(
+                    self._amount(self._best.key - self._question.start(self._epoch)), most, deadline
+                )
                 if left is None:
                     break
                 self._left = left[::-1]
             yield from self._look(epochs, self._left)
-            if self._epoch < len(self._plan):
-                op = self._context.packed.op(self._plan[self._epoch - 1])
+            if self._epoch < len(self._steps):
+                op = self._steps[self._epoch - 1]
                 limit = self._amount(self._best.key - self._context.keys.epoch_weight)
                 if not epochs.advance(op, limit, most, deadline):
                     break
@@ -113,22 +103,15 @@ class AllTogether:
             self._progress.bound = max(self._progress.bound, min(self._longer, self._best.key))
         self._is_over = self._is_over or epochs.is_hopeless
 
-    def _start(self) -> int:
-        """Key of a window in the epoch that is looked at."""
-        keys = self._context.keys
-        return keys.epoch_weight + keys.of_start(self._epoch, self._horizon)
-
     def _look(self, epochs: Epochs, left: list[Leaving]) -> Iterator[None]:
         """Whether things that can be left behind make the incumbent better."""
-        context, best, start = self._context, self._best, self._start()
+        context, best, start = self._context, self._best, self._question.start(self._epoch)
         while left and start + context.amount_key(left[-1].total) < best.key:
             limit = best.key - start - context.amount_key(left[-1].paid)
-            state, epochs_left = epochs.end(left[-1]), self._horizon - self._epoch
+            state, epochs_left = epochs.end(left[-1]), self._question.horizon - self._epoch
             if self._suffix.key(state, epochs_left, self._epoch, limit) < limit:
-                suggestions = Suggestions(context, self._plan, self._horizon, None, best.key)
-                for found in suggestions.exactly(epochs.ways(left[-1])):
-                    best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
-                    yield
+                better = self._question.suggestions().exactly(epochs.ways(left[-1]))
+                yield from self._question.accept(better)
             left.pop()
         left.clear()
 

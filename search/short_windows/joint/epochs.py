@@ -9,9 +9,9 @@ from typing import Final, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from search.classical.encoded_problem import EncodedProblem, memory_for
 from search.classical.planner import FOUND, MEMORY, ROOM, RUNNING, SLICE, ClassicalPlanner
 from search.classical.problem import ClassicalProblem
-from search.classical.told import Told, memory_for
 from search.packed.operators import Operator
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
@@ -77,7 +77,7 @@ class Epochs:
         self._operators = problem.operators
         self._given: list[int] = []
         deadline.require(memory_for(problem) + _PER_PAIR * len(problem.operators) ** 2)
-        told, agents = Told(problem), array("Q", _human_last(task, problem.operators))
+        told, agents = EncodedProblem(problem), array("Q", _human_last(task, problem.operators))
         apart = conflicts(task, problem.operators, deadline, strict=strict).tobytes()
         planner, mask = after.handle, after.told.row(after.problem.mask)
         self._epochs = library.epochs_new(

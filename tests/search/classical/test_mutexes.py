@@ -6,7 +6,7 @@ import pytest
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.classical.mutexes import Pairs
+from search.classical.mutexes import ReachablePairs
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from serendipity.model import Options, Task
@@ -35,9 +35,9 @@ def _reached(packed: PackedTask) -> list[int]:
     return found
 
 
-def _pairs(packed: PackedTask) -> Pairs:
+def _pairs(packed: PackedTask) -> ReachablePairs:
     fields = ((field, packed.values(field)) for field in packed.fields)
-    return Pairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, Deadline())
+    return ReachablePairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, Deadline())
 
 
 @pytest.mark.parametrize("seed", range(12))

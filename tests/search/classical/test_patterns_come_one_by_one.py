@@ -3,7 +3,7 @@
 import pytest
 
 from search.classical import patterns as module
-from search.classical.patterns import Field, patterns
+from search.classical.patterns import StateField, patterns
 from search.packed.packed_task import PackedTask
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.builders import task
@@ -12,7 +12,7 @@ from serendipity.testing.countdown import Countdown
 COUNT = 6
 
 
-def chained() -> tuple[PackedTask, list[Field]]:
+def chained() -> tuple[PackedTask, list[StateField]]:
     """One thing after another, each asked for by the next, all of them by the goal."""
     chain = {f"do{i} h": f"f{i} -> f{i + 1}" for i in range(COUNT)} | {"help r": "-> f1"}
     packed = PackedTask(
@@ -20,7 +20,7 @@ def chained() -> tuple[PackedTask, list[Field]]:
         frozenset(),
         Deadline(),
     )
-    fields = [Field(f, (f & -f).bit_length() - 1, len(packed.values(f))) for f in packed.fields]
+    fields = [StateField(f, (f & -f).bit_length() - 1, len(packed.values(f))) for f in packed.fields]
     return packed, fields
 
 

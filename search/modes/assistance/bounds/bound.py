@@ -16,7 +16,7 @@ from search.packed.packed_task import PackedGoal
 MAX_JOINT_STATES: Final = 100_000
 
 
-class Bound:
+class ValueBound:
     """Admissible and consistent; the same whoever is to move."""
 
     def __init__(self, game: Game) -> None:

@@ -14,7 +14,7 @@ MAX_FLOORS: Final = 20_000
 """Lower bounds that are written down; more would be megabytes."""
 
 
-class Entry(NamedTuple):
+class PolicyEntry(NamedTuple):
     """What the supporter does in a state: the value of it, the action, the state after it."""
 
     value: Costs
@@ -23,7 +23,7 @@ class Entry(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Solution:
+class GameSolution:
     """A policy and what is known of its value.
 
     Attributes:
@@ -37,5 +37,5 @@ class Solution:
 
     lower: Costs | None
     upper: Costs | None
-    policy: Mapping[int, Entry] = field(default_factory=dict)
+    policy: Mapping[int, PolicyEntry] = field(default_factory=dict)
     floors: Mapping[int, Costs] | None = None

@@ -9,20 +9,20 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.engine.best_first import Progress, best_first
-from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.game.game import NOOP, Game, Move
-from search.modes.assistance.game.solution import MAX_FLOORS, ZERO, Costs, Entry, Solution
+from search.modes.assistance.game.solution import MAX_FLOORS, ZERO, Costs, GameSolution, PolicyEntry
 from search.packed.cost_vector import INFINITE_KEY
 
 
-class _Node(NamedTuple):
+class _RunNode(NamedTuple):
     """A state, who is to move, how it was reached."""
 
     state: int
     primes: bool
     """The prime is to move."""
     cost: int
-    parent: "_Node | None"
+    parent: "_RunNode | None"
     action: int
     bound: int
     """No run over here has a smaller value."""
@@ -40,7 +40,7 @@ class _Best:
     """
 
     key: int
-    node: _Node | None = None
+    node: _RunNode | None = None
 
 
 class CheapestRun:
@@ -53,7 +53,7 @@ class CheapestRun:
         no_block: no move may take the prime's last plan away.
     """
 
-    def __init__(self, game: Game, bound: Bound, *, fixed: bool, no_block: bool) -> None:
+    def __init__(self, game: Game, bound: ValueBound, *, fixed: bool, no_block: bool) -> None:
         self._game = game
         self._bound = bound
         self._fixed = fixed
@@ -86,20 +86,20 @@ class CheapestRun:
                 known = best.key
                 yield
 
-    def roots(self) -> Iterator[tuple[int, _Node]]:
+    def roots(self) -> Iterator[tuple[int, _RunNode]]:
         """The initial state, the supporter to move."""
         init = self._game.init
-        root = _Node(init, False, 0, None, NOOP, self._bound(init), True)
+        root = _RunNode(init, False, 0, None, NOOP, self._bound(init), True)
         if self._game.goal.holds(init):
             self._best.key, self._best.node = 0, root
         self._cheapest[init, False] = 0
         yield root.bound, root
 
-    def alive(self, node: _Node) -> bool:
+    def alive(self, node: _RunNode) -> bool:
         """Whether no cheaper way to the same has been found."""
         return self._cheapest[node.state, node.primes] >= node.cost
 
-    def expand(self, node: _Node, best: _Best) -> Iterator[tuple[int, _Node]]:
+    def expand(self, node: _RunNode, best: _Best) -> Iterator[tuple[int, _RunNode]]:
         """What the next move leads to; the node itself, where its own bound turns out to be higher."""
         if not node.ready:
             estimate = node.cost + self._bound(node.state)
@@ -113,7 +113,7 @@ class CheapestRun:
             self._closed[node.state] = node.cost
             yield from self._supporter(node, best)
 
-    def _supporter(self, node: _Node, best: _Best) -> Iterator[tuple[int, _Node]]:
+    def _supporter(self, node: _RunNode, best: _Best) -> Iterator[tuple[int, _RunNode]]:
         wanted = self._bound.wanted(node.state)
         moves = self._game.supporter(node.state)
         # The last one comes up first: what is wanted, else waiting.
@@ -121,7 +121,7 @@ class CheapestRun:
         for move in moves:
             yield from self._reach(node, move, best)
 
-    def _prime(self, node: _Node, best: _Best) -> Iterator[tuple[int, _Node]]:
+    def _prime(self, node: _RunNode, best: _Best) -> Iterator[tuple[int, _RunNode]]:
         game = self._game
         alone = game.alone(node.state)
         if alone >= INFINITE_KEY:
@@ -134,38 +134,38 @@ class CheapestRun:
         for move in moves[:1] if self._fixed else reversed(moves):
             yield from self._reach(node, move, best)
 
-    def _blocks(self, node: _Node) -> bool:
+    def _blocks(self, node: _RunNode) -> bool:
         """Whether the supporter's move to a state without a plan took the plan away."""
         before = node.parent
         return self._no_block and before is not None and self._game.alone(before.state) < INFINITE_KEY
 
-    def _reach(self, parent: _Node, move: Move, best: _Best) -> Iterator[tuple[int, _Node]]:
+    def _reach(self, parent: _RunNode, move: Move, best: _Best) -> Iterator[tuple[int, _RunNode]]:
         """The node after a move, if nothing as cheap is known; its bound is worked out when it comes up."""
         cost, primes = parent.cost + move.value, not parent.primes
         if cost >= best.key:
             return
-        node = _Node(move.after, primes, cost, parent, move.action, parent.bound, False)
+        node = _RunNode(move.after, primes, cost, parent, move.action, parent.bound, False)
         if self._game.goal.holds(move.after):
             best.key, best.node = cost, node
         elif cost < self._cheapest.get((move.after, primes), INFINITE_KEY):
             self._cheapest[move.after, primes] = cost
             yield parent.bound, node
 
-    def solution(self, *, floors: bool = True) -> Solution:
+    def solution(self, *, floors: bool = True) -> GameSolution:
         """The best run as a policy, and lower bounds on what was expanded."""
         game, best = self._game, self._best
-        policy: dict[int, Entry] = {}
+        policy: dict[int, PolicyEntry] = {}
         node = best.node
         while node is not None and node.parent is not None:
             if node.primes:
                 value = game.pair(best.key - node.parent.cost)
-                policy[node.parent.state] = Entry(value, node.action, node.state)
+                policy[node.parent.state] = PolicyEntry(value, node.action, node.state)
             node = node.parent
         proof: dict[int, Costs] | None = None
         if floors and len(self._closed) <= MAX_FLOORS:
             known = self._closed if self.lower < INFINITE_KEY else {}
             proof = {s: self._rest(cost) for s, cost in known.items()}
-        return Solution(
+        return GameSolution(
             lower=None if self.lower >= INFINITE_KEY else game.pair(self.lower),
             upper=None if best.key >= INFINITE_KEY else game.pair(best.key),
             policy=dict(reversed(policy.items())),

@@ -3,7 +3,7 @@
 A *choice* is a state with the supporter to move, a *reply* one with the prime to move.
 """
 
-from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.game.game import NOOP, Game, Move
 from search.modes.assistance.game.rules import ChoiceRule, Value
 from search.modes.assistance.solvers.evaluate import Option
@@ -28,7 +28,7 @@ class Graph:
         pick: the moves of a policy that is known to end, where one was worked out.
     """
 
-    def __init__(self, game: Game, bound: Bound, rule: ChoiceRule, *, no_block: bool) -> None:
+    def __init__(self, game: Game, bound: ValueBound, rule: ChoiceRule, *, no_block: bool) -> None:
         self.game = game
         self.rule = rule
         self._bound = bound

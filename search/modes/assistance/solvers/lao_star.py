@@ -9,10 +9,10 @@ solved at once, see :mod:`search.modes.assistance.solvers.cycles`.
 
 from collections.abc import Iterator
 
-from search.modes.assistance.bounds.bound import Bound
+from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.game.game import Game, Move
 from search.modes.assistance.game.rules import ChoiceRule, Value
-from search.modes.assistance.game.solution import MAX_FLOORS, Costs, Entry, Solution
+from search.modes.assistance.game.solution import MAX_FLOORS, Costs, GameSolution, PolicyEntry
 from search.modes.assistance.solvers.cycles import solve_all
 from search.modes.assistance.solvers.evaluate import Option, evaluate
 from search.modes.assistance.solvers.graph import Graph
@@ -32,7 +32,7 @@ class LaoStar:
         no_block: no move may take the prime's last plan away.
     """
 
-    def __init__(self, game: Game, bound: Bound, rule: ChoiceRule, *, no_block: bool) -> None:
+    def __init__(self, game: Game, bound: ValueBound, rule: ChoiceRule, *, no_block: bool) -> None:
         self._game = game
         self._rule = rule
         self._graph = Graph(game, bound, rule, no_block=no_block)
@@ -139,18 +139,18 @@ class LaoStar:
             pending.extend(outcome.after for outcome in option.outcomes if not graph.final(outcome.after))
         return policy
 
-    def solution(self, *, floors: bool = True) -> Solution:
+    def solution(self, *, floors: bool = True) -> GameSolution:
         """The best policy known, and lower bounds on everything looked at."""
         graph, rule, game = self._graph, self._rule, self._game
         policy = {}
         for state, (move, _, _) in self._policy.items():
             value = rule.costs(game, self._values[state])
             if value is not None:
-                policy[state] = Entry(value, move.action, move.after)
+                policy[state] = PolicyEntry(value, move.action, move.after)
         proof: dict[int, Costs] | None = None
         if floors and len(graph.choices) <= MAX_FLOORS:
             lows = ((state, rule.costs(game, graph.low[state])) for state in graph.choices)
             proof = {state: low for state, low in lows if low is not None}
         # Bounding the initial state takes time, too: there may be no bound yet.
         lower = graph.low.get(game.init, rule.lift(0)) if not graph.final(game.init) else rule.lift(0)
-        return Solution(rule.costs(game, lower), rule.costs(game, self._upper), policy, proof)
+        return GameSolution(rule.costs(game, lower), rule.costs(game, self._upper), policy, proof)

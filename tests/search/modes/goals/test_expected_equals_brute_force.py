@@ -11,7 +11,7 @@ import serendipity
 from search import PreparedTask
 from search.engine.paths import plan_steps
 from search.modes.goals import Candidate, solve_expected
-from search.modes.goals.planner import _Search
+from search.modes.goals.planner import _SequenceSearch
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.testing.builders import task as build
@@ -35,8 +35,8 @@ _OPTIONS = st.builds(
 @pytest.fixture
 def unguided(monkeypatch: pytest.MonkeyPatch) -> None:
     """The search without what the answers for single goals tell it."""
-    monkeypatch.setattr(_Search, "_floor", lambda *_: (0, 0))
-    monkeypatch.setattr(_Search, "_own_actions", lambda *_: {})
+    monkeypatch.setattr(_SequenceSearch, "_floor", lambda *_: (0, 0))
+    monkeypatch.setattr(_SequenceSearch, "_own_actions", lambda *_: {})
 
 
 @given(rivals(), _OPTIONS)
@@ -170,15 +170,15 @@ def test_the_answers_for_single_goals_only_save_time() -> None:
         task, candidates = rivalry
         unguided = solve_expected(PreparedTask(task), options, candidates)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(_Search, "_floor", _FLOOR)
-            patch.setattr(_Search, "_own_actions", _OWN_ACTIONS)
+            patch.setattr(_SequenceSearch, "_floor", _FLOOR)
+            patch.setattr(_SequenceSearch, "_own_actions", _OWN_ACTIONS)
             guided = solve_expected(PreparedTask(task), options, candidates)
         assert (guided.objective, guided.cost) == (unguided.objective, unguided.cost)
 
     law()
 
 
-_FLOOR, _OWN_ACTIONS = _Search._floor, _Search._own_actions
+_FLOOR, _OWN_ACTIONS = _SequenceSearch._floor, _SequenceSearch._own_actions
 
 
 def _without_robots(task: Task) -> tuple[GroundAction, ...]:

@@ -16,6 +16,7 @@ from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent
 from search.short_windows.independent import timeline
 from search.short_windows.independent.short_windows import ShortWindows, short_windows
+from search.short_windows.question import ShortWindowQuestion
 from search.spaces.windowed import Windowed
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
@@ -37,7 +38,7 @@ def _asked(task: Task, options: Options) -> tuple[SearchContext, ShortWindows, I
     keys, plan = context.keys, optimal.actions
     idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
     incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
-    windows = short_windows(context, plan, len(plan), incumbent)
+    windows = short_windows(ShortWindowQuestion(context, plan, len(plan), incumbent))
     return None if windows is None else (context, windows, incumbent)
 
 

@@ -15,6 +15,7 @@ from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from search.short_windows.joint import epochs
 from search.short_windows.joint.all_together import AllTogether
+from search.short_windows.question import ShortWindowQuestion
 from serendipity.evaluation.crosscheck import random_call
 from serendipity.model import Options, Task
 from serendipity.model.errors import LimitReachedError
@@ -66,7 +67,7 @@ def _looked_at(
     idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
     incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
     progress = Progress()
-    together = AllTogether(context, plan, len(plan), incumbent, progress, INFINITE_KEY)
+    together = AllTogether(ShortWindowQuestion(context, plan, len(plan), incumbent), progress, INFINITE_KEY)
     for states in most:
         for _ in together.windows(states, context.deadline):
             pass
@@ -97,7 +98,7 @@ def test_the_best_window_of_one_epoch_is_found(draw: object, most: tuple[int, ..
 
 def test_a_call_that_it_settles() -> None:
     """Two robots who hand things to each other, so that neither does any good by itself."""
-    others = "-few-nodes,-robots-apart,-robots-by-numbers"
+    others = "-few-nodes,-robots-apart"
     for seed in range(40):
         task, options = _of_family(seed)
         asked = {"discount": options.discount, "interference": options.interference}
@@ -163,9 +164,8 @@ def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
     incumbent = Incumbent(INFINITE_KEY - 1)
     progress = Progress()
     with suppress(LimitReachedError):
-        for _ in AllTogether(context, optimal.actions, 8, incumbent, progress, INFINITE_KEY).windows(
-            10_000_000, context.deadline
-        ):
+        question = ShortWindowQuestion(context, optimal.actions, 8, incumbent)
+        for _ in AllTogether(question, progress, INFINITE_KEY).windows(10_000_000, context.deadline):
             pass
     assert progress.bound == 0, "there was not enough time for all"
     assert context.deadline.elapsed() < 0.5

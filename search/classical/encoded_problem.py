@@ -1,4 +1,4 @@
-"""A classical problem as the kernel is told of it."""
+"""A classical problem in the form that the kernel reads."""
 
 import ctypes
 from array import array
@@ -30,7 +30,7 @@ def memory_for(problem: ClassicalProblem) -> int:
     return 20 * _size(problem.mask) * len(problem.operators)
 
 
-class Told:
+class EncodedProblem:
     """A problem as rows of words, which are there for as long as this is.
 
     Args:

@@ -1,0 +1,52 @@
+"""Which plans with a window of one epoch are better than the incumbent: what every way to tell is given."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from search.call.context import SearchContext
+from search.engine.best_first import Incumbent
+from search.packed.operators import Operator
+from search.spaces.from_composite import Suggestions
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import HumanPlan
+
+
+@dataclass(frozen=True, slots=True)
+class ShortWindowQuestion:
+    """Plans with a window of one epoch, after which the human replans, that beat the incumbent.
+
+    Attributes:
+        context: of the call.
+        plan: ``pi_H``.
+        horizon: ``T``.
+        best: the call's incumbent, which is made better.
+    """
+
+    context: SearchContext
+    plan: HumanPlan
+    horizon: int
+    best: Incumbent
+
+    def under(self, deadline: Deadline) -> "ShortWindowQuestion":
+        """The same with another deadline."""
+        return replace(self, context=self.context.under(deadline))
+
+    def steps(self) -> list[Operator]:
+        """The human's plan."""
+        return [self.context.packed.op(action) for action in self.plan]
+
+    def start(self, epoch: int) -> int:
+        """Key of a window in an epoch."""
+        keys = self.context.keys
+        return keys.epoch_weight + keys.of_start(epoch, self.horizon)
+
+    def suggestions(self) -> Suggestions:
+        """What makes plans of robots' actions."""
+        return Suggestions(self.context, self.plan, self.horizon, None, self.best.key)
+
+    def accept(self, better: Iterable[Incumbent]) -> Iterator[None]:
+        """Make the incumbent better by each of some plans; yield after each."""
+        best = self.best
+        for found in better:
+            best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
+            yield
