@@ -14,6 +14,7 @@ from serendipity.cli.help_examples import epilog
 from serendipity.cli.on_demand import Commands
 from serendipity.cli.options import settings
 from serendipity.cli.streams import output
+from serendipity.cli.streams.manner import log_origin
 from serendipity.cli.streams.stderr import tell
 from serendipity.model.errors import REPORT, LimitReachedError, SerendipityError, limit_words, told
 
@@ -81,7 +82,7 @@ def _run(argv: Sequence[str]) -> int:
     except MemoryError:
         return _stop(limit_words("memory-limit"), "memory-limit")
     except (SerendipityError, ImportError) as error:
-        output.log_origin()
+        log_origin()
         return _fail(f"{error}{settings.origin(str(error))}")
     except OSError as error:
         where = error.filename or "standard output"
@@ -91,7 +92,7 @@ def _run(argv: Sequence[str]) -> int:
     except typer.Abort:
         raise
     except Exception as error:  # a fault of ours
-        output.log_origin()
+        log_origin()
         _fail(f"{told(error)}: {REPORT}")
         return ExitCode.UNEXPECTED
     return code

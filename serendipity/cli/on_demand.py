@@ -6,12 +6,13 @@ from importlib import import_module
 from typing import Any, Final
 
 import typer
-from typer.core import TyperGroup, TyperOption
+from typer.core import TyperGroup
 from typer.main import get_command
 
+from serendipity.cli.groups import spread
 from serendipity.cli.help_examples import epilog
 from serendipity.cli.options import overwriting
-from serendipity.cli.streams import progress
+from serendipity.cli.streams.manner import Manner
 
 NAMES: Final = (
     "plan",
@@ -72,14 +73,13 @@ def _command(name: str) -> Any:
         return get_command(group)
     single = typer.Typer(add_completion=False, rich_markup_mode=None)
     written: dict[str, str] = {}
-    single.command(name, epilog=epilog(name))(_overwriting_nothing(getattr(module, function), written))
+    single.command(name, epilog=epilog(name))(
+        _overwriting_nothing(spread(getattr(module, function), Manner), written)
+    )
     command = get_command(single)
     for parameter in command.params:
         for option in set(parameter.opts) & overwriting.WRITTEN:
             written[str(parameter.name)] = option
-    names = [parameter.name for parameter in command.params]
-    if "quiet" in names:  # it may take a while
-        command.params.insert(names.index("quiet") + 1, _progress())
     return command
 
 
@@ -92,16 +92,3 @@ def _overwriting_nothing(function: Callable[..., int], written: Mapping[str, str
         return function(**values)
 
     return call
-
-
-def _progress() -> TyperOption:
-    """``--progress``, an option that says how a command works and that its function need not know."""
-    return TyperOption(
-        param_decls=["--progress"],
-        default="auto",
-        help="How progress is shown: a bar on a terminal, plain lines elsewhere; or JSON lines.",
-        callback=lambda _context, _option, value: progress.choose(value),
-        expose_value=False,
-        metavar="|".join(progress.STYLES),
-        autocompletion=lambda *_begun: list(progress.STYLES),
-    )

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import pytest
 
 from serendipity.cli.on_demand import NAMES
+from serendipity.cli.streams.manner import STYLES
 from serendipity.cli.streams.output import FORMATS
-from serendipity.cli.streams.progress import STYLES
 from serendipity.model.keywords import CHOICES
 from serendipity.scenarios.examples import EXAMPLES
 from tests.cli.conftest import Run

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli.streams import output
+from serendipity.cli.streams import manner, output
 from serendipity.model import Result, UsageError
 from tests.cli.conftest import ROOT, Run
 
@@ -95,7 +95,7 @@ def test_warnings_go_to_stderr_unless_quiet(run: Callable[[str], Run]) -> None:
 
 def test_verbosity_sets_the_level_of_our_loggers() -> None:
     for verbosity, level in ((0, logging.WARNING), (1, logging.INFO), (2, logging.DEBUG), (5, logging.DEBUG)):
-        output.start_logging(verbosity)
+        manner.start_logging(verbosity)
         assert logging.getLogger("serendipity").level == level
         assert logging.getLogger("search").level == level
 

@@ -8,13 +8,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextvars import copy_context
 from pathlib import Path
 
 import pytest
 
 import serendipity
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.streams import progress, progress_bar, progress_lines
+from serendipity.cli.streams import manner, progress, progress_bar, progress_lines
 from tests.cli.conftest import Run, assert_one_line
 
 
@@ -43,7 +44,7 @@ def wait_for(screen: Screen, words: str) -> None:
 
 def test_long_work_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = on_screen(monkeypatch)
-    with progress.working("planning", quiet=False) as on_news:
+    with progress.working("planning") as on_news:
         wait_for(screen, "planning")
         on_news("13, at least 12")
         wait_for(screen, "planning: 13, at least 12")
@@ -51,23 +52,28 @@ def test_long_work_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_counted_work_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = on_screen(monkeypatch)
-    with progress.counting("searches", quiet=False) as on_progress:
+    with progress.counting("searches") as on_progress:
         on_progress(3, 8)
         wait_for(screen, "3/8")
 
 
 def test_short_work_leaves_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = on_screen(monkeypatch, patience=60)
-    with progress.working("planning", quiet=False), progress.counting("calls", quiet=False) as on_progress:
+    with progress.working("planning"), progress.counting("calls") as on_progress:
         on_progress(1, 2)
     assert screen.getvalue() == ""
 
 
 def test_nothing_is_shown_where_it_is_not_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = on_screen(monkeypatch)
-    with progress.working("planning", quiet=True) as on_news:
-        on_news("13")
-        time.sleep(0.2)
+
+    def work() -> None:
+        manner.be_quiet(True)
+        with progress.working("planning") as on_news:
+            on_news("13")
+            time.sleep(0.2)
+
+    copy_context().run(work)
     assert screen.getvalue() == ""
 
 
@@ -75,11 +81,11 @@ def test_without_a_terminal_there_are_lines_that_get_rarer(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(progress_lines.PlainLines, "first", 0.02)
-    with progress.counting("searches", quiet=False) as on_progress:
+    with progress.counting("searches") as on_progress:
         on_progress(0, 8)
         on_progress(3, 8)
         time.sleep(0.3)  # lines after 0.02, 0.06, 0.14 and 0.3 seconds
-    with progress.working("planning", quiet=False) as on_news:
+    with progress.working("planning") as on_news:
         on_news("cost 13", cost=13.0)
         time.sleep(0.1)
     told = capsys.readouterr().err.splitlines()
@@ -90,7 +96,7 @@ def test_without_a_terminal_there_are_lines_that_get_rarer(
 
 
 def test_quick_work_says_nothing_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
-    with progress.working("planning", quiet=False) as on_news:
+    with progress.working("planning") as on_news:
         on_news("cost 13")
     assert capsys.readouterr().err == ""
 
@@ -134,7 +140,7 @@ def test_an_error_is_not_hidden(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = on_screen(monkeypatch)
 
     def interrupted() -> None:
-        with progress.working("planning", quiet=False):
+        with progress.working("planning"):
             wait_for(screen, "planning")
             raise KeyboardInterrupt
 

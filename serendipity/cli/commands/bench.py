@@ -106,26 +106,23 @@ def bench(
         ),
     ] = None,
     markdown: Annotated[bool, typer.Option("--markdown", help="A suite's tables as Markdown.")] = False,
-    quiet: output.Quiet = False,
-    verbose: output.Verbose = 0,
 ) -> int:
     """Measure the search beside integer programs and others. -o writes every timing."""
-    output.start_logging(verbose)
     _check_files(output_file, plot)
     if scaling is not None:
         if folder is not None:
             raise UsageError("--scaling: generates its buildings, so it takes no folder")
-        return _scaling(scaling, seeds, time_limit, output_file, plot, quiet=quiet)
+        return _scaling(scaling, seeds, time_limit, output_file, plot)
     from serendipity.evaluation import benchmark
     from serendipity.evaluation.benchmark import coverage
 
     if folder is not None and folder.is_file():
-        return _covered(coverage.read_rows(folder), "", output_file, plot, markdown=markdown, quiet=quiet)
+        return _covered(coverage.read_rows(folder), "", output_file, plot, markdown=markdown)
     if folder is not None and folder.is_dir() and coverage.is_suite(folder):
         asked = {"discount": discounts or "0.9", "robots": robots or 2, "time_limit": time_limit}
-        rows, complete = _suite(folder, _listed(domains, ()), stride, modes, contenders, quiet=quiet, **asked)
+        rows, complete = _suite(folder, _listed(domains, ()), stride, modes, contenders, **asked)
         where = f"{benchmark.machine()}; at most {time_limit:g} s a call by the clock."
-        code = _covered(rows, where, output_file, plot, markdown=markdown, quiet=quiet)
+        code = _covered(rows, where, output_file, plot, markdown=markdown)
         return code if complete else ExitCode.INTERRUPTED
     chosen, absent = _present(_listed(contenders, _CONTENDERS), benchmark.CONTENDERS)
     errors: dict[str, Exception] = {}
@@ -143,11 +140,11 @@ def bench(
         repeat=repeat,
         time_limit=time_limit,
     )
-    with progress.counting("tasks", quiet=quiet) as on_progress:
+    with progress.counting("tasks") as on_progress:
         for timing in found:
             timings.append(timing)
             on_progress(len({timing.task for timing in timings}), len(tasks))
-    output.warn(absent, quiet=quiet)
+    output.warn(*absent)
     most = f"{benchmark.peak_memory():.0f} MiB with all tasks in memory"
     parts: list[Line | Grid] = [
         Line(f"{len(tasks)} tasks; {benchmark.machine()}"),
@@ -176,18 +173,16 @@ def _suite(
     stride: int,
     modes: str | None,
     contenders: str | None,
-    *,
-    quiet: bool,
     **asked: Any,
 ) -> "tuple[list[Row], bool]":
     """The rows of a suite's calls, and whether these are all; Ctrl-C leaves those that are there."""
     from serendipity.evaluation.benchmark import coverage
 
     chosen, absent = _present(_listed(contenders, coverage.CONTENDERS), coverage.CONTENDERS)
-    output.warn(absent, quiet=quiet)
+    output.warn(*absent)
     problems = coverage.problems(folder, domains, stride)
     rows: list[Row] = []
-    with cancelling() as cancelled, progress.counting("tasks", quiet=quiet) as on_progress:
+    with cancelling() as cancelled, progress.counting("tasks") as on_progress:
         for row in coverage.measure(problems, _listed(modes, coverage.MODES), chosen, **asked):
             if cancelled.is_set():  # which may have ended the contender, too
                 return rows, False
@@ -203,7 +198,6 @@ def _covered(
     plot: Path | None,
     *,
     markdown: bool,
-    quiet: bool,
 ) -> int:
     """Print and write what the rows of a suite, measured somewhere, come to.
 
@@ -212,7 +206,7 @@ def _covered(
     """
     from serendipity.evaluation.benchmark import coverage
 
-    output.warn(tuple(coverage.failures(rows)), quiet=quiet)
+    output.warn(*coverage.failures(rows))
     order = " / ".join(coverage.contenders_in(rows))
     titled = {
         f"Calls decided: {order}": coverage.decided(rows),
@@ -245,15 +239,13 @@ def _scaling(
     time_limit: float,
     output_file: Path | None,
     plot: Path | None,
-    *,
-    quiet: bool,
 ) -> int:
     from serendipity.evaluation import benchmark
 
     names = list(benchmark.AXES) if axes == "all" else axes.split(",")
     total = len(benchmark.planned(names, seeds or 5))
     samples: list[Sample] = []
-    with progress.counting("tasks", quiet=quiet) as on_progress:
+    with progress.counting("tasks") as on_progress:
         for sample in benchmark.scale(names, seeds=seeds or 5, time_limit=time_limit):
             samples.append(sample)
             on_progress(len(samples), total)

@@ -19,12 +19,8 @@ _DISCOUNTS: Final = ("0", "0.5", "0.9")
 
 
 def crosscheck(
-    files: naming.Files = None,
-    human: naming.Human = None,
-    robot: naming.Robots = None,
-    agent: naming.Agents = None,
-    team: naming.Team = None,
-    example: naming.Example = None,
+    *,
+    task: naming.TaskName,
     count: Annotated[int, typer.Option(min=1, help="Random calls to check.", metavar="N")] = 100,
     seed: Annotated[
         int | None, typer.Option(help="Of the first random call; by default a new one.", metavar="S")
@@ -62,8 +58,6 @@ def crosscheck(
     folder: Annotated[
         Path, typer.Option("-o", "--output", help="Where a disagreement is written.", metavar="DIR")
     ] = Path("disagreement"),
-    quiet: output.Quiet = False,
-    verbose: output.Verbose = 0,
 ) -> int:
     """Check that independent methods agree. On random tasks, or on one task in every mode.
 
@@ -77,7 +71,6 @@ def crosscheck(
     Judges from outside are asked for the best plan of all agents: where there are any, every call is
     one in composite mode without a horizon.
     """
-    output.start_logging(verbose)
     from serendipity.evaluation.crosscheck import (
         FALSE_CERTIFICATES,
         JUDGES,
@@ -110,19 +103,18 @@ def crosscheck(
         return found or (forged(call) if forged else None)
 
     calls: Iterable[PlanCall]
-    if not files and not agent and example is None:
+    if not task.files and not task.agent and task.example is None:
         first = seed
         if first is None:
             first = secrets.randbelow(10**9)
             output.say(f"seed {first}\n")
         calls, total = (random_call(first + k) for k in range(count)), count
     else:
-        reading = Deadline(time_limit, memory_limit)
-        task = naming.load(files, human, robot, agent, team, example, quiet=quiet, deadline=reading)
+        given = task.load(Deadline(time_limit, memory_limit))
         modes = ("composite",) if outside else _MODES
-        calls = [PlanCall(task, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS]
+        calls = [PlanCall(given, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS]
         total = len(calls)
-    with progress.counting("calls", quiet=quiet) as on_progress:
+    with progress.counting("calls") as on_progress:
         for checked, call in enumerate(calls):
             on_progress(checked, total)
             found = judged(call)
@@ -136,7 +128,7 @@ def crosscheck(
     again: Callable[[PlanCall], bool] = FalseCertificates(time_limit).shows
     if found.law != FALSE_CERTIFICATES:
         again = shows_it_too(found, chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit)
-    with progress.working("shrinking", quiet=quiet) as on_news:
+    with progress.working("shrinking") as on_news:
         smallest = shrink(found.call, again, on_try=lambda tried: on_news(f"{tried} calls"))
     found = judged(smallest) or found
     words = [word for name in judge or () for word in ("--judge", name)]

@@ -9,21 +9,20 @@ import typer
 import serendipity
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.options import naming, plan_options
+from serendipity.cli.options import goals as goal_options
+from serendipity.cli.options import naming, planning
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text import goals as goal_options
+from serendipity.cli.text.shown import shown
 from serendipity.model import InputError, UsageError
 from serendipity.model.numbers import plain
 from serendipity.model.options import limit_of
-from serendipity.writing.rows import FORMATS as ROWS
-from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
-    from serendipity.execution import Runs
     from serendipity.robot.physics import Film, Stage
 
 
 def execute(
+    *,
     files: naming.Files = None,
     human: Annotated[
         str,
@@ -37,10 +36,7 @@ def execute(
         str | None,
         typer.Option(metavar="H", help="Which agent is the person; by default the only one with a goal."),
     ] = None,
-    robot: naming.Robots = None,
-    agent: naming.Agents = None,
-    team: naming.Team = None,
-    example: naming.Example = None,
+    task: Annotated[naming.TaskName, ("robot", "agent", "team", "example")],
     mode: Annotated[
         str | None,
         typer.Option(
@@ -48,7 +44,7 @@ def execute(
             **choices("serendipity", "communication"),
         ),
     ] = None,
-    discount: plan_options.Discount = None,
+    discount: Annotated[str | None, planning.option("discount")] = None,
     human_model: Annotated[
         str | None,
         typer.Option(
@@ -56,7 +52,7 @@ def execute(
             **choices("omniscient", "observant", "local"),
         ),
     ] = None,
-    interference: plan_options.Interference = None,
+    interference: Annotated[str | None, planning.option("interference")] = None,
     goals: goal_options.Goals = None,
     beta: goal_options.Beta = None,
     runs: Annotated[int, typer.Option(metavar="N", help="How many runs.")] = 1,
@@ -111,21 +107,18 @@ def execute(
     replay: Annotated[
         Path | None, typer.Option(metavar="LOG", help="Play the runs of a log again, and compare.")
     ] = None,
-    format: output.DataFormat = None,  # noqa: A002 - the option's name
-    output_file: output.Output = None,
-    quiet: output.Quiet = False,
-    verbose: output.Verbose = 0,
+    to: Annotated[output.Destination, output.ROWS_TOO],
 ) -> int:
     """Let a person do as they like while robots watch and help. They decide in each epoch anew."""
-    form = output.prepare(format, output_file, verbose, output.DATA)
+    form = to.prepare(output.DATA)
     output.check_output(log, "--log")
     output.check_output(clip, "--clip")
     film = None if clip is None else _film(clip, adapter, runs)
     named, policy = _recorded(files, human)
-    task = naming.load(named, person, robot, agent, team, example, quiet=quiet)
+    loaded = task.but(files=named, human=person).load()
     if replay is not None:
-        return _replayed(task, replay, output_file)
-    given = plan_options.given(
+        return _replayed(loaded, replay, to.output_file)
+    given = planning.given(
         mode=mode,
         discount=discount,
         interference=interference,
@@ -133,9 +126,9 @@ def execute(
         ties=ties,
         human_model=human_model,
     )
-    with progress.counting("runs", quiet=quiet) as on_progress:
+    with progress.counting("runs") as on_progress:
         found = serendipity.execute(
-            task,
+            loaded,
             policy,
             runs=runs,
             seed=seed,
@@ -150,7 +143,7 @@ def execute(
             deadline=_seconds("deadline", deadline),
             **given,
         )
-    answers = [output.Answer(_answer(form, found), output_file)]
+    answers = [output.Answer(shown(found, form), to.output_file)]
     if log is not None:
         from serendipity.execution import as_text
 
@@ -212,13 +205,3 @@ def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> i
             lines.append(Line(f"run {number}: the same again; {len(run.passed)} epochs, {costs}"))
     output.write_answer(rendered(lines), output_file)
     return code
-
-
-def _answer(form: str, found: "Runs") -> str | bytes:
-    if form == "json":
-        return found.to_json()
-    if form in ROWS:
-        return written(found.table(), form)
-    from serendipity.cli.text.render import rendered
-
-    return rendered(found.told())

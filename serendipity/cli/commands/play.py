@@ -8,10 +8,11 @@ import typer
 
 from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import naming
 from serendipity.cli.streams import output, progress
+from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import tell
-from serendipity.cli.text import goals as goal_options
 from serendipity.model import UsageError
 from serendipity.model.numbers import exact
 from serendipity.model.options import limit_of
@@ -27,12 +28,8 @@ _RECORDS: Final = Path("serendipity-play")
 
 
 def play(
-    files: naming.Files = None,
-    human: naming.Human = None,
-    robot: naming.Robots = None,
-    agent: naming.Agents = None,
-    team: naming.Team = None,
-    example: naming.Example = None,
+    *,
+    task: naming.TaskName,
     discount: Annotated[
         str | None,
         typer.Option(
@@ -96,14 +93,11 @@ def play(
         list[str] | None,
         typer.Option("--allow-host", metavar="NAME", help="Another name under which it may be asked."),
     ] = None,
-    quiet: output.Quiet = False,
-    verbose: output.Verbose = 0,
 ) -> int:
     """Play the human yourself, on a page of this machine. It needs serendipity-planner[live]."""
-    output.start_logging(verbose)
     given = {"view": view, "discount": discount, "deadline": deadline}
     how = _checked(given, robots)
-    named = bool(files or agent or example)
+    named = bool(task.files or task.agent or task.example)
     _fits(
         study is not None,
         beside={
@@ -135,7 +129,7 @@ def play(
 
         settings = _settings(given, rounds, seed)
         with nullcontext() if report else addresses.listening(host, port) as listener:
-            with progress.working("playing scenarios", quiet=quiet):
+            with progress.working("playing scenarios"):
                 design = open_design(study, labels, **settings)
             if listener is None:
                 output.say(design.report)
@@ -145,7 +139,6 @@ def play(
             _say(
                 f"Participants join on {url}; Ctrl-C stops it. Recorded in {study}.\n"
                 f"For whoever runs it: {url}/experimenter/{design.secret}/\n{design.report}",
-                quiet=quiet,
             )
             for fault in opened.faults:
                 tell(f"Warning: {fault}")
@@ -156,24 +149,23 @@ def play(
     from serendipity.live.play.rounds import SharedRounds
     from serendipity.live.play.setting import RoundSetting
 
-    shown = example if named else _EXAMPLE
-    task = naming.load(files, human, robot, agent, team, shown, quiet=quiet)
+    shown = task.example if named else _EXAMPLE
+    loaded = task.but(example=shown).load()
     with addresses.listening(host, port) as listener:  # first, or a port in use leaves an empty record
-        with progress.working("getting ready", quiet=quiet):
+        with progress.working("getting ready"):
             where = record_in(records or _RECORDS)
-            how |= {"condition": robots or "silent", "goals": goals, "labels": labels_for(task, labels)}
-            opened = SharedRounds(RoundSetting(shown or task.name, task, **how), where)
+            how |= {"condition": robots or "silent", "goals": goals, "labels": labels_for(loaded, labels)}
+            opened = SharedRounds(RoundSetting(shown or loaded.name, loaded, **how), where)
         _say(
             f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n"
             f"To go on with this round another time: --records {where}\n",
-            quiet=quiet,
         )
         run(application(opened, addresses.hosts(host)), listener)
     return ExitCode.ANSWERED
 
 
-def _say(text: str, *, quiet: bool) -> None:
-    if not quiet:
+def _say(text: str) -> None:
+    if not is_quiet():
         output.say(text)
 
 

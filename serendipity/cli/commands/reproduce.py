@@ -11,6 +11,7 @@ from serendipity.cli.choices import choices
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.streams import output
 from serendipity.cli.streams.broken_tasks import broken_tasks
+from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import is_terminal, tell
 from serendipity.model.options import limit_of
 from serendipity.model.printable import message
@@ -25,9 +26,11 @@ if TYPE_CHECKING:
 log = logging.getLogger("serendipity.reproduce")
 
 _FORMATS: Final = ("table", "csv", "json", *(form for form in ROWS if form != "csv"))
+_FORMAT: Final = output.formats(_FORMATS, "By default after -o's name, else table.")
 
 
 def reproduce(
+    *,
     folder: Annotated[
         Path,
         typer.Argument(
@@ -75,16 +78,10 @@ def reproduce(
         Path | None,
         typer.Option(metavar="PREFIX", help="Also write Table I and II to PREFIX1.csv and PREFIX2.csv."),
     ] = None,
-    format: Annotated[  # noqa: A002 - the option's name
-        str | None,
-        typer.Option("--format", help="By default after -o's name, else table.", **choices(*_FORMATS)),
-    ] = None,
-    output_file: output.Output = None,
-    quiet: output.Quiet = False,
-    verbose: output.Verbose = 0,
+    to: Annotated[output.Destination, _FORMAT],
 ) -> int:
     """Run a folder of tasks through modes and discounts. A run that was killed goes on where it was."""
-    form = output.prepare(format, output_file, verbose, _FORMATS)
+    form = to.prepare(_FORMATS)
     for option, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
         output.check_output(file, option)
     from serendipity.cli.streams.progress import shown
@@ -92,9 +89,9 @@ def reproduce(
     from serendipity.evaluation.reproduction.tables import examples, table_1, table_2
 
     kept = journal
-    if kept is None and output_file is not None:
-        kept = output_file.with_name(f"{output_file.name}.journal")
-    with shown(quiet=quiet) as on_progress:
+    if kept is None and to.output_file is not None:
+        kept = to.output_file.with_name(f"{to.output_file.name}.journal")
+    with shown() as on_progress:
         run = run_all(
             folder,
             modes=_listed(modes),
@@ -108,23 +105,23 @@ def reproduce(
         )
     entries, times, answers = table_1(run), table_2(run), examples()
     written = [
-        output.Answer(_answer(form, run, entries, times, answers), output_file),
+        output.Answer(_answer(form, run, entries, times, answers), to.output_file),
         *_extras(report, tables, run, entries, times, answers),
     ]
     output.write_answers(written)
     if journal is None and kept is not None and not run.errors:
         kept.unlink(missing_ok=True)  # the answer holds all of it
-    _tell([answer.file for answer in written if answer.file is not None], quiet=quiet)
+    _tell([answer.file for answer in written if answer.file is not None])
     if run.errors:
         return broken_tasks(run.errors)
     known = any(row.status != "unknown" for row in run.rows)
     return ExitCode.ANSWERED if known else ExitCode.UNDECIDED
 
 
-def _tell(written: list[Path], *, quiet: bool) -> None:
+def _tell(written: list[Path]) -> None:
     """Where the files are: on a terminal, or in the log."""
     for path in written:
-        if is_terminal() and not quiet:
+        if is_terminal() and not is_quiet():
             tell(f"Wrote {path}")
         else:
             log.info("wrote %s", message(str(path)))

@@ -9,6 +9,7 @@ import typer
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.reading import read_text
 from serendipity.cli.streams import output
+from serendipity.cli.streams.manner import is_quiet
 from serendipity.model import UsageError
 from serendipity.model.options import limit_of
 
@@ -41,11 +42,8 @@ def serve(
     memory_limit: Annotated[
         str, typer.Option("--memory-limit", metavar="MIB", help="The most that a process may use.")
     ] = "2000",
-    quiet: output.Quiet = False,
-    verbose: output.Verbose = 0,
 ) -> int:
     """Answer requests over HTTP: plan, verify, sessions. It needs serendipity-planner[live]."""
-    output.start_logging(verbose)
     for option, number, least in (("--workers", workers, 1), ("--queue", queue, 0)):
         if number is not None and number < least:
             raise UsageError(f"{option}: expected at least {least}, got {number}")
@@ -68,7 +66,7 @@ def serve(
     limits = ServiceLimits(pool, int(_limit("body_limit", body_limit, "MiB") * _MIB))
     listener = addresses.listening(host, port)
     app = service(limits, addresses.hosts(host, allow_host or ()), token)
-    if not quiet:
+    if not is_quiet():
         output.say(f"Serving on {addresses.url(listener)}, described at /docs; Ctrl-C stops it.\n")
     run(app, listener)
     return ExitCode.ANSWERED

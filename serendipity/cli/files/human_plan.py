@@ -39,3 +39,8 @@ def read_human_plan(path: Path) -> HumanPlanFile:
     found = actions_in(read_text(path), path, "human plan: ")
     kept = [(bare, line) for name, line in found if (bare := name.strip()).lower() not in ("", "noop")]
     return HumanPlanFile(path, tuple(name for name, _ in kept), tuple(line for _, line in kept))
+
+
+def checked_plan(path: Path | None, task: Task) -> tuple[str, ...] | None:
+    """The plan of the human in a file, if there is one; errors as of reading and checking it."""
+    return None if path is None else read_human_plan(path).checked(task)

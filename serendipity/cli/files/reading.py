@@ -1,14 +1,14 @@
 """Reading the files that a command line names: one clear line for what is wrong with them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 import serendipity
-from serendipity.model import Deadline, InputError, Result, Task, UsageError
-from serendipity.pddl.parsing.lists import json_value
+from serendipity.model import Deadline, InputError, Result, Task
 
 Strict = Annotated[
     bool, typer.Option("--strict", help="Exit with 1 where the result breaks a rule; else that is a warning.")
@@ -35,24 +35,18 @@ def read_json(path: Path) -> Any:
     Raises:
         InputError: it can't be read or is not JSON; NaN and infinity are not JSON either.
     """
+    from serendipity.pddl.parsing.lists import json_value  # with json, which planning does without
+
     return json_value(read_text(path), path)
 
 
-def read_result(files: Sequence[Path], command: str) -> tuple[list[Path], Path, Result]:
-    """The files that name the task, the file of the result behind them, and the result.
-
-    Args:
-        files: ``TASK RESULT.json``, at least one.
-        command: named in errors.
-
-    Raises:
-        UsageError: the last file can't be a result.
-        InputError: it can't be read, or is no result.
-    """
-    *named, answer = files
-    if answer.suffix == ".pddl" or answer.is_dir():
-        raise UsageError(f"{command}: expected TASK and then RESULT.json, got {answer} last")
-    return named, answer, Result.from_dict(read_json(answer), answer)
+@contextmanager
+def about(file: Path | None) -> Iterator[None]:
+    """Have errors in what was read name the file that it was read from, where they name none."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.message, error.file or file) from None
 
 
 def broken_rule(task: Task, result: Result, file: Path, deadline: Deadline | None = None) -> str | None:
@@ -61,8 +55,6 @@ def broken_rule(task: Task, result: Result, file: Path, deadline: Deadline | Non
     Raises:
         InputError: the result is for another task.
     """
-    try:
+    with about(file):
         wrong = serendipity.check(task, result, deadline=deadline).refuted
-    except InputError as error:
-        raise InputError(error.message, file) from None
     return None if wrong is None else f"{file} does not hold: {wrong.claim}: {wrong.reason}"

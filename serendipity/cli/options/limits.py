@@ -7,19 +7,10 @@ from typing import Annotated, Final
 
 import typer
 
+from serendipity.cli.groups import Group
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.resources.limits import limits_from
-
-TimeLimit = Annotated[
-    str | None,
-    typer.Option("--time-limit", metavar="SECONDS", help="Stop after so many seconds, reading included."),
-]
-MemoryLimit = Annotated[
-    str | None,
-    typer.Option("--memory-limit", metavar="MIB", help="Stop when so many MiB of memory are in use."),
-]
-
 
 PLANNING: Final = ("search:preload",)
 """What planning loads where it turns out to be long: arrays, and what asks the kernel."""
@@ -37,22 +28,38 @@ CHECKING: Final = (
 """What certificates load as claims turn out to be hard: arrays, a solver, and what reads its version."""
 
 
-def begin(time_limit: str | None, memory_limit: str | None, *modules: str) -> Deadline:
-    """The deadline of a command, which starts now: it covers reading, the work, and checking it.
+class Limits(Group):
+    """The limits of a command, as texts."""
 
-    Args:
-        time_limit: seconds, or None.
-        memory_limit: MiB, or None.
-        modules: those that the command is going to use, or ``module:function`` for a function that loads
-            them.  They are loaded first, if time is limited: like the start of the interpreter, that takes
-            as long for every task.
+    time_limit: Annotated[
+        str | None,
+        typer.Option("--time-limit", metavar="SECONDS", help="Stop after so many seconds, reading included."),
+    ] = None
+    memory_limit: Annotated[
+        str | None,
+        typer.Option("--memory-limit", metavar="MIB", help="Stop when so many MiB of memory are in use."),
+    ] = None
 
-    Raises:
-        UsageError: a limit is not a number of at least 0.
-    """
-    if time_limit is not None:
-        load(("serendipity.facade.loading", *modules))
-    return limits_from(time_limit, memory_limit)
+    @property
+    def given(self) -> dict[str, str]:
+        """Those that the user gave, for answers that name them among their options."""
+        limits = {"time_limit": self.time_limit, "memory_limit": self.memory_limit}
+        return {name: limit for name, limit in limits.items() if limit is not None}
+
+    def begin(self, *modules: str) -> Deadline:
+        """The deadline of a command, which starts now: it covers reading, the work, and checking it.
+
+        Args:
+            modules: those that the command is going to use, or ``module:function`` for a function that
+                loads them.  They are loaded first, if time is limited: like the start of the interpreter,
+                that takes as long for every task.
+
+        Raises:
+            UsageError: a limit is not a number of at least 0.
+        """
+        if self.time_limit is not None:
+            load(("serendipity.facade.loading", *modules))
+        return limits_from(self.time_limit, self.memory_limit)
 
 
 def load(modules: Iterable[str]) -> None:

@@ -2,14 +2,17 @@
 
 import os
 import sys
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from contextlib import nullcontext
+from inspect import Parameter
 from pathlib import Path
 from typing import Annotated, Any, Final, NamedTuple
 
 import typer
 
 from serendipity.cli.choices import choices
+from serendipity.cli.groups import Group
+from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import tell
 from serendipity.model.errors import UsageError
 from serendipity.writing.rows import FORMATS as ROWS
@@ -19,31 +22,36 @@ FORMATS: Final = ("text", "json")
 DATA: Final = (*FORMATS, *ROWS)
 """The formats of commands whose answers have rows."""
 
-Format = Annotated[
-    str | None,
-    typer.Option("--format", help="Text, or JSON for -o *.json.", **choices(*FORMATS)),
-]
-DataFormat = Annotated[
-    str | None,
-    typer.Option("--format", help="By default after -o's name, else text.", **choices(*DATA)),
-]
-Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the answer here.")]
+
+def formats(names: Sequence[str], help: str) -> Parameter:  # noqa: A002 - typer's word
+    """``--format`` of a command whose answers have other formats than text and JSON."""
+    option = typer.Option("--format", help=help, **choices(*names))
+    return Parameter("format", Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[str | None, option])
 
 
-def _silence(quiet: bool) -> bool:
-    """``--quiet`` goes for what is logged of a missing kernel, too."""
-    if quiet or "logging" in sys.modules:
-        import logging
-
-        logging.getLogger("search.kernel").setLevel(logging.ERROR if quiet else logging.NOTSET)
-    return quiet
+ROWS_TOO: Final = formats(DATA, "By default after -o's name, else text.")
+"""That of commands whose answers have rows."""
 
 
-Quiet = Annotated[
-    bool,
-    typer.Option("--quiet", "-q", callback=_silence, help="No warnings and no progress on stderr."),
-]
-Verbose = Annotated[int, typer.Option("--verbose", "-v", count=True, help="Log to stderr; -vv logs more.")]
+class Destination(Group):
+    """Where an answer goes, and in which format."""
+
+    format: Annotated[
+        str | None, typer.Option("--format", help="Text, or JSON for -o *.json.", **choices(*FORMATS))
+    ] = None
+    output_file: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the answer here.")
+    ] = None
+
+    def prepare(self, formats: Collection[str] = FORMATS) -> str:
+        """Before the work: what can be known to be wrong with ``-o``, and the format in force.
+
+        Raises:
+            UsageError: there is no such format, or ``-o`` can't be written.
+        """
+        form = choose_format(self.format, self.output_file, formats)
+        check_output(self.output_file)
+        return form
 
 
 class Answer(NamedTuple):
@@ -63,20 +71,6 @@ class Answer(NamedTuple):
     def encoded(self) -> bytes:
         """The bytes to be written."""
         return self.content.encode() if isinstance(self.content, str) else self.content
-
-
-def prepare(
-    wanted: str | None, output: Path | None, verbosity: int, formats: Collection[str] = FORMATS
-) -> str:
-    """Before the work: the log, what can be known to be wrong with ``-o``, and the format in force.
-
-    Raises:
-        UsageError: there is no such format, or ``output`` can't be written.
-    """
-    start_logging(verbosity)
-    form = choose_format(wanted, output, formats)
-    check_output(output)
-    return form
 
 
 def choose_format(wanted: str | None, output: Path | None, formats: Collection[str] = FORMATS) -> str:
@@ -173,31 +167,8 @@ def flush() -> None:
         say("")
 
 
-def warn(lines: tuple[str, ...], *, quiet: bool) -> None:
+def warn(*lines: str) -> None:
     """Print warnings to stderr, unless the user asked for quiet."""
-    if not quiet:
+    if not is_quiet():
         for line in lines:
             tell(f"Warning: {line}")
-
-
-def start_logging(verbosity: int) -> None:
-    """Log to stderr: nothing but warnings at 0, more at 1 (``-v``), everything at 2."""
-    if not verbosity and "logging" not in sys.modules:
-        return  # it takes longer to load than many a plan to find
-    import logging
-
-    level = (logging.WARNING, logging.INFO, logging.DEBUG)[min(verbosity, 2)]
-    handler = logging.StreamHandler(sys.stderr)
-    handler.setFormatter(logging.Formatter("%(levelname)s %(name)s: %(message)s"))
-    for name in ("serendipity", "search", "verify"):
-        logger = logging.getLogger(name)
-        logger.handlers = [handler]  # of this call; one of an earlier call would write everything twice
-        logger.setLevel(level)
-
-
-def log_origin() -> None:
-    """Log where the error that is being handled came from (``-vv``)."""
-    if "logging" in sys.modules:
-        import logging
-
-        logging.getLogger("serendipity").debug("the error came from here", exc_info=True)

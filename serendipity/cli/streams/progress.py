@@ -2,30 +2,13 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from contextvars import ContextVar
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Protocol
 
+from serendipity.cli.streams.manner import style
 from serendipity.cli.streams.stderr import is_terminal
-from serendipity.model.errors import UsageError
 
 if TYPE_CHECKING:
     from serendipity.evaluation.reproduction import Progress
-
-STYLES: Final = ("auto", "plain", "json", "none")
-"""``auto``: a bar on a terminal, plain lines elsewhere."""
-
-_style: ContextVar[str] = ContextVar("style", default="auto")
-
-
-def choose(style: str) -> None:
-    """Set how progress is shown in this call of the command line.
-
-    Raises:
-        UsageError: there is no such style.
-    """
-    if style not in STYLES:
-        raise UsageError(f"--progress: expected one of {', '.join(STYLES)}, got '{style}'")
-    _style.set(style)
 
 
 class News(Protocol):
@@ -35,8 +18,8 @@ class News(Protocol):
         """Tell it in words; ``figures`` are the same for programs: ``cost``, ``lower_bound``."""
 
 
-class Display(Protocol):
-    """Something that shows how far some work is."""
+class Display:
+    """Something that shows how far some work is; this one shows nothing."""
 
     def open(self) -> None:
         """The work begins."""
@@ -52,29 +35,29 @@ class Display(Protocol):
 
 
 @contextmanager
-def shown(*, quiet: bool) -> Iterator[Callable[["Progress"], None]]:
+def shown() -> Iterator[Callable[["Progress"], None]]:
     """What to call with the progress made on a suite; its bar is there from beginning to end."""
-    with _displayed("tasks", quiet=quiet, counts=True, stays=True) as display:
+    with _displayed("tasks", counts=True, stays=True) as display:
         yield lambda made: display.count(made.done, made.total, opportunities=made.opportunities)
 
 
 @contextmanager
-def counting(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+def counting(what: str) -> Iterator[Callable[[int, int], None]]:
     """What to call with a number done and the number of all."""
-    with _displayed(what, quiet=quiet, counts=True) as display:
+    with _displayed(what, counts=True) as display:
         yield lambda done, total: display.count(done, total)
 
 
 @contextmanager
-def working(what: str, *, quiet: bool) -> Iterator[News]:
+def working(what: str) -> Iterator[News]:
     """For work of which nobody knows how much is left; what to call with news of it."""
-    with _displayed(what, quiet=quiet) as display:
+    with _displayed(what) as display:
         yield display.news
 
 
 @contextmanager
-def _displayed(what: str, *, quiet: bool, counts: bool = False, stays: bool = False) -> Iterator[Display]:
-    display = _display(what, quiet=quiet, counts=counts, stays=stays)
+def _displayed(what: str, *, counts: bool = False, stays: bool = False) -> Iterator[Display]:
+    display = _display(what, counts=counts, stays=stays)
     display.open()
     finished = False
     try:
@@ -84,30 +67,14 @@ def _displayed(what: str, *, quiet: bool, counts: bool = False, stays: bool = Fa
         display.close(finished=finished)
 
 
-def _display(what: str, *, quiet: bool, counts: bool, stays: bool) -> Display:
-    style = _style.get()
-    if style == "none" or quiet:
-        return _Silent()
-    if style == "auto" and is_terminal():
+def _display(what: str, *, counts: bool, stays: bool) -> Display:
+    wanted = style()
+    if wanted == "none":
+        return Display()
+    if wanted == "auto" and is_terminal():
         from serendipity.cli.streams.progress_bar import Bar
 
         return Bar(what, counts=counts, stays=stays)
     from serendipity.cli.streams.progress_lines import JsonLines, PlainLines
 
-    return JsonLines(what) if style == "json" else PlainLines(what)
-
-
-class _Silent:
-    """Shows nothing."""
-
-    def open(self) -> None:
-        """See :class:`Display`."""
-
-    def count(self, done: int, total: int, **figures: float | None) -> None:
-        """See :class:`Display`."""
-
-    def news(self, words: str, **figures: float | None) -> None:
-        """See :class:`Display`."""
-
-    def close(self, *, finished: bool) -> None:
-        """See :class:`Display`."""
+    return JsonLines(what) if wanted == "json" else PlainLines(what)

@@ -3,6 +3,8 @@
 from threading import Lock, Timer
 from typing import TYPE_CHECKING, Final
 
+from serendipity.cli.streams.progress import Display
+
 if TYPE_CHECKING:
     from rich.progress import Progress
 
@@ -10,7 +12,7 @@ PATIENCE: Final = 1.0
 """Seconds of work before there is a bar."""
 
 
-class Bar:
+class Bar(Display):
     """A bar that appears when the work has taken a while.
 
     Args:

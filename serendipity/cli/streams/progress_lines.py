@@ -5,6 +5,7 @@ from threading import Event, Thread
 from time import monotonic
 from typing import Any, ClassVar, Final
 
+from serendipity.cli.streams.progress import Display
 from serendipity.cli.streams.stderr import tell, write_line
 
 PATIENCE: Final = 2.0
@@ -17,7 +18,7 @@ EVERY: Final = 1.0
 """Seconds between two JSON lines, news apart."""
 
 
-class _Lines(ABC):
+class _Lines(Display, ABC):
     """Says again and again how far some work is, from a thread of its own."""
 
     first: ClassVar[float]

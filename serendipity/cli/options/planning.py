@@ -1,0 +1,108 @@
+"""The options of ``plan`` that change what an answer means.
+
+Their legal values and defaults are those of ``serendipity.model.Options``, which also
+validates them: here they are text, so that ``0.1`` stays exactly a tenth.
+"""
+
+from collections.abc import Mapping
+from inspect import Parameter
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import typer
+
+from serendipity.cli.choices import choices
+from serendipity.cli.groups import Group
+from serendipity.model.keywords import CHOICES, InterruptionOptions
+from serendipity.model.options import Options
+
+_TEXTS: Final[Mapping[str, tuple[str, str]]] = {
+    "mode": ("What kind of plan.", ""),
+    "discount": ("Taken off the cost of robots' actions, 0 to 1.", "D"),
+    "horizon": ("Epochs; by default as many as the human's plan has.", "N|inf"),
+    "window_weight": ("K: cost of each epoch that the window lasts.", "K"),
+    "max_window": ("Longest window, in epochs.", "N"),
+    "suffix": ("What the human does after the window.", ""),
+    "preservation": ("What has to be left of the state of the human's plan (Def. 3.1).", ""),
+    "interference": ("Which actions may share an epoch.", ""),
+    "max_cost": ("Reject plans that cost more; 'human': than the human's own.", "X|human"),
+    "communication_weight": ("Cost per unit of announced actions of the human.", "W"),
+    "human_model": ("How the human reacts.", ""),
+    "ties": ("Which of the human's optimal plans counts.", ""),
+    "max_ties": ("The most of those plans that are tried.", "N"),
+}
+"""Help, and what stands for a value; without that, values are those of ``CHOICES``."""
+
+
+def option(name: str) -> Any:
+    """An option of :class:`Options` that is told as a text, as typer has it."""
+    told, metavar = _TEXTS[name]
+    default = getattr(Options(), name)
+    return typer.Option(
+        f"--{name.replace('_', '-')}",
+        **choices(*(metavar.split("|") if metavar else CHOICES[name])),
+        help=told if default is None else f"{told} [default: {default}]",
+        show_default=False,
+    )
+
+
+_OTHERS: Final[Mapping[str, Any]] = {
+    "human_plan": Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="What the human will do, an action a line; predicted by default."),
+    ],
+    "keep_prefix": Annotated[
+        bool | None,
+        typer.Option("--keep-prefix", help="In communication mode: windows, as in the paper's second (7b)."),
+    ],
+    "no_block": Annotated[
+        bool | None,
+        typer.Option("--no-block/--allow-block", help="Whether robots may leave the human without a plan."),
+    ],
+}
+
+_ALL: Final = (
+    *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
+    *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
+    "no_block",
+)
+"""In the order of help."""
+
+WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__annotations__, "human_plan"))
+"""What makes a difference to windows."""
+EXPLAINED: Final = _ALL[: _ALL.index("keep_prefix")]
+"""What can be explained."""
+PROGRAMS: Final = tuple(name for name in _ALL if name not in ("human_model", "no_block"))
+"""What integer programs know."""
+
+
+class Planning(Group):
+    """Options of a planning call.
+
+    Attributes:
+        human_plan: the file of ``--human-plan``.
+        given: the others that the user gave, by name; what is left out keeps its default.
+    """
+
+    def __init__(self, human_plan: Path | None = None, **options: str | bool | None) -> None:
+        self.human_plan = human_plan
+        self.given = given(**options)
+
+    @classmethod
+    def parameters(cls, *more: tuple[str, ...]) -> list[Parameter]:
+        """What typer is shown: all options, or those that are named."""
+        kind = Parameter.KEYWORD_ONLY
+        return [
+            Parameter(name, kind, default=None, annotation=_shown(name))
+            for names in more or [_ALL]
+            for name in names
+        ]
+
+
+def _shown(name: str) -> Any:
+    return _OTHERS[name] if name in _OTHERS else Annotated[str | None, option(name)]
+
+
+def given(**options: str | bool | Path | None) -> dict[str, Any]:
+    """The options that the user gave; what is left out keeps its default."""
+    return {name: value for name, value in options.items() if value is not None}

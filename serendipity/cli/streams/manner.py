@@ -1,0 +1,90 @@
+"""How a command tells what it does on its way: quietly or not, how far it is, and a log."""
+
+import sys
+from contextvars import ContextVar
+from typing import Annotated, Final
+
+import typer
+
+from serendipity.cli.choices import choices
+from serendipity.cli.groups import Group
+from serendipity.model.errors import UsageError
+
+STYLES: Final = ("auto", "plain", "json", "none")
+"""Of progress; ``auto``: a bar on a terminal, plain lines elsewhere."""
+
+_quiet: ContextVar[bool] = ContextVar("quiet", default=False)
+_style: ContextVar[str] = ContextVar("style", default=STYLES[0])
+
+
+def is_quiet() -> bool:
+    """Whether neither warnings nor progress are wanted in this call of the command line."""
+    return _quiet.get()
+
+
+def style() -> str:
+    """How progress is shown in this call of the command line."""
+    return "none" if is_quiet() else _style.get()
+
+
+def be_quiet(quiet: bool) -> None:
+    """Set whether warnings and progress are wanted; what is logged of a missing kernel is a warning, too."""
+    _quiet.set(quiet)
+    if quiet or "logging" in sys.modules:
+        import logging
+
+        logging.getLogger("search.kernel").setLevel(logging.ERROR if quiet else logging.NOTSET)
+
+
+def _choose(wanted: str) -> None:
+    if wanted not in STYLES:
+        raise UsageError(f"--progress: expected one of {', '.join(STYLES)}, got '{wanted}'")
+    _style.set(wanted)
+
+
+def start_logging(verbosity: int) -> None:
+    """Log to stderr: nothing but warnings at 0, more at 1 (``-v``), everything at 2."""
+    if not verbosity and "logging" not in sys.modules:
+        return  # it takes longer to load than many a plan to find
+    import logging
+
+    level = (logging.WARNING, logging.INFO, logging.DEBUG)[min(verbosity, 2)]
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("%(levelname)s %(name)s: %(message)s"))
+    for name in ("serendipity", "search", "verify"):
+        logger = logging.getLogger(name)
+        logger.handlers = [handler]  # of this call; one of an earlier call would write everything twice
+        logger.setLevel(level)
+
+
+def log_origin() -> None:
+    """Log where the error that is being handled came from (``-vv``)."""
+    if "logging" in sys.modules:
+        import logging
+
+        logging.getLogger("serendipity").debug("the error came from here", exc_info=True)
+
+
+class Manner(Group):
+    """Options that every command has, and that none needs to know: each is heeded when it is read."""
+
+    quiet: Annotated[
+        bool,
+        typer.Option("--quiet", "-q", callback=be_quiet, help="No warnings and no progress on stderr."),
+    ] = False
+    progress: Annotated[
+        str,
+        typer.Option(
+            "--progress",
+            callback=_choose,
+            help="How progress is shown: a bar on a terminal, plain lines elsewhere; or JSON lines.",
+            **choices(*STYLES),
+            show_default=False,
+        ),
+    ] = "auto"
+    verbose: Annotated[
+        int,
+        typer.Option(
+            "--verbose", "-v", count=True, callback=start_logging, help="Log to stderr; -vv logs more."
+        ),
+    ] = 0
